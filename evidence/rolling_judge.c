@@ -1,15 +1,16 @@
-/* What evidence/rolling.md holds against rasp without a line of rasp's: laws of the contact's duration (rolling_closed.h) and statistics of a force.
+/* What evidence/rolling.md holds against rasp without a line of rasp's: laws of the contact's duration
+   (rolling_closed.h) and statistics of a force.
 
-     laws                         durations and amplitudes of impacts with gravity in the contact, 0.5 mm/s to 1 m/s: exponents theta of t0 ~ v^-theta and theta' of
-                                  t0 ~ A^-theta', by regression of the logarithms over speeds even in their logarithm; rows per range
-     curve KAPPA MU               speed, duration with and without gravity
-     shapes                       raised cosines (papers/002, equation 9) fitted to such impacts: R^2
-     peaks FORCE.csv RATE PART       one column force_mean_n: mean force, peaks per second, correlation of amplitude and interval; then of the intervals (ms) and of the
-                                  amplitudes (over the greatest) mean, deviation, correlation of neighbours, a1, b1, sigma (papers/002, section IV)
-     landings TABLE.csv RATE      columns penetration_m, height_m: closing speeds of the landings, one per line (m/s)
-     contacts TABLE.csv RATE      columns force_mean_n, penetration_m: durations t0 and amplitudes A of the contacts; theta' of t0 ~ A^-theta' and its R^2 (logarithms),
-                                  R^2 of t0 = zeta' A^-0.29 with zeta' by least squares, and their number
-     spread                       of lines "speed" on the standard input: number, mean, deviation, quantiles and greatest
+     laws                         durations and amplitudes of impacts with gravity in the contact, 0.5 mm/s to 1 m/s:
+   exponents theta of t0 ~ v^-theta and theta' of t0 ~ A^-theta', by regression of the logarithms over speeds even in
+   their logarithm; rows per range curve KAPPA MU               speed, duration with and without gravity shapes raised
+   cosines (papers/002, equation 9) fitted to such impacts: R^2 peaks FORCE.csv RATE PART       one column force_mean_n:
+   mean force, peaks per second, correlation of amplitude and interval; then of the intervals (ms) and of the amplitudes
+   (over the greatest) mean, deviation, correlation of neighbours, a1, b1, sigma (papers/002, section IV) landings
+   TABLE.csv RATE      columns penetration_m, height_m: closing speeds of the landings, one per line (m/s) contacts
+   TABLE.csv RATE      columns force_mean_n, penetration_m: durations t0 and amplitudes A of the contacts; theta' of t0
+   ~ A^-theta' and its R^2 (logarithms), R^2 of t0 = zeta' A^-0.29 with zeta' by least squares, and their number spread
+   of lines "speed" on the standard input: number, mean, deviation, quantiles and greatest
 
    A peak is a local maximum that stands out by PART of the mean force on both sides. */
 #include <stdbool.h>
@@ -73,8 +74,7 @@ struct range {
 
 static void widen(struct range *g, struct line l, bool first)
 {
-    if (first)
-        g->low = g->high = l;
+    if (first) g->low = g->high = l;
     g->low = (struct line){fmin(g->low.power, l.power), fmin(g->low.r2, l.r2)};
     g->high = (struct line){fmax(g->high.power, l.power), fmax(g->high.r2, l.r2)};
 }
@@ -82,7 +82,8 @@ static void widen(struct range *g, struct line l, bool first)
 static void laws(void)
 {
     static struct row rows[SETS];
-    const double ranges[][2] = {{1e-3, 0.05}, {2e-3, 0.05}, {5e-3, 0.05}, {0.01, 0.05}, {1e-3, 0.1}, {1e-3, 0.2}, {1e-3, 0.5}, {1e-3, 1}, {0.01, 1}};
+    const double ranges[][2] = {{1e-3, 0.05}, {2e-3, 0.05}, {5e-3, 0.05}, {0.01, 0.05}, {1e-3, 0.1},
+                                {1e-3, 0.2},  {1e-3, 0.5},  {1e-3, 1},    {0.01, 1}};
     for (int k = 0; k < 9; k++)
         row_make(&rows[k], kappas[k / 3], mus[k % 3]);
     row_make(&rows[9], 2e9, 1); /* section IV-E */
@@ -95,9 +96,11 @@ static void laws(void)
         }
         struct line one = line_fit(&rows[9], rows[9].v, rows[9].time, ranges[g][0], ranges[g][1]);
         struct line two = line_fit(&rows[9], rows[9].peak, rows[9].time, ranges[g][0], ranges[g][1]);
-        printf("| %g to %g cm/s | %.3f to %.3f, %.3f | %.3f to %.3f, %.3f | %.3f, %.3f | %.3f to %.3f, %.3f | %.3f, %.3f |\n", ranges[g][0] * 100, ranges[g][1] * 100,
-               bare.low.power, bare.high.power, bare.low.r2, heavy.low.power, heavy.high.power, heavy.low.r2, one.power, one.r2, force.low.power, force.high.power,
-               force.low.r2, two.power, two.r2);
+        printf("| %g to %g cm/s | %.3f to %.3f, %.3f | %.3f to %.3f, %.3f | %.3f, %.3f | %.3f to %.3f, %.3f | %.3f, "
+               "%.3f |\n",
+               ranges[g][0] * 100, ranges[g][1] * 100, bare.low.power, bare.high.power, bare.low.r2, heavy.low.power,
+               heavy.high.power, heavy.low.r2, one.power, one.r2, force.low.power, force.high.power, force.low.r2,
+               two.power, two.r2);
     }
 }
 
@@ -128,8 +131,7 @@ static double cosine_r2(const struct closed_impact *o, double centre, double dur
         wf += w * o->f[i];
         ww += w * w;
     }
-    if (isnan(amplitude))
-        amplitude = wf / ww;
+    if (isnan(amplitude)) amplitude = wf / ww;
     for (int i = 0; i < o->n; i++)
         left += pow(o->f[i] - amplitude * cosine_at(o->t[i], centre, duration), 2);
     return 1 - left / (gsl_stats_variance(o->f, 1, (size_t)o->n) * (o->n - 1));
@@ -191,15 +193,14 @@ struct table {
     double *a, *b;
 };
 
-static struct table table_read(const char *path, const char *head)
+static struct table csv_table_read(const char *path, const char *head)
 {
     char line[256];
     long room = 0;
     int columns = strchr(head, ',') ? 2 : 1;
     struct table t = {0};
     FILE *f = fopen(path, "r");
-    if (!f || !fgets(line, sizeof line, f) || strncmp(line, head, strlen(head)) != 0)
-        die(path);
+    if (!f || !fgets(line, sizeof line, f) || strncmp(line, head, strlen(head)) != 0) die(path);
     while (fgets(line, sizeof line, f)) {
         double row[2] = {0};
         if (t.n == room) {
@@ -222,8 +223,7 @@ static long peaks_find(const double *f, long n, double least, double *when, doub
     double valley = f[0];
     bool rising = false;
     for (long i = 1; i < n; i++) {
-        if (rising && f[i] > f[best])
-            best = i;
+        if (rising && f[i] > f[best]) best = i;
         if (rising && f[i] < f[best] - least) {
             when[count] = (double)best;
             height[count++] = f[best];
@@ -239,18 +239,22 @@ static long peaks_find(const double *f, long n, double least, double *when, doub
     return count;
 }
 
-/* Mean, deviation, and a1, b1, sigma of the process x_n + a1 x_(n-1) = e_n + b1 e_(n-1) (equation 13, p = q = 1), e of deviation sigma, from the correlations
-   r1, r2 of neighbours and next but one: a1 = -r2/r1, b1 the root within the unit circle of (r1 + a1)(1 + b1^2) = (1 + 2 r1 a1 + a1^2) b1. */
+/* Mean, deviation, and a1, b1, sigma of the process x_n + a1 x_(n-1) = e_n + b1 e_(n-1) (equation 13, p = q = 1), e of
+   deviation sigma, from the correlations r1, r2 of neighbours and next but one: a1 = -r2/r1, b1 the root within the
+   unit circle of (r1 + a1)(1 + b1^2) = (1 + 2 r1 a1 + a1^2) b1. */
 static void series(const double *x, size_t n)
 {
-    double r1 = gsl_stats_correlation(x, 1, x + 1, 1, n - 1), r2 = gsl_stats_correlation(x, 1, x + 2, 1, n - 2), sd = gsl_stats_sd(x, 1, n);
-    double a = -r2 / r1, half = (1 + 2 * r1 * a + a * a) / (2 * (r1 + a)), b = fabs(half) > 1 ? half - copysign(sqrt(half * half - 1), half) : NAN;
-    printf(" %.3f %.3f %.3f %.2f %.2f %.3f", gsl_stats_mean(x, 1, n), sd, r1, a, b, sd * sqrt((1 - a * a) / (1 - 2 * a * b + b * b)));
+    double r1 = gsl_stats_correlation(x, 1, x + 1, 1, n - 1), r2 = gsl_stats_correlation(x, 1, x + 2, 1, n - 2),
+           sd = gsl_stats_sd(x, 1, n);
+    double a = -r2 / r1, half = (1 + 2 * r1 * a + a * a) / (2 * (r1 + a)),
+           b = fabs(half) > 1 ? half - copysign(sqrt(half * half - 1), half) : NAN;
+    printf(" %.3f %.3f %.3f %.2f %.2f %.3f", gsl_stats_mean(x, 1, n), sd, r1, a, b,
+           sd * sqrt((1 - a * a) / (1 - 2 * a * b + b * b)));
 }
 
 static void peaks(const char *path, double rate, double part)
 {
-    struct table t = table_read(path, "force_mean_n\n");
+    struct table t = csv_table_read(path, "force_mean_n\n");
     long skip = (long)(0.05 * rate); /* the force rises and falls at the ends */
     double *f = t.a + skip, mean;
     t.n -= 2 * skip;
@@ -276,16 +280,15 @@ static void peaks(const char *path, double rate, double part)
 
 static void landings(const char *path, double rate)
 {
-    struct table t = table_read(path, "penetration_m,height_m\n");
+    struct table t = csv_table_read(path, "penetration_m,height_m\n");
     for (long i = 1; i < t.n; i++)
-        if (t.a[i - 1] <= 0 && t.a[i] > 0)
-            printf("%.6g\n", (t.a[i] - t.a[i - 1]) * rate);
+        if (t.a[i - 1] <= 0 && t.a[i] > 0) printf("%.6g\n", (t.a[i] - t.a[i - 1]) * rate);
 }
 
 /* Ends by linear crossing; a contact of less than four samples has no amplitude. */
 static void contacts(const char *path, double rate)
 {
-    struct table t = table_read(path, "force_mean_n,penetration_m\n");
+    struct table t = csv_table_read(path, "force_mean_n,penetration_m\n");
     double begun = NAN, most = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, wt = 0, ww = 0, st = 0, stt = 0, n = 0;
     for (long i = 1; i < t.n; i++) {
         double before = t.b[i - 1], after = t.b[i], at = (double)(i - 1) + before / (before - after);
@@ -296,7 +299,8 @@ static void contacts(const char *path, double rate)
         most = fmax(most, t.a[i]);
         if (before > 0 && after <= 0 && at - begun >= 4) {
             double time = (at - begun) / rate, x = log(most), y = log(time), w = pow(most, -0.29);
-            n++, sx += x, sy += y, sxx += x * x, sxy += x * y, syy += y * y, wt += w * time, ww += w * w, st += time, stt += time * time;
+            n++, sx += x, sy += y, sxx += x * x, sxy += x * y, syy += y * y, wt += w * time, ww += w * w, st += time,
+                stt += time * time;
         }
     }
     if (n < 10) {
@@ -304,7 +308,8 @@ static void contacts(const char *path, double rate)
         return;
     }
     double cross = n * sxy - sx * sy, all = stt - st * st / n, left = stt - wt * wt / ww;
-    printf("%.3f %.3f %.3f %.0f\n", -cross / (n * sxx - sx * sx), cross * cross / ((n * sxx - sx * sx) * (n * syy - sy * sy)), 1 - left / all, n);
+    printf("%.3f %.3f %.3f %.0f\n", -cross / (n * sxx - sx * sx),
+           cross * cross / ((n * sxx - sx * sx) * (n * syy - sy * sy)), 1 - left / all, n);
 }
 
 static void spread(void)
@@ -312,19 +317,18 @@ static void spread(void)
     size_t n = 0, room = 0;
     double *v = NULL, x;
     while (scanf("%lf", &x) == 1) {
-        if (n == room)
-            v = realloc(v, (room = 2 * room + 65536) * sizeof *v);
+        if (n == room) v = realloc(v, (room = 2 * room + 65536) * sizeof *v);
         v[n++] = x;
     }
-    if (!feof(stdin))
-        die("standard input holds what is no number");
+    if (!feof(stdin)) die("standard input holds what is no number");
     if (n < 2) {
         printf("%zu - - - - - -\n", n);
         return;
     }
     gsl_sort(v, 1, n);
-    printf("%zu %.4g %.4g %.4g %.4g %.4g %.4g\n", n, gsl_stats_mean(v, 1, n), gsl_stats_sd(v, 1, n), gsl_stats_quantile_from_sorted_data(v, 1, n, 0.5),
-           gsl_stats_quantile_from_sorted_data(v, 1, n, 0.99), gsl_stats_quantile_from_sorted_data(v, 1, n, 0.999), v[n - 1]);
+    printf("%zu %.4g %.4g %.4g %.4g %.4g %.4g\n", n, gsl_stats_mean(v, 1, n), gsl_stats_sd(v, 1, n),
+           gsl_stats_quantile_from_sorted_data(v, 1, n, 0.5), gsl_stats_quantile_from_sorted_data(v, 1, n, 0.99),
+           gsl_stats_quantile_from_sorted_data(v, 1, n, 0.999), v[n - 1]);
 }
 
 int main(int argc, char **argv)

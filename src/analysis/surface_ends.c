@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "file/heightfile_level.h"
+#include "file/heightfile.h"
 #include "num/fft.h"
 
 enum { PERIOD_MOST = 1 << 22 };

@@ -20,7 +20,7 @@
 #include "base/relpath.h"
 #include "base/text.h"
 #include "batch/record.h"
-#include "file/piped.h"
+#include "file/bytes.h"
 #include "output/mark.h"
 
 /* ------------------------------------------------------------------ folders */
@@ -98,7 +98,7 @@ struct owner {
 
 const char *folder_place(const char *design, const char *folder, struct arena *a)
 {
-    if (!piped_is(design)) return text_shown(a, relpath_make(design, folder, a));
+    if (!bytes_piped(design)) return text_shown(a, relpath_make(design, folder, a));
     char *real = memory_realpath(folder);
     const char *place = arena_format(a, "%s %s", piped, text_shown(a, real ? real : folder));
     free(real);
@@ -107,7 +107,7 @@ const char *folder_place(const char *design, const char *folder, struct arena *a
 
 static const char *place_of(const struct folder_owner *o, struct arena *a)
 {
-    return piped_is(o->design) ? piped : folder_place(o->design, o->folder, a);
+    return bytes_piped(o->design) ? piped : folder_place(o->design, o->folder, a);
 }
 
 /* Of a file that is no owner's, or not whole, there are no lines. */

@@ -6,7 +6,6 @@
 #include "base/err.h"
 #include "base/hash.h"
 #include "file/wav.h"
-#include "file/wav_stream.h"
 
 enum { MEASURE_CHANNELS = 4096 /* at most */ };
 

@@ -76,7 +76,7 @@ static const char **warnings_of(const struct measure *m, const struct wav_writte
     int n = 0;
     if (m->peak == 0)
         all[n++] = "the recording is silent: no level was set";
-    else if (!wav_written_heard(w))
+    else if (!wav_written_audible(w))
         all[n++] = "the recording is silent in the set's encoding: every sample is 0";
     if (w->beyond > 0)
         all[n++] = arena_format(a,
@@ -109,7 +109,7 @@ static struct wav_out *copy(const struct set *set, const char *file, const char 
     struct wav_format f = {
         .rate = c.in.rate, .channels = c.in.channels, .bits = recording_bits(set->encoding), .comment = comment};
     struct wav_out *out = wav_create(path, &f, e);
-    bool ok = out && measure_copy(&c, out, r->gain, e) && wav_settle(out, e);
+    bool ok = out && measure_copy(&c, out, r->gain, e) && wav_finish(out, e);
     measure_close(&c);
     r->frames = c.frames;
     r->rate = c.in.rate;

@@ -461,7 +461,7 @@ static bool scale(const struct work *w, struct made *m, struct record_file *f, s
     if (!force) sound_comment(&w->scene, gain, comment);
     struct wav_out *out = wav_create(arena_format(w->arena, "%s/%s", w->k->folder, path), &format, e);
     if (out) m->sounds[m->n++] = out;
-    bool ok = out && wav_comment(out, comment, e) && measure_copy(&in, out, gain, e) && wav_settle(out, e);
+    bool ok = out && wav_comment(out, comment, e) && measure_copy(&in, out, gain, e) && wav_finish(out, e);
     measure_close(&in);
     if (!ok && e->kind == ERR_SCENE)
         err_at(e, "%s",

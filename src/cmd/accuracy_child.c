@@ -23,8 +23,8 @@
 #include "base/interrupt.h"
 #include "base/scratch.h"
 #include "base/text.h"
-#include "file/piped.h"
-#include "file/yaml_bytes.h"
+#include "file/bytes.h"
+#include "file/yaml.h"
 #include "num/real.h"
 #include "scene/accuracy.h"
 #include "scene/keys.h"
@@ -91,7 +91,7 @@ static char **command_line(const struct accuracy_sweep *s, const struct accuracy
     put(&w, "--set", "accuracy=standard");
     for (int k = 0; k < KNOBS; k++)
         put(&w, "--set", arena_format(a, "accuracy.%s=%.17g", keys_knobs[k].name, accuracy_knob(set, (enum knob)k)));
-    put(&w, "--", piped_is(s->file) ? "/dev/stdin" : s->file);
+    put(&w, "--", bytes_piped(s->file) ? "/dev/stdin" : s->file);
     return (char **)w.list;
 }
 
@@ -194,7 +194,7 @@ bool accuracy_child(struct accuracy_sweep *s, int render, struct err *e)
     if (!says) return err_set(e, ERR_CREATE, "a render cannot be started: %s", strerror(errno));
     /* A scene that came through a pipe, for the child to read once more. NULL: it did not, or *e */
     size_t size;
-    const char *text = piped_is(s->file) ? yaml_bytes_text(s->file, NULL, &size) : NULL;
+    const char *text = bytes_piped(s->file) ? yaml_bytes_text(s->file, NULL, &size) : NULL;
     FILE *f = text ? scratch_open() : NULL;
     if (text && (!f || fwrite(text, 1, size, f) != size || fflush(f) != 0))
         err_set((&cause), ERR_CREATE, "a render cannot be started: its scene cannot be kept in %s: %s",

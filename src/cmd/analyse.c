@@ -14,9 +14,9 @@
 #include "base/interrupt.h"
 #include "cmd/cmd.h"
 #include "file/bytes.h"
-#include "file/heightfile_npy.h"
+#include "file/csv.h"
+#include "file/heightfile_formats.h"
 #include "file/npy.h"
-#include "file/table.h"
 #include "file/wav.h"
 #include "force/impact_series.h"
 #include "num/real.h"
@@ -51,7 +51,7 @@ static bool npy_take(struct analyse_source *s, const struct bytes *b, const stru
                      struct err *e)
 {
     struct heightfile h;
-    if (!heightfile_npy_read(s->file, b, a, &h, e)) return false;
+    if (!heightfile_formats_npy_read(s->file, b, a, &h, e)) return false;
     if (h.rows > 1)
         return err_set(e, ERR_SCENE, "%s: an array of %zu x %zu; a force has one dimension", s->file, h.rows,
                        h.columns);
@@ -170,7 +170,7 @@ static bool table_take(struct analyse_source *s, const struct analyse_given *g, 
 {
     struct arena *scratch = arena_open();
     struct csv t;
-    bool ok = table_read(s->file, scratch, &t, e);
+    bool ok = csv_table_read(s->file, scratch, &t, e);
     if (ok) {
         s->has_force = csv_column(&t, "amplitude_n") < 0 || (g->column && csv_column(&t, g->column) >= 0);
         ok = s->has_force ? force_take(s, &t, g, a, e) : impacts_take(s, &t, a, e);

@@ -18,8 +18,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "cmd/tell.h"
-#include "file/yaml_bytes.h"
-#include "file/yaml_parse.h"
+#include "file/yaml.h"
 #include "scene/scene_read.h"
 
 /* The action of that name. ERR_USAGE */

@@ -19,7 +19,7 @@
 #include "base/text.h"
 #include "cmd/cmd.h"
 #include "cmd/report.h"
-#include "file/table.h"
+#include "file/csv.h"
 #include "num/real.h"
 
 enum { COMPARE_SOUND_CRITERIA = 5 };
@@ -289,7 +289,7 @@ static bool table_measure(struct tables *t, struct err *e)
 {
     const struct compare_ask *ask = t->ask;
     const struct csv *both[2] = {&t->a, &t->b};
-    if (!table_read(ask->files[0], ask->arena, &t->a, e) || !table_read(ask->files[1], ask->arena, &t->b, e))
+    if (!csv_table_read(ask->files[0], ask->arena, &t->a, e) || !csv_table_read(ask->files[1], ask->arena, &t->b, e))
         return false;
     if (t->a.rows == 0) return err_set(e, ERR_SCENE, "%s: has no rows: nothing would be compared", ask->files[0]);
     if (!table_distance(both, ask->tolerances, ask->arena, &t->d, e)) return false;
@@ -399,7 +399,7 @@ static bool file_hash(const struct compare_ask *ask, bool sound, char hex[HASH_T
         distance_hash(&w, hex);
         return true;
     }
-    if (!table_read(file, ask->arena, &t, e)) return false;
+    if (!csv_table_read(file, ask->arena, &t, e)) return false;
     if (t.rows == 0) return err_set(e, ERR_SCENE, "%s: has no rows: nothing would be compared", file);
     return hash_file(file, hex, e);
 }

@@ -335,7 +335,7 @@ static bool sound(const struct modes_extract *x, int what, struct wav_out **w, s
         for (long i = 0; i < x->data.stretch[s].n; i++)
             frames[(x->data.stretch[s].first + i) * x->n + x->data.stretch[s].place] +=
                 (residual ? -1.0 : 1.0) * x->found.model[s][i];
-    return wav_write(*w, frames, (size_t)length, e) && wav_settle(*w, e);
+    return wav_write(*w, frames, (size_t)length, e) && wav_finish(*w, e);
 }
 
 static bool prepare(struct modes_extract *x, struct written *o, struct err *e)

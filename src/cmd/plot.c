@@ -12,7 +12,7 @@
 #include "base/text.h"
 #include "cmd/cmd.h"
 #include "cmd/tell.h"
-#include "file/table.h"
+#include "file/csv.h"
 #include "file/wav.h"
 #include "output/gnuplot.h"
 #include "output/mark.h"
@@ -303,7 +303,7 @@ static bool table_add(struct plot_page *p, const char *path, const char *name, s
     struct plot_table *t = &p->tables[p->n_tables];
     double end = 0;
     t->name = name;
-    if (!table_read(path, p->arena, &csv, e)) return false;
+    if (!csv_table_read(path, p->arena, &csv, e)) return false;
     double *times = ARENA_TAKE(p->arena, double, csv.rows + 1);
     if (!table_times(&csv, times, &end, e) || (!p->sound && !p->n_tables && !span_set(p, end, e)) ||
         !table_rows(p, &csv, times, t, e))
@@ -365,7 +365,7 @@ static bool tables_find(struct plot_page *p, const struct plot_summary *s, struc
 static bool table_alone(struct plot_page *p, struct err *e)
 {
     struct csv csv;
-    if (!table_read(p->file, p->arena, &csv, e)) return false;
+    if (!csv_table_read(p->file, p->arena, &csv, e)) return false;
     if (plot_bodies_is_table(&csv))
         return (isnan(p->from) && isnan(p->to)) ? plot_bodies_table(p, e)
                                                 : err_set(e, ERR_USAGE, "--%s: %s is a mode table, which has no time",

@@ -7,9 +7,7 @@
 
 #include "base/text.h"
 #include "cmd/tell.h"
-#include "file/heightfile_level.h"
-#include "file/heightfile_load.h"
-#include "file/heightfile_write.h"
+#include "file/heightfile.h"
 #include "output/mark.h"
 #include "pipeline/outputs.h"
 #include "pipeline/stages.h"

@@ -2,7 +2,7 @@
 #ifndef CMD_SURFACE_H
 #define CMD_SURFACE_H
 #include "cmd/cmd.h"
-#include "file/heightfile_load.h"
+#include "file/heightfile.h"
 
 /* --pitch, --height-scale, --height-range, --holes (else `holes`), --levelling. ERR_USAGE */
 bool surface_options(struct cmd_call *c, enum heightfile_holes holes, struct heightfile_options *o, struct err *e);

@@ -9,9 +9,7 @@
 #include "cmd/report.h"
 #include "cmd/surface.h"
 #include "cmd/tell.h"
-#include "file/heightfile_doubt.h"
-#include "file/heightfile_level.h"
-#include "file/heightfile_load.h"
+#include "file/heightfile.h"
 
 enum { SURFACE_INFO_NOTES = 16, SURFACE_INFO_ALPHAS = 2 };
 
@@ -38,7 +36,7 @@ struct surface_info {
          ? (void)((i)->notes[(i)->n_notes++] = arena_format((i)->arena, __VA_ARGS__))                                  \
          : (void)0)
 
-static const char *len(const struct surface_info *i, double x) { return heightfile_doubt_length(x, i->arena); }
+static const char *len(const struct surface_info *i, double x) { return heightfile_length_text(x, i->arena); }
 
 static void note_ends(struct surface_info *i, bool down)
 {
@@ -73,8 +71,8 @@ static void surface_info_notes(struct surface_info *i)
              "missing points: %zu, the first at row %zu, column %zu (counted from 0): a scene needs surface.holes: "
              "fill, or a mended file",
              h->holes, h->first_hole / h->columns, h->first_hole % h->columns);
-    const char *doubts[HEIGHTFILE_DOUBTS];
-    int n = heightfile_doubt(&i->h, &heightfile_load_option_names, i->arena, doubts);
+    const char *doubts[HEIGHTFILE_WARNINGS];
+    int n = heightfile_warnings(&i->h, &heightfile_load_option_names, i->arena, doubts);
     if (i->heights.sz == 0) NOTE(i, "all heights are the same: there is nothing to be heard");
     for (int k = 0; k < n; k++)
         NOTE(i, "%s", doubts[k]);
@@ -286,7 +284,7 @@ int surface_info_run(struct cmd_call *c, struct err *e)
 {
     struct heightfile_options o;
     int worst = 0, n = 0;
-    if (!surface_options(c, HEIGHTFILE_KEEP, &o, e)) return (int)e->kind;
+    if (!surface_options(c, HEIGHTFILE_LEAVE, &o, e)) return (int)e->kind;
     struct report r = report_open(stdout, args_given(&c->args, "json"));
     report_list(&r, "surfaces");
     for (int k = 0; k < c->args.n_operands; k++) {

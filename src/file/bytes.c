@@ -2,18 +2,23 @@
 #include "file/bytes.h"
 
 #include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/memory.h"
 
-static bool bytes_stream(FILE *f, size_t room, struct arena *a, struct bytes *b)
+bool bytes_stream(FILE *f, size_t room, size_t most, struct arena *a, struct bytes *b)
 {
     *b = (struct bytes){.at = arena_take(a, room + 1, 1)};
     for (;;) {
         b->n += fread(b->at + b->n, 1, room - b->n, f);
-        if (b->n < room) return !ferror(f);
+        if (b->n < room || b->n > most) return !ferror(f);
         char *more = arena_take(a, 2 * room + 1, 1);
         memcpy(more, b->at, b->n);
         b->at = more;
@@ -31,8 +36,137 @@ bool bytes_read(const char *path, struct arena *a, struct bytes *b, struct err *
         return err_set(e, ERR_INPUT, "%s: %s", path, strerror(why));
     }
     size_t room = S_ISREG(s.st_mode) && s.st_size > 0 ? (size_t)s.st_size + 1 : 1 << 16;
-    bool ok = bytes_stream(f, room, a, b);
+    bool ok = bytes_stream(f, room, SIZE_MAX, a, b);
     int why = errno;
     fclose(f);
     return ok || err_set(e, ERR_INPUT, "%s: %s", path, strerror(why));
+}
+
+char *bytes_trim(char *s)
+{
+    s += strspn(s, " \t");
+    size_t n = strlen(s);
+    while (n > 0 && strchr(" \t", s[n - 1]))
+        s[--n] = '\0';
+    return s;
+}
+
+uint64_t bytes_word(const void *bytes, size_t size)
+{
+    const unsigned char *u = bytes;
+    uint64_t v = 0;
+    while (size-- > 0)
+        v = v << 8 | u[size];
+    return v;
+}
+
+static float bytes_f32(const void *bytes)
+{
+    uint32_t w = (uint32_t)bytes_word(bytes, 4);
+    float v;
+    memcpy(&v, &w, 4);
+    return v;
+}
+
+double bytes_f64(const void *bytes)
+{
+    uint64_t w = bytes_word(bytes, 8);
+    double v;
+    memcpy(&v, &w, 8);
+    return v;
+}
+
+void bytes_put(FILE *f, uint64_t value, size_t size)
+{
+    unsigned char u[8];
+    for (size_t i = 0; i < 8; i++)
+        u[i] = (unsigned char)(value >> 8 * i);
+    fwrite(u, 1, size, f);
+}
+
+void bytes_put_f64(FILE *f, double value)
+{
+    uint64_t w;
+    memcpy(&w, &value, 8);
+    bytes_put(f, w, 8);
+}
+
+double bytes_number(const void *bytes, char kind, size_t size)
+{
+    uint64_t w = bytes_word(bytes, size);
+    if (kind == 'f') return size == 4 ? bytes_f32(bytes) : bytes_f64(bytes);
+    if (kind == 'u' || w >> (8 * size - 1) == 0) return (double)w;
+    return -(double)((UINT64_MAX >> (64 - 8 * size)) - w) - 1;
+}
+
+/* Opening a FIFO waits for a writer, and reading for what is written: a signal ends the program there
+ * (base/interrupt.h). */
+
+enum { PIECE = 1 << 16 };
+
+struct piped {
+    struct piped *next;
+    char *file, *text;
+    size_t size;
+};
+
+static struct piped *all;
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+
+bool bytes_piped(const char *file)
+{
+    struct stat s;
+    return !strcmp(file, "/dev/stdin") || !strncmp(file, "/dev/fd/", 8) ||
+           (!strncmp(file, "/proc/", 6) && strstr(file, "/fd/")) ||
+           (stat(file, &s) == 0 && !S_ISREG(s.st_mode) && !S_ISDIR(s.st_mode));
+}
+
+static bool read_all(int fd, struct piped *k, size_t most)
+{
+    for (size_t room = 0;;) {
+        if (k->size == room) {
+            char *more = memory_take((room = 2 * room + PIECE) + 1);
+            if (k->size) memcpy(more, k->text, k->size);
+            free(k->text);
+            k->text = more;
+        }
+        ssize_t n = read(fd, k->text + k->size, room - k->size);
+        if (n < 0) return false;
+        k->size += (size_t)n;
+        if (n == 0 || k->size > most) return true;
+    }
+}
+
+static struct piped *take(const char *file, size_t most)
+{
+    int fd = open(file, O_RDONLY | O_CLOEXEC);
+    if (fd < 0) return NULL;
+    struct piped *k = memory_take(sizeof *k);
+    *k = (struct piped){.next = all};
+    bool ok = read_all(fd, k, most);
+    int why = errno;
+    close(fd);
+    if (!ok) {
+        free(k->text);
+        free(k);
+        errno = why;
+        return NULL;
+    }
+    size_t n = strlen(file) + 1;
+    k->size = k->size > most ? most + 1 : k->size;
+    k->text[k->size] = '\0';
+    k->file = memcpy(memory_take(n), file, n);
+    return all = k;
+}
+
+const char *bytes_piped_read(const char *file, size_t most, size_t *size)
+{
+    pthread_mutex_lock(&lock);
+    struct piped *k = all;
+    while (k && strcmp(k->file, file) != 0)
+        k = k->next;
+    k = k ? k : take(file, most);
+    pthread_mutex_unlock(&lock);
+    *size = k ? k->size : 0;
+    return k ? k->text : NULL;
 }

@@ -2,11 +2,14 @@
    line end after it becomes its terminator, so cells are pointers into the file. */
 #include "file/csv.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include "file/npy.h"
 #include "num/decimal.h"
 
 struct csv_reader {
@@ -80,15 +83,6 @@ static size_t csv_count(const char *at, const char *end, char c)
     return n;
 }
 
-static char *trim(char *s)
-{
-    s += strspn(s, " \t");
-    size_t n = strlen(s);
-    while (n > 0 && strchr(" \t", s[n - 1]))
-        s[--n] = '\0';
-    return s;
-}
-
 /* Takes a whole line, without its end, as a string. */
 static char *csv_take_line(struct csv_reader *r)
 {
@@ -109,7 +103,7 @@ static bool csv_comments(struct csv_reader *r, struct csv *t)
         if (*s != '#') continue;
         char *colon = strchr(s, ':'), *value = colon ? colon + 1 : s + 1;
         if (colon) *colon = '\0';
-        t->comments[t->n_comments++] = (struct csv_pair){colon ? trim(s + 1) : "", trim(value), line};
+        t->comments[t->n_comments++] = (struct csv_pair){colon ? bytes_trim(s + 1) : "", bytes_trim(value), line};
     }
     return r->at < r->end || csv_bad(r, r->line, "there is no header line");
 }
@@ -164,20 +158,7 @@ static void csv_room(const struct csv_reader *r, struct csv *t)
     t->lines = ARENA_TAKE(r->arena, int, lines);
 }
 
-bool csv_read(const char *path, struct arena *a, struct csv *t, struct err *e)
-{
-    struct bytes b;
-    return bytes_read(path, a, &b, e) && csv_read_bytes(path, b, a, t, e);
-}
-
-bool csv_read_file(const char *path, struct arena *a, struct csv *t, struct err *e)
-{
-    struct stat status;
-    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) return err_set(e, ERR_INPUT, "%s: is not a file", path);
-    return csv_read(path, a, t, e);
-}
-
-bool csv_read_bytes(const char *path, struct bytes b, struct arena *a, struct csv *t, struct err *e)
+static bool read_bytes(const char *path, struct bytes b, struct arena *a, struct csv *t, struct err *e)
 {
     *t = (struct csv){.file = arena_text(a, path)};
     const char *nul = memchr(b.at, '\0', b.n);
@@ -192,6 +173,19 @@ bool csv_read_bytes(const char *path, struct bytes b, struct arena *a, struct cs
     while (!csv_at_end(&r))
         if (!csv_row(&r, t)) return false;
     return true;
+}
+
+bool csv_read(const char *path, struct arena *a, struct csv *t, struct err *e)
+{
+    struct bytes b;
+    return bytes_read(path, a, &b, e) && read_bytes(path, b, a, t, e);
+}
+
+bool csv_read_file(const char *path, struct arena *a, struct csv *t, struct err *e)
+{
+    struct stat status;
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) return err_set(e, ERR_INPUT, "%s: is not a file", path);
+    return csv_read(path, a, t, e);
 }
 
 int csv_column(const struct csv *t, const char *name)
@@ -248,4 +242,69 @@ void csv_put_number(FILE *f, double value)
 {
     char text[DECIMAL_ROOM];
     fwrite(text, 1, decimal_9g(value, text), f);
+}
+
+static bool table_names(const struct npy *head, struct csv *t, struct err *e)
+{
+    t->names = head->fields;
+    for (; t->columns < head->n_fields; t->columns++)
+        if (csv_column(t, head->fields[t->columns]) >= 0)
+            return err_set(e, ERR_SCENE, "%s: two fields are called '%s'", t->file, head->fields[t->columns]);
+    return true;
+}
+
+static bool table_numbers(const struct bytes *b, const struct npy *head, struct arena *a, struct csv *t, struct err *e)
+{
+    size_t row = head->n_fields * sizeof(double), bytes, there = b->n - head->data;
+    t->rows = head->shape[0];
+    if (__builtin_mul_overflow(t->rows, row, &bytes) || bytes != there || t->rows > INT_MAX)
+        return err_set(e, ERR_SCENE, "%s: %zu rows of %zu bytes should follow byte %zu, and %zu bytes do", t->file,
+                       t->rows, row, head->data, there);
+    double *numbers = ARENA_TAKE(a, double, t->rows * t->columns + 1);
+    memcpy(numbers, b->at + head->data,
+           bytes); /* as in memory: rasp is for x86-64; the file's bytes need not lie at a multiple of 8 */
+    t->numbers = numbers;
+    t->lines = ARENA_TAKE(a, int, t->rows + 1);
+    for (size_t i = 0; i < t->rows; i++)
+        t->lines[i] = (int)i + 1;
+    return true;
+}
+
+static bool table_read_bytes(const char *path, struct bytes b, struct arena *a, struct csv *t, struct err *e)
+{
+    struct npy head;
+    if (!npy_is(&b)) return read_bytes(path, b, a, t, e);
+    *t = (struct csv){.file = arena_text(a, path)};
+    if (!npy_read(path, &b, a, &head, e)) return false;
+    if (!head.n_fields || head.dimensions != 1)
+        return err_set(e, ERR_SCENE,
+                       "%s: not a table: an NPY array %s; a table has one dimension and fields with names, such as "
+                       "dtype [('time_s', '<f8'), ...]",
+                       path, head.n_fields ? "of two dimensions" : "without named fields");
+    return table_names(&head, t, e) && table_numbers(&b, &head, a, t, e);
+}
+
+bool csv_table_read(const char *path, struct arena *a, struct csv *t, struct err *e)
+{
+    struct bytes b;
+    return bytes_read(path, a, &b, e) && table_read_bytes(path, b, a, t, e);
+}
+
+static int by_name(const void *a, const void *b) { return strcmp(*(const char *const *)a, *(const char *const *)b); }
+
+const char **csv_folder_files(const char *folder, int *n, struct arena *a)
+{
+    const char *index = arena_format(a, "%s/index.csv", folder);
+    struct csv t;
+    struct err unreadable = {0};
+    *n = 0;
+    if (access(index, F_OK) != 0) return NULL;
+    int column = csv_read_file(index, a, &t, &unreadable) && t.cells ? csv_column(&t, "file_name") : -1;
+    size_t rows = column >= 0 ? t.rows : 0;
+    const char **files = ARENA_TAKE(a, const char *, rows + 1);
+    files[(*n)++] = index;
+    for (size_t i = 0; i < rows; i++)
+        files[(*n)++] = arena_format(a, "%s/%s", folder, t.cells[i * t.columns + (size_t)column]);
+    qsort(files, (size_t)*n, sizeof *files, by_name);
+    return files;
 }

@@ -23,7 +23,7 @@ struct csv {
     const char **names; /* the header                                    */
     size_t columns, rows;
     const char **cells;    /* [rows][columns], unquoted text, never NULL; NULL as a whole: numbers */
-    const double *numbers; /* [rows][columns] of a table that is no text (table.h), else NULL      */
+    const double *numbers; /* [rows][columns] of a table that is no text (csv_table_read), else NULL      */
     int *lines;            /* [rows] line each row starts on; of numbers the row's own number, from 1 */
 };
 
@@ -33,9 +33,9 @@ enum { CSV_ROOM = 32 };
    no header, a row with another number of cells, an open quote, NUL bytes, duplicate or empty column names; the text
    says file:line: what. */
 bool csv_read(const char *path, struct arena *a, struct csv *t, struct err *e);
+
 bool csv_read_file(const char *path, struct arena *a, struct csv *t,
                    struct err *e); /* of one that another file names: a pipe, a device or a folder is none, ERR_INPUT */
-bool csv_read_bytes(const char *path, struct bytes b, struct arena *a, struct csv *t, struct err *e);
 
 /* Column by name, or -1. */
 int csv_column(const struct csv *t, const char *name);
@@ -52,6 +52,19 @@ const char *csv_comment(const struct csv *t, const char *key);
 /* Writing: a cell of text, quoted where that is needed, and one of a number (%.9g; "nan", "inf"); the caller puts the
  * commas. */
 void csv_put_text(FILE *f, const char *text);
+
 void csv_put_number(FILE *f, double value);
+
+/* A table whatever its format: CSV (csv.h) or, known by its first bytes, NPY with named fields of float64, one
+ * dimension. */
+
+/* As csv_read. Of NPY t->numbers is set, and t->cells is NULL. ERR_SCENE, too: an NPY array without named fields. */
+bool csv_table_read(const char *path, struct arena *a, struct csv *t, struct err *e);
+
+/* A folder whose index.csv says in its column file_name which of the folder's files belong to it. */
+
+/* index.csv and what it names, by name, each "FOLDER/NAME"; index.csv alone where it cannot be read. *n 0: the folder
+ * has none, or is no folder. */
+const char **csv_folder_files(const char *folder, int *n, struct arena *a);
 
 #endif

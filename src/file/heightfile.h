@@ -1,13 +1,13 @@
 /* Height maps and profiles from files. Told apart by content, not name:
 
-     GSF   Gwyddion Simple Field                heightfile_gsf.c
+     GSF   Gwyddion Simple Field                heightfile_formats.c
      GWY   Gwyddion's own format                heightfile_gwy.c   (what Gwyddion reads, it can turn into this)
      SDF   ISO 25178-71, text and binary        heightfile_sdf.c
-     NPY   NumPy's arrays, 1-D and 2-D          heightfile_npy.c
-     PNG   16-bit grey                          heightfile_png.c
-     CSV   a grid of numbers                    heightfile_csv.c
+     NPY   NumPy's arrays, 1-D and 2-D          heightfile_formats.c
+     PNG   16-bit grey                          heightfile_formats.c
+     CSV   a grid of numbers                    heightfile_formats.c
 
-   Writing: heightfile_write.h. Scale, pitch, holes, levelling and what is plausible: heightfile_load.h, which is what
+   Scale, pitch, holes, levelling and what is plausible: heightfile_load, which is what
    callers want. */
 #ifndef FILE_HEIGHTFILE_H
 #define FILE_HEIGHTFILE_H
@@ -47,12 +47,92 @@ struct heightfile {
    heights are refused. */
 bool heightfile_read(const char *path, struct arena *a, struct heightfile *h, struct err *e);
 
-/* Writes a GSF (float32, as the format is: 24 bits, so subtract a large mean first); a pitch of NAN and a title of NULL
-   are left out. ERR_CREATE, ERR_IO; ERR_NUMBERS: a height that float32 does not hold; ERR_SCENE: a title of several
-   lines. All other formats, and maps with holes: heightfile_write.h. */
-bool heightfile_write_gsf(const char *path, const struct heightfile *h, const char *title, struct err *e);
-
 /* For the readers: room for h->rows x h->columns heights, none of them 0; refuses more than HEIGHTFILE_MOST. */
 bool heightfile_room(const char *path, struct heightfile *h, struct arena *a, struct err *e);
+
+/* Levelling a height map: what is subtracted before its roughness is looked at. Missing points are left out of the fit.
+   In the order of enum levelling of scene/scene.h. */
+enum heightfile_levelling { HEIGHTFILE_LEVEL_NONE, HEIGHTFILE_LEVEL_MEAN, HEIGHTFILE_LEVEL_PLANE };
+
+/* The least-squares plane (of a profile: line) through the heights; a direction without two different places has slope
+ * 0. */
+struct heightfile_plane heightfile_level_fit(const struct heightfile *h);
+
+/* Subtracts the mean or the plane and says what it was; with NONE nothing. */
+struct heightfile_plane heightfile_level(struct heightfile *h, enum heightfile_levelling levelling);
+
+/* Replaces h->holes missing points (NaN) by the solution of Laplace's equation with the heights around them, and sets
+   h->filled, h->holes. The surface there is as smooth as it can be: it has no roughness of its own. Points at the map's
+   edge have no neighbour beyond it (slope 0 across the edge); of a profile this is the straight line between the ends
+   of a gap, and level behind the last height. Residual below 1e-12 of the map's range. Nothing happens without holes.
+   ERR_SCENE: more than half of the map is missing. ERR_NUMBERS: no convergence. */
+bool heightfile_fill(const char *path, struct heightfile *h, struct err *e);
+
+/* A height map ready for use: in metres, with its pitch, holes filled or refused, levelled, and plausible. What the
+   scene's height maps, `rasp surface` and roughness.like share. */
+
+/* REFUSE and FILL in the order of enum holes of scene/scene.h. */
+enum heightfile_holes { HEIGHTFILE_REFUSE, HEIGHTFILE_FILL, HEIGHTFILE_LEAVE };
+
+/* How the caller's user sets these things, for messages. */
+struct heightfile_names {
+    const char *pitch, *height_scale, *height_range; /* "surface.pitch"                     */
+    const char *fill;                                /* "surface.holes: fill", the whole    */
+};
+
+extern const struct heightfile_names heightfile_load_option_names;
+
+struct heightfile_options {
+    double pitch;        /* m, both ways; NAN: the file says it                                        */
+    double height_scale; /* factor on the heights: m per stored unit; NAN or 1: none                   */
+    double height_range; /* m that white stands for (PNG); NAN: not given                              */
+    int holes;           /* enum heightfile_holes                                                      */
+    int levelling;       /* enum heightfile_levelling as enum levelling of a scene */
+    const struct heightfile_names *names; /* NULL: as in a scene                         */
+};
+
+/* Fills h: metres; pitch_x, and for a map pitch_y, are numbers. Order: scale, holes, limits, levelling (which leaves
+   h->levelled). ERR_INPUT, ERR_SCENE as heightfile_read; and ERR_SCENE: fewer than 4 samples along a direction; pitch
+   not known, given and not that of the file, or outside 10 nm to 1 mm; heights that span less than 1 nm (but are not
+   all the same) or more than 10 mm: a unit is wrong, and the message says which would make sense; holes; a height range
+   that is missing, or given where the file has none. ERR_NUMBERS: filling fails. */
+bool heightfile_load(const char *path, const struct heightfile_options *o, struct arena *a, struct heightfile *h,
+                     struct err *e);
+
+/* What of a height map's heights looks like a slip of their unit: reported wherever a map is read, in the same words.
+ */
+enum { HEIGHTFILE_WARNINGS = 2 };
+
+/* The heights, as loaded: reported in the names of whoever reads (NULL: a scene's). How many texts there are. */
+int heightfile_warnings(const struct heightfile *h, const struct heightfile_names *names, struct arena *a,
+                        const char *texts[HEIGHTFILE_WARNINGS]);
+
+/* "5.2 um"; "unknown" of NAN. */
+const char *heightfile_length_text(double x, struct arena *a);
+
+/* Writing height maps. The file has its name only when it is complete (base/outfile.h). */
+enum heightfile_format {
+    HEIGHTFILE_GSF,      /* float32                                                         */
+    HEIGHTFILE_GWY,      /* float64                                                         */
+    HEIGHTFILE_SDF,      /* binary float64; at most 65535 samples a side                    */
+    HEIGHTFILE_SDF_TEXT, /* as many digits as read back as the same double                  */
+    HEIGHTFILE_NPY,      /* float64; does not hold the pitch; a profile is one-dimensional  */
+    HEIGHTFILE_PNG,      /* 16-bit grey; holds neither pitch nor range for other programs   */
+    HEIGHTFILE_CSV       /* the same; the pitch stands in a comment                         */
+};
+
+/* The format that a name's ending asks for (gsf, gwy, sdf, npy, png, csv; any case). ERR_USAGE: none of them. */
+bool heightfile_write_format(const char *path, enum heightfile_format *format, struct err *e);
+
+/* What became of the heights: z was written as its distance from `low`, in steps of `step` m (0: floating point). */
+struct heightfile_written {
+    double low, range, step;
+};
+
+/* h in metres, with its pitch; missing points (h->holes) are written as NaN, in SDF text as BAD, in GWY as a mask; PNG
+   refuses them. Errors: ERR_CREATE, ERR_IO; ERR_SCENE what the format does not hold; ERR_NUMBERS a height that is
+   infinite, or too large for it. */
+bool heightfile_write(const char *path, const struct heightfile *h, enum heightfile_format format,
+                      struct heightfile_written *w, struct err *e);
 
 #endif

@@ -11,12 +11,11 @@
 
    Read: channel 0, or the first there is. Where the mask is above 0 the height counts as missing: Gwyddion so marks
    points that an instrument did not measure. Everything else in the file is passed over. */
-#include "file/heightfile_gwy.h"
+#include "file/heightfile_formats.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
-
-#include "file/heightfile_unit.h"
 
 struct gwy {
     const char *path, *start;
@@ -64,7 +63,7 @@ static bool gwy_object(const struct gwy *g, struct gwy_part *p, const char **nam
     const char *from = p->at;
     *name = gwy_text(p);
     if (!*name || p->end - p->at < 4) return gwy_bad(g, from, "an object ends inside its head");
-    size_t n = (size_t)heightfile_unit_word(p->at, 4);
+    size_t n = (size_t)bytes_word(p->at, 4);
     if ((size_t)(p->end - p->at) - 4 < n)
         return gwy_bad(g, p->at, "an object is larger than what is left of the file: it is cut short");
     *inside = (struct gwy_part){p->at + 4, p->at + 4 + n};
@@ -96,7 +95,7 @@ static size_t gwy_size(char type)
 static bool gwy_count(const struct gwy *g, struct gwy_part *p, struct gwy_item *t)
 {
     if (p->end - p->at < 4) return gwy_bad(g, p->at, "an array ends inside its length");
-    t->count = (size_t)heightfile_unit_word(p->at, 4);
+    t->count = (size_t)bytes_word(p->at, 4);
     p->at += 4;
     t->data = p->at;
     return true;
@@ -150,13 +149,13 @@ static bool gwy_unit(const struct gwy *g, struct gwy_item *t, const char **unit)
 static bool gwy_take(const struct gwy *g, struct gwy_item *t, struct gwy_field *f)
 {
     if (!strcmp(t->name, "xres") && t->type == 'i')
-        f->xres = (int32_t)heightfile_unit_word(t->data, 4);
+        f->xres = (int32_t)bytes_word(t->data, 4);
     else if (!strcmp(t->name, "yres") && t->type == 'i')
-        f->yres = (int32_t)heightfile_unit_word(t->data, 4);
+        f->yres = (int32_t)bytes_word(t->data, 4);
     else if (!strcmp(t->name, "xreal") && t->type == 'd')
-        f->xreal = heightfile_unit_f64(t->data);
+        f->xreal = bytes_f64(t->data);
     else if (!strcmp(t->name, "yreal") && t->type == 'd')
-        f->yreal = heightfile_unit_f64(t->data);
+        f->yreal = bytes_f64(t->data);
     else if (!strcmp(t->name, "data") && t->type == 'D')
         f->data = *t;
     else if (!strcmp(t->name, "si_unit_xy") && t->type == 'o')
@@ -241,7 +240,7 @@ static bool gwy_heights(const struct gwy *g, const struct gwy_found *found, stru
 {
     const struct gwy_field *f = &found->field;
     double xy, z;
-    if (!heightfile_unit(f->unit_xy, &xy) || !heightfile_unit(f->unit_z, &z))
+    if (!heightfile_formats_unit(f->unit_xy, &xy) || !heightfile_formats_unit(f->unit_z, &z))
         return err_set(g->e, ERR_SCENE,
                        "%s: GWY file: the data field's units are '%s' and '%s', not lengths (m, mm, um, nm)", g->path,
                        f->unit_xy, f->unit_z);
@@ -256,8 +255,8 @@ static bool gwy_heights(const struct gwy *g, const struct gwy_found *found, stru
                              .format = "GWY"};
     if (!heightfile_room(g->path, h, a, g->e)) return false;
     for (size_t i = 0; i < f->data.count; i++) {
-        bool masked = found->mask.given && heightfile_unit_f64(found->mask.data.data + 8 * i) > 0;
-        h->z[i] = masked ? NAN : heightfile_unit_f64(f->data.data + 8 * i) / z;
+        bool masked = found->mask.given && bytes_f64(found->mask.data.data + 8 * i) > 0;
+        h->z[i] = masked ? NAN : bytes_f64(f->data.data + 8 * i) / z;
     }
     h->title = found->title ? arena_text(a, found->title) : NULL;
     return true;
@@ -274,4 +273,92 @@ bool heightfile_gwy_read(const char *path, const struct bytes *b, struct arena *
     if (!gwy_object(&g, &p, &name, &inside)) return false;
     if (strcmp(name, "GwyContainer") != 0) return gwy_bad(&g, b->at + 4, "the file does not begin with a GwyContainer");
     return gwy_choose(&g, inside, &found) && gwy_beside(&g, inside, &found) && gwy_heights(&g, &found, a, h);
+}
+
+/* Writing Gwyddion's native format: see heightfile_gwy.c. Sizes stand before what they measure, so they are added up
+ * first. */
+
+enum {
+    GWY_UNIT = 10 + 4 + 8 + 1 + 2, /* "GwySIUnit" size; "unitstr" s "m"          */
+    GWY_FIELD = 5 + 5 + 5 + 5 + 6 + 9 + 6 + 9 + (11 + 1) + (10 + 1) + 5 + 1 +
+                4 /* names with their NULs, types, numbers, length */
+};
+
+static size_t gwy_field_size(const struct heightfile *h)
+{
+    return GWY_FIELD + 2 * (size_t)GWY_UNIT + 8 * h->columns * h->rows;
+}
+
+static size_t gwy_title_size(const struct heightfile *h)
+{
+    return h->title ? sizeof "/0/data/title" + 1 + strlen(h->title) + 1 : 0;
+}
+
+/* Of the container: a component is name, type, object (name, size, contents). */
+static size_t gwy_all(const struct heightfile *h)
+{
+    size_t field = 1 + sizeof "GwyDataField" + 4 + gwy_field_size(h);
+    return sizeof "/0/data" + field + (h->holes ? sizeof "/0/mask" + field : 0) + gwy_title_size(h);
+}
+
+bool heightfile_gwy_write_fits(const struct heightfile *h) { return gwy_all(h) <= UINT32_MAX; }
+
+static void gwy_put_text(FILE *f, const char *s) { fwrite(s, 1, strlen(s) + 1, f); }
+
+static void gwy_put_head(FILE *f, const char *name, char type)
+{
+    gwy_put_text(f, name);
+    fputc(type, f);
+}
+
+static void gwy_put_i(FILE *f, const char *name, size_t v)
+{
+    gwy_put_head(f, name, 'i');
+    bytes_put(f, v, 4);
+}
+
+static void gwy_put_d(FILE *f, const char *name, double v)
+{
+    gwy_put_head(f, name, 'd');
+    bytes_put_f64(f, v);
+}
+
+static void gwy_put_unit(FILE *f, const char *name, const char *unit)
+{
+    gwy_put_head(f, name, 'o');
+    gwy_put_text(f, "GwySIUnit");
+    bytes_put(f, 8 + 1 + 2, 4);
+    gwy_put_head(f, "unitstr", 's');
+    gwy_put_text(f, unit);
+}
+
+static void gwy_put_field(FILE *f, const char *name, const struct heightfile *h, bool mask)
+{
+    size_t n = h->columns * h->rows;
+    gwy_put_head(f, name, 'o');
+    gwy_put_text(f, "GwyDataField");
+    bytes_put(f, gwy_field_size(h), 4);
+    gwy_put_i(f, "xres", h->columns);
+    gwy_put_i(f, "yres", h->rows);
+    gwy_put_d(f, "xreal", h->pitch_x * (double)h->columns);
+    gwy_put_d(f, "yreal", (h->rows > 1 ? h->pitch_y : h->pitch_x) * (double)h->rows);
+    gwy_put_unit(f, "si_unit_xy", "m");
+    gwy_put_unit(f, "si_unit_z", "m");
+    gwy_put_head(f, "data", 'D');
+    bytes_put(f, n, 4);
+    for (size_t i = 0; i < n; i++)
+        bytes_put_f64(f, mask ? (isnan(h->z[i]) ? 1 : 0) : isnan(h->z[i]) ? 0 : h->z[i]);
+}
+
+void heightfile_gwy_write(FILE *f, const struct heightfile *h)
+{
+    fwrite("GWYP", 1, 4, f);
+    gwy_put_text(f, "GwyContainer");
+    bytes_put(f, gwy_all(h), 4);
+    gwy_put_field(f, "/0/data", h, false);
+    if (h->title) {
+        gwy_put_head(f, "/0/data/title", 's');
+        gwy_put_text(f, h->title);
+    }
+    if (h->holes) gwy_put_field(f, "/0/mask", h, true);
 }

@@ -13,7 +13,7 @@
 
    Missing points: NaN; in text also BAD; of whole numbers the highest unsigned, the lowest signed one, of 16 and 32
    bits. */
-#include "file/heightfile_sdf.h"
+#include "file/heightfile_formats.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -21,7 +21,6 @@
 #include <strings.h>
 
 #include "base/text.h"
-#include "file/heightfile_unit.h"
 
 enum { SDF_POINTS, SDF_PROFILES, SDF_XSCALE, SDF_YSCALE, SDF_ZSCALE, SDF_COMPRESSION, SDF_TYPE, SDF_CHECK, SDF_KEYS };
 
@@ -35,29 +34,13 @@ struct sdf {
     struct err *e;
 };
 
-static double sdf_u8(const char *p) { return (uint8_t)*p; }
-static double sdf_u16(const char *p) { return (uint16_t)heightfile_unit_word(p, 2); }
-static double sdf_u32(const char *p) { return (uint32_t)heightfile_unit_word(p, 4); }
-static double sdf_f32(const char *p) { return heightfile_unit_f32(p); }
-static double sdf_i8(const char *p) { return (int8_t)*p; }
-static double sdf_i16(const char *p) { return (int16_t)heightfile_unit_word(p, 2); }
-static double sdf_i32(const char *p) { return (int32_t)heightfile_unit_word(p, 4); }
-static double sdf_f64(const char *p) { return heightfile_unit_f64(p); }
-
 static const struct sdf_type {
+    char kind;
     size_t size;
-    double (*value)(const char *p);
     int bits;
-    bool whole;
     double missing; /* NAN: no number stands for it */
-} sdf_types[] = {{1, sdf_u8, 8, true, NAN},
-                 {2, sdf_u16, 16, true, 65535},
-                 {4, sdf_u32, 32, true, 4294967295.0},
-                 {4, sdf_f32, 24, false, NAN},
-                 {1, sdf_i8, 8, true, NAN},
-                 {2, sdf_i16, 16, true, -32768},
-                 {4, sdf_i32, 32, true, -2147483648.0},
-                 {8, sdf_f64, 53, false, NAN}};
+} sdf_types[] = {{'u', 1, 8, NAN}, {'u', 2, 16, 65535},  {'u', 4, 32, 4294967295.0},  {'f', 4, 24, NAN},
+                 {'i', 1, 8, NAN}, {'i', 2, 16, -32768}, {'i', 4, 32, -2147483648.0}, {'f', 8, 53, NAN}};
 
 static bool sdf_text(const struct bytes *b) { return b->n > 0 && (b->at[0] == 'a' || b->at[0] == 'A'); }
 
@@ -112,7 +95,7 @@ static bool sdf_header(const struct sdf *s, struct arena *a, struct heightfile *
     h->pitch_y = s->value[SDF_YSCALE] > 0 ? s->value[SDF_YSCALE] : NAN;
     h->metric = true;
     h->bits = t->bits;
-    h->step = t->whole ? s->value[SDF_ZSCALE] : 0;
+    h->step = t->kind != 'f' ? s->value[SDF_ZSCALE] : 0;
     return heightfile_room(s->path, h, a, s->e);
 }
 
@@ -130,10 +113,10 @@ static bool sdf_binary(struct sdf *s, const struct bytes *b, struct arena *a, st
         return err_set(s->e, ERR_SCENE, "%s: the file ends inside its SDF header, at byte %zu of %zu", s->path, b->n,
                        header);
     const char *p = b->at + 42, *scales = p + 2 * wide;
-    s->value[SDF_POINTS] = (double)heightfile_unit_word(p, wide);
-    s->value[SDF_PROFILES] = (double)heightfile_unit_word(p + wide, wide);
+    s->value[SDF_POINTS] = (double)bytes_word(p, wide);
+    s->value[SDF_PROFILES] = (double)bytes_word(p + wide, wide);
     for (int i = 0; i < 3; i++)
-        s->value[SDF_XSCALE + i] = heightfile_unit_f64(scales + 8 * i);
+        s->value[SDF_XSCALE + i] = bytes_f64(scales + 8 * i);
     s->value[SDF_COMPRESSION] = scales[32];
     s->value[SDF_TYPE] = scales[33];
     if (!sdf_counts(s, b) || !sdf_header(s, a, h)) return false;
@@ -144,7 +127,7 @@ static bool sdf_binary(struct sdf *s, const struct bytes *b, struct arena *a, st
         return err_set(s->e, ERR_SCENE, "%s: %zu x %zu numbers of %zu bytes should follow byte %zu, and %zu bytes do",
                        s->path, h->columns, h->rows, t->size, header, b->n - header);
     for (size_t i = 0; i < n; i++)
-        h->z[i] = sdf_metres(s, t->value(b->at + header + i * t->size));
+        h->z[i] = sdf_metres(s, bytes_number(b->at + header + i * t->size, t->kind, t->size));
     h->format = "SDF (binary)";
     return true;
 }
@@ -243,10 +226,10 @@ static void sdf_write_text(FILE *f, const struct heightfile *h)
             "aISO-1.0\nManufacID = rasp\nCreateDate = 010120000000\nModDate = 010120000000\nNumPoints = "
             "%zu\nNumProfiles = %zu\n"
             "Xscale = %s\nYscale = %s\nZscale = 1\nZresolution = -1\nCompression = 0\nDataType = 7\nCheckType = 0\n*\n",
-            h->columns, h->rows, heightfile_unit_text(x, h->pitch_x),
-            heightfile_unit_text(y, sdf_or_zero(h->rows > 1 ? h->pitch_y : NAN)));
+            h->columns, h->rows, heightfile_formats_number(x, h->pitch_x),
+            heightfile_formats_number(y, sdf_or_zero(h->rows > 1 ? h->pitch_y : NAN)));
     for (size_t i = 0; i < h->columns * h->rows; i++)
-        fprintf(f, "%s\n", isnan(h->z[i]) ? "BAD" : heightfile_unit_text(x, h->z[i]));
+        fprintf(f, "%s\n", isnan(h->z[i]) ? "BAD" : heightfile_formats_number(x, h->z[i]));
     fputs("*\n", f);
 }
 
@@ -257,15 +240,15 @@ static void sdf_write_binary(FILE *f, const struct heightfile *h)
            "010120000000"
            "010120000000",
            1, 42, f);
-    heightfile_unit_put(f, h->columns, 2);
-    heightfile_unit_put(f, h->rows, 2);
-    heightfile_unit_put_f64(f, h->pitch_x);
-    heightfile_unit_put_f64(f, sdf_or_zero(h->rows > 1 ? h->pitch_y : NAN));
-    heightfile_unit_put_f64(f, 1);
-    heightfile_unit_put_f64(f, -1);
+    bytes_put(f, h->columns, 2);
+    bytes_put(f, h->rows, 2);
+    bytes_put_f64(f, h->pitch_x);
+    bytes_put_f64(f, sdf_or_zero(h->rows > 1 ? h->pitch_y : NAN));
+    bytes_put_f64(f, 1);
+    bytes_put_f64(f, -1);
     fwrite("\0\7\0", 1, 3, f);
     for (size_t i = 0; i < h->columns * h->rows; i++)
-        heightfile_unit_put_f64(f, h->z[i]);
+        bytes_put_f64(f, h->z[i]);
 }
 
 void heightfile_sdf_write(FILE *f, const struct heightfile *h, bool binary)

@@ -139,14 +139,6 @@ static bool npy_dictionary(struct npy_reader *p)
 
 bool npy_is(const struct bytes *b) { return b->n >= 6 && !memcmp(b->at, "\x93NUMPY", 6); }
 
-static size_t npy_length(const unsigned char *p, size_t width)
-{
-    size_t v = 0;
-    for (size_t i = width; i-- > 0;)
-        v = v << 8 | p[i];
-    return v;
-}
-
 /* Finds the header: at .. end. */
 static bool npy_open(struct npy_reader *p, const struct bytes *b)
 {
@@ -154,7 +146,7 @@ static bool npy_open(struct npy_reader *p, const struct bytes *b)
     size_t version = b->n > 6 ? u[6] : 0, width = version == 1 ? 2 : 4;
     if (version < 1 || version > 3)
         return err_set(p->e, ERR_SCENE, "%s: NPY version %zu; 1, 2 and 3 are read", p->path, version);
-    size_t length = b->n >= 8 + width ? (size_t)npy_length(u + 8, width) : b->n;
+    size_t length = b->n >= 8 + width ? (size_t)bytes_word(u + 8, width) : b->n;
     if (length > b->n - (b->n >= 8 + width ? 8 + width : 0) || b->n < 8 + width)
         return err_set(p->e, ERR_SCENE, "%s: the file ends inside its NPY header, at byte %zu", p->path, b->n);
     p->at = b->at + 8 + width;
@@ -174,16 +166,32 @@ bool npy_read(const char *path, const struct bytes *b, struct arena *a, struct n
     return true;
 }
 
+/* The header of that dictionary, which ends in a line feed at a multiple of 64. */
+static void npy_put(FILE *f, const char *text)
+{
+    size_t length = (10 + strlen(text) + 1 + 63) / 64 * 64 - 10;
+    fwrite("\x93NUMPY\1\0", 1, 8, f);
+    bytes_put(f, length, 2);
+    fprintf(f, "%-*s\n", (int)length - 1, text);
+}
+
 void npy_write(FILE *f, const char *const *fields, size_t n, size_t rows)
 {
     char text[NPY_HEADER];
     size_t used = (size_t)snprintf(text, sizeof text, "{'descr': [");
     for (size_t i = 0; i < n; i++)
         used += (size_t)snprintf(text + used, sizeof text - used, "%s('%s', '<f8')", i ? ", " : "", fields[i]);
-    used += (size_t)snprintf(text + used, sizeof text - used, "], 'fortran_order': False, 'shape': (%zu,), }", rows);
-    size_t length = (10 + used + 1 + 63) / 64 * 64 - 10;
-    fwrite("\x93NUMPY\1\0", 1, 8, f);
-    fputc((int)(length & 255), f);
-    fputc((int)(length >> 8), f);
-    fprintf(f, "%-*s\n", (int)length - 1, text);
+    snprintf(text + used, sizeof text - used, "], 'fortran_order': False, 'shape': (%zu,), }", rows);
+    npy_put(f, text);
+}
+
+void npy_write_array(FILE *f, size_t rows, size_t columns)
+{
+    char text[192];
+    int n = snprintf(text, sizeof text, "{'descr': '<f8', 'fortran_order': False, 'shape': (");
+    if (rows > 1)
+        snprintf(text + n, sizeof text - (size_t)n, "%zu, %zu), }", rows, columns);
+    else
+        snprintf(text + n, sizeof text - (size_t)n, "%zu,), }", columns);
+    npy_put(f, text);
 }

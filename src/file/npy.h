@@ -1,5 +1,5 @@
-/* The header of NumPy's array format: what stands before the numbers. heightfile_npy.h reads arrays of heights behind
- * it, table.h tables. */
+/* The header of NumPy's array format: what stands before the numbers. heightfile_formats.c reads arrays of heights
+ * behind it, csv.h tables. */
 #ifndef FILE_NPY_H
 #define FILE_NPY_H
 #include <stdio.h>
@@ -25,5 +25,8 @@ bool npy_read(const char *path, const struct bytes *b, struct arena *a, struct n
 /* The header of a table of so many rows, which follow as n little-endian doubles each. Fields: all together shorter
    than NPY_HEADER - 20 n - 100 characters. A failed write shows in the stream. */
 void npy_write(FILE *f, const char *const *fields, size_t n, size_t rows);
+
+/* The header of an array of doubles; of one row: of one dimension. */
+void npy_write_array(FILE *f, size_t rows, size_t columns);
 
 #endif

@@ -1,4 +1,4 @@
-/* The writer of wav.h; the reader is wav_read.c.
+/* libsndfile scales integers so that 2^(bits-1) is 1, which is exact in double.
 
    Integers are made here, because libsndfile truncates and clips doubles: rint(x 2^(bits-1)), handed over in the upper
    bits of an int, which libsndfile shifts back. libsndfile's own RF64 with automatic downgrade is not used: it writes
@@ -11,13 +11,161 @@
 #include <float.h>
 #include <math.h>
 #include <sndfile.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/memory.h"
 #include "base/outfile.h"
+#include "file/bytes.h"
 #include "num/lanes.h"
 #include "num/real.h"
+
+/* Bytes by which a RIFF or RF64 file is shorter than its data chunk says; 0 for other files and for a length left open
+   by a program that wrote into a pipe. */
+static double missing_bytes(FILE *f)
+{
+    unsigned char head[12], long_data[28];
+    double length = 0, size, open_end = 4294967295.0;
+    if (fread(head, 1, 12, f) != 12 || memcmp(head + 8, "WAVE", 4) != 0 ||
+        (memcmp(head, "RIFF", 4) && memcmp(head, "RF64", 4)))
+        return 0;
+    while (fread(head, 1, 8, f) == 8) {
+        size = (double)bytes_word(head + 4, 4);
+        if (!memcmp(head, "data", 4)) {
+            off_t at = ftello(f);
+            fseeko(f, 0, SEEK_END);
+            size = size == open_end ? length : size;
+            return fmax(0, (double)at + size - (double)ftello(f));
+        }
+        if (!memcmp(head, "ds64", 4) && size >= 28 && fread(long_data, 1, 28, f) == 28) {
+            length = (double)bytes_word(long_data + 8, 8);
+            size -= 28;
+        }
+        if (fseeko(f, (off_t)(size + fmod(size, 2)), SEEK_CUR) != 0) break;
+    }
+    return 0;
+}
+
+/* A sound file before libsndfile has it: it shortens a truncated RIFF file without a word, so the data chunk's length
+ * is held against the file's length here. */
+
+/* ERR_INPUT: missing, unreadable, or not a file; ERR_SCENE: truncated. Whether it is a sound file at all is not looked
+ * at. */
+static bool check_file(const char *path, struct err *e)
+{
+    struct stat s;
+    if (stat(path, &s) == 0 && !S_ISREG(s.st_mode)) /* to open a pipe is to wait for who writes into it */
+        return err_set(e, ERR_INPUT, "%s: is not a file", path);
+    FILE *f = memory_fopen(path, "rb");
+    if (!f) return err_set(e, err_system(ERR_INPUT), "%s: %s", path, strerror(errno));
+    double missing = missing_bytes(f);
+    fclose(f);
+    if (missing > 0)
+        return err_set(e, ERR_SCENE, "%s: is truncated: its last %.0f bytes are missing: copy or export it again", path,
+                       missing);
+    return true;
+}
+
+/* libsndfile scales integers so that 2^(bits-1) is 1, which is exact in double. */
+
+static int integer_bits(int format)
+{
+    switch (format & SF_FORMAT_SUBMASK) {
+    case SF_FORMAT_PCM_S8:
+    case SF_FORMAT_PCM_U8:
+        return 8;
+    case SF_FORMAT_PCM_16:
+        return 16;
+    case SF_FORMAT_PCM_24:
+        return 24;
+    case SF_FORMAT_PCM_32:
+        return 32;
+    default:
+        return 0;
+    }
+}
+
+/* A hostile header may claim more than any machine holds; no encoding gets 32768 samples out of a byte. */
+static bool check_info(const char *path, const SF_INFO *i, struct err *e)
+{
+    struct stat s;
+    if (i->frames <= 0) return err_set(e, ERR_SCENE, "%s: has no samples: name another file", path);
+    if (stat(path, &s) != 0 || (double)i->frames * i->channels > 32768.0 * (double)s.st_size)
+        return err_set(e, ERR_SCENE, "%s: its header says %lld frames, more than the file can hold", path,
+                       (long long)i->frames);
+    return true;
+}
+
+static bool check_finite(const char *path, const struct wav *w, struct err *e)
+{
+    for (size_t i = 0; i < w->frames * (size_t)w->channels; i++)
+        if (!isfinite(w->x[i]))
+            return err_set(e, ERR_SCENE, "%s: frame %zu, channel %d: %g is not finite: mend it", path,
+                           i / (size_t)w->channels, (int)(i % (size_t)w->channels) + 1, w->x[i]);
+    return true;
+}
+
+static bool read_samples(const char *path, SNDFILE *f, struct wav *w, struct err *e)
+{
+    sf_count_t got = sf_readf_double(f, w->x, (sf_count_t)w->frames);
+    if (got != (sf_count_t)w->frames)
+        return err_set(e, ERR_SCENE, "%s: ends at frame %lld of %zu", path, (long long)got, w->frames);
+    return check_finite(path, w, e);
+}
+
+static SNDFILE *sound_read(const char *path, SF_INFO *i, struct err *e)
+{
+    if (!check_file(path, e)) return NULL;
+    memory_spare(1 << 16); /* libsndfile 1.2 writes through a null pointer where it cannot note a WAV's chunks */
+    errno = 0;
+    SNDFILE *f = sf_open(path, SFM_READ, i);
+    if (!f && errno == ENOMEM)
+        err_set(e, ERR_MEMORY, "%s: out of memory", path);
+    else if (!f)
+        err_set(e, ERR_SCENE, "%s: is not a sound file that can be read: %s", path, sf_strerror(NULL));
+    return f;
+}
+
+bool wav_read(const char *path, struct arena *a, struct wav *w, struct err *e)
+{
+    SF_INFO i = {0};
+    SNDFILE *f = sound_read(path, &i, e);
+    if (!f) return false;
+    bool ok = check_info(path, &i, e);
+    if (ok) {
+        *w = (struct wav){
+            .rate = i.samplerate, .channels = i.channels, .frames = (size_t)i.frames, .bits = integer_bits(i.format)};
+        w->x = ARENA_TAKE(a, double, w->frames *(size_t)w->channels);
+        ok = read_samples(path, f, w, e);
+    }
+    sf_close(f);
+    return ok;
+}
+
+bool wav_stream_open(struct wav_stream *w, const char *path, struct err *e)
+{
+    SF_INFO i = {0};
+    SNDFILE *f = sound_read(path, &i, e);
+    *w = (struct wav_stream){f, path, i.samplerate, i.channels, (long)i.frames};
+    return f;
+}
+
+bool wav_stream_read(struct wav_stream *w, double *x, long most, long *n, struct err *e)
+{
+    long wanted = w->frames < most ? w->frames : most;
+    *n = wanted > 0 ? (long)sf_readf_double(w->file, x, wanted) : 0;
+    w->frames -= *n;
+    return *n == wanted || err_set(e, ERR_SCENE, "%s: ends %ld frames before its header says", w->path, w->frames);
+}
+
+void wav_stream_close(struct wav_stream *w)
+{
+    if (w->file) sf_close(w->file);
+    w->file = NULL;
+}
 
 enum { PIECE = 4096 /* samples converted at a time */, COPY = 1 << 16 /* bytes; at least one frame */ };
 
@@ -30,8 +178,8 @@ struct wav_out {
     char *path;
     double frames, riff_bytes;
     bool long_file; /* RF64 already */
-    bool *heard;    /* [channels] */
-    int unheard;    /* channels */
+    bool *audible;  /* [channels] */
+    int silent;     /* channels */
     double beyond, peak;
 };
 
@@ -106,7 +254,7 @@ static void wav_free(struct wav_out *w)
     free((char *)w->format.title);
     free((char *)w->format.comment);
     free(w->path);
-    free(w->heard);
+    free(w->audible);
     free(w);
 }
 
@@ -118,9 +266,9 @@ static struct wav_out *wav_new(const char *path, const struct wav_format *f)
     w->path = strdup(path);
     w->format.title = f->title ? strdup(f->title) : NULL;
     w->format.comment = f->comment ? strdup(f->comment) : NULL;
-    w->heard = calloc((size_t)f->channels, sizeof *w->heard);
-    w->unheard = f->channels;
-    if (w->path && w->heard && (w->format.title || !f->title) && (w->format.comment || !f->comment)) return w;
+    w->audible = calloc((size_t)f->channels, sizeof *w->audible);
+    w->silent = f->channels;
+    if (w->path && w->audible && (w->format.title || !f->title) && (w->format.comment || !f->comment)) return w;
     wav_free(w);
     return NULL;
 }
@@ -244,11 +392,11 @@ static int integers_of(const double *x, size_t n, int bits, int *y)
 }
 
 /* Sample i of a piece, which begins with a frame, is not 0. */
-static void hear(struct wav_out *w, size_t i)
+static void note_audible(struct wav_out *w, size_t i)
 {
-    bool *heard = &w->heard[i % (size_t)w->format.channels];
-    w->unheard -= !*heard;
-    *heard = true;
+    bool *audible = &w->audible[i % (size_t)w->format.channels];
+    w->silent -= !*audible;
+    *audible = true;
 }
 
 LANES_CLONES
@@ -274,8 +422,8 @@ static bool write_integers(struct wav_out *w, const double *x, size_t n, struct 
             i++;
         return sample_bad(w, i, x[i], e);
     }
-    for (size_t i = 0; w->unheard && i < n; i++)
-        if (y[i]) hear(w, i);
+    for (size_t i = 0; w->silent && i < n; i++)
+        if (y[i]) note_audible(w, i);
     errno = 0;
     return sf_write_int(w->sound, y, (sf_count_t)n) == (sf_count_t)n || write_failed(w, e);
 }
@@ -283,14 +431,14 @@ static bool write_integers(struct wav_out *w, const double *x, size_t n, struct 
 static bool write_floats(struct wav_out *w, const double *x, size_t n, struct err *e)
 {
     float y[PIECE];
-    double held[PIECE];
+    double stored[PIECE];
     for (size_t i = 0; i < n; i++) {
         if (!(fabs(x[i]) <= FLT_MAX)) return sample_bad(w, i, x[i], e);
-        held[i] = y[i] = (float)x[i];
+        stored[i] = y[i] = (float)x[i];
     }
-    for (size_t i = 0; w->unheard && i < n; i++)
-        if (y[i] != 0) hear(w, i);
-    look_beyond(held, n, &w->beyond, &w->peak);
+    for (size_t i = 0; w->silent && i < n; i++)
+        if (y[i] != 0) note_audible(w, i);
+    look_beyond(stored, n, &w->beyond, &w->peak);
     errno = 0;
     return sf_write_float(w->sound, y, (sf_count_t)n) == (sf_count_t)n || write_failed(w, e);
 }
@@ -299,8 +447,8 @@ static bool write_doubles(struct wav_out *w, const double *x, size_t n, struct e
 {
     for (size_t i = 0; i < n; i++)
         if (!isfinite(x[i])) return sample_bad(w, i, x[i], e);
-    for (size_t i = 0; w->unheard && i < n; i++)
-        if (x[i] != 0) hear(w, i);
+    for (size_t i = 0; w->silent && i < n; i++)
+        if (x[i] != 0) note_audible(w, i);
     look_beyond(x, n, &w->beyond, &w->peak);
     errno = 0;
     return sf_write_double(w->sound, x, (sf_count_t)n) == (sf_count_t)n || write_failed(w, e);
@@ -326,13 +474,13 @@ bool wav_write(struct wav_out *w, const double *x, size_t frames, struct err *e)
 
 struct wav_written wav_written(const struct wav_out *w)
 {
-    return (struct wav_written){w->format.channels, w->frames, w->heard, w->beyond, w->peak};
+    return (struct wav_written){w->format.channels, w->frames, w->audible, w->beyond, w->peak};
 }
 
-bool wav_written_heard(const struct wav_written *w)
+bool wav_written_audible(const struct wav_written *w)
 {
     for (int k = 0; k < w->channels; k++)
-        if (w->heard[k]) return true;
+        if (w->audible[k]) return true;
     return false;
 }
 
@@ -349,7 +497,7 @@ static bool clear_peak_time(struct wav_out *w, struct err *e)
     return true;
 }
 
-bool wav_settle(struct wav_out *w, struct err *e)
+bool wav_finish(struct wav_out *w, struct err *e)
 {
     if (!w->sound) return true;
     errno = 0;
@@ -363,7 +511,7 @@ const char *wav_temporary(const struct wav_out *w) { return w->out.temporary; }
 
 bool wav_commit(struct wav_out *w, struct err *e)
 {
-    bool ok = wav_settle(w, e) && outfile_commit(&w->out, e);
+    bool ok = wav_finish(w, e) && outfile_commit(&w->out, e);
     wav_free(w);
     return ok;
 }

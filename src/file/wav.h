@@ -37,23 +37,48 @@ struct wav_format {
    errors: ERR_CREATE, ERR_IO, ERR_SCENE (a format that cannot be). After an error only wav_drop may follow; commit and
    drop free w. */
 struct wav_out *wav_create(const char *path, const struct wav_format *f, struct err *e);
+
 bool wav_write(struct wav_out *w, const double *x, size_t frames, struct err *e);
+
 /* Sets the comment (ICMT) before the first frame is written. */
 bool wav_comment(struct wav_out *w, const char *text, struct err *e);
+
 /* What the samples are that have been written, as the file holds them: rounded to its encoding. */
 struct wav_written {
     int channels;
     double frames;
-    const bool *heard;   /* [channels] some sample of it is not 0; lasts as long as w */
+    const bool *audible; /* [channels] some sample of it is not 0; lasts as long as w */
     double beyond, peak; /* samples beyond full scale (of floating point, by more than 1e-12 of it), and the greatest of
                             them; 0: none */
 };
-struct wav_written wav_written(const struct wav_out *w);
-bool wav_written_heard(const struct wav_written *w); /* some sample of any channel is not 0 */
 
-bool wav_settle(struct wav_out *w, struct err *e);  /* as outfile_settle */
+struct wav_written wav_written(const struct wav_out *w);
+
+bool wav_written_audible(const struct wav_written *w); /* some sample of any channel is not 0 */
+
+bool wav_finish(struct wav_out *w, struct err *e); /* as outfile_settle */
+
 const char *wav_temporary(const struct wav_out *w); /* where it lies once it is settled, until it is committed */
+
 bool wav_commit(struct wav_out *w, struct err *e);
+
 void wav_drop(struct wav_out *w);
+
+/* A sound file read piece by piece, so that memory does not grow with it. */
+struct wav_stream {
+    void *file;       /* SNDFILE */
+    const char *path; /* must live as long */
+    double rate;      /* Hz */
+    int channels;
+    long frames;
+};
+
+/* ERR_INPUT, ERR_SCENE as wav_read: a truncated file is refused. */
+bool wav_stream_open(struct wav_stream *w, const char *path, struct err *e);
+
+/* The next frames [n][channels] of at most `most`; *n 0 at the end. ERR_SCENE: fewer than the header says. */
+bool wav_stream_read(struct wav_stream *w, double *x, long most, long *n, struct err *e);
+
+void wav_stream_close(struct wav_stream *w);
 
 #endif

@@ -1,7 +1,15 @@
 /* Nodes: making and finding them; see yaml.h. */
 #include "file/yaml.h"
 
+#include <errno.h>
+#include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <yaml.h>
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "file/bytes.h"
 
 struct yaml *yaml_open(struct arena *a)
 {
@@ -61,4 +69,447 @@ struct yaml_node *yaml_find(struct yaml_node *map, const char *path)
         path += n + 1;
     }
     return NULL;
+}
+
+/* Reads and checks the bytes of a YAML text. What is refused here libyaml would refuse too, but
+   without a line, or take for an encoding other than UTF-8. */
+
+enum { SIZE_MAX_BYTES = 4 << 20 };
+
+static bool unreadable(struct yaml *y, const char *file, struct diag_place named)
+{
+    bool pipe = errno == ENXIO;
+    const char *why = pipe ? "it is a pipe" : strerror(errno);
+    y->missing = true;
+    if (named.source)
+        diag_add(y->diag, named,
+                 pipe ? "only what the command line names may be one: save it as a file"
+                      : "a path in a file is relative to that file's folder",
+                 "cannot read '%s': %s", file, why);
+    else
+        diag_add(y->diag, (struct diag_place){yaml_source(y, file, "", 0), 0, 0, 0}, NULL, "cannot be read: %s", why);
+    return false;
+}
+
+static bool too_large(struct yaml *y, const struct diag_source *source)
+{
+    diag_add(y->diag, (struct diag_place){source, 0, 0, 0}, "is it a scene? measured data belong in files of their own",
+             "larger than %d MiB", SIZE_MAX_BYTES >> 20);
+    return false;
+}
+
+const char *yaml_bytes_text(const char *file, struct arena *a, size_t *size)
+{
+    struct bytes b;
+    if (bytes_piped(file)) return bytes_piped_read(file, SIZE_MAX_BYTES, size);
+    FILE *in = memory_fopen(file, "rb");
+    bool good = in && bytes_stream(in, 1 << 16, SIZE_MAX_BYTES, a, &b);
+    int why = errno;
+    if (in) fclose(in);
+    errno = why;
+    if (good) *size = b.n;
+    return good ? b.at : NULL;
+}
+
+static void note_file(struct yaml *y, const char *name)
+{
+    struct yaml_file *f = ARENA_TAKE(y->arena, struct yaml_file, 1);
+    f->name = name;
+    *(y->last_file ? &y->last_file->next : &y->files) = f;
+    y->last_file = f;
+}
+
+struct diag_source *yaml_bytes_read(struct yaml *y, const char *file, struct diag_place named)
+{
+    size_t size;
+    struct stat s;
+    bool waits = named.source && !named.source->made && stat(file, &s) == 0 &&
+                 S_ISFIFO(s.st_mode); /* until somebody writes into it */
+    const char *text = waits ? NULL : yaml_bytes_text(file, y->arena, &size);
+    if (!text) {
+        errno = waits ? ENXIO : errno;
+        unreadable(y, file, named);
+        return NULL;
+    }
+    const char *name = arena_text(y->arena, file);
+    note_file(y, name);
+    struct diag_source *source = yaml_source(y, name, text, size);
+    source->named = named;
+    return source;
+}
+
+static const char *byte_order_mark(const struct diag_source *s)
+{
+    if (s->size >= 3 && memcmp(s->text, "\xef\xbb\xbf", 3) == 0) return "UTF-8 with a byte order mark";
+    if (s->size >= 2 && (memcmp(s->text, "\xff\xfe", 2) == 0 || memcmp(s->text, "\xfe\xff", 2) == 0))
+        return "UTF-16 or UTF-32";
+    return NULL;
+}
+
+/* YAML's printable characters and line breaks. */
+static bool printable(uint32_t c)
+{
+    return c == '\t' || c == '\n' || c == '\r' || (c >= 0x20 && c <= 0x7e) || c == 0x85 ||
+           (c >= 0xa0 && c != 0xfeff && c != 0xfffe && c != 0xffff);
+}
+
+static bool line_break(uint32_t c, char next)
+{
+    return c == '\n' || (c == '\r' && next != '\n') || c == 0x85 || c == 0x2028 || c == 0x2029;
+}
+
+static bool bad_character(struct yaml *y, struct diag_place at, int length, uint32_t code)
+{
+    if (length == 0)
+        diag_add(y->diag, at, "save the file with the encoding UTF-8", "not valid UTF-8");
+    else if (code == 0)
+        diag_add(y->diag, at, "save the file as plain text in UTF-8", "a NUL byte");
+    else
+        diag_add(y->diag, at, "remove it", "control character U+%04X", (unsigned)code);
+    return false;
+}
+
+/* UTF-8 without byte order mark, NUL or control characters, at most 4 MiB; else an error is told. */
+static bool text_good(struct yaml *y, const struct diag_source *s)
+{
+    struct diag_place at = {s, 1, 1, 1};
+    const char *mark = byte_order_mark(s);
+    if (s->size > SIZE_MAX_BYTES) return too_large(y, s);
+    if (mark) {
+        diag_add(y->diag, (struct diag_place){s, 0, 0, 0}, "save the file as UTF-8 without a byte order mark (BOM)",
+                 "encoded as %s", mark);
+        return false;
+    }
+    for (size_t i = 0; i < s->size;) {
+        uint32_t code = 0;
+        int length = text_utf8(s->text + i, s->size - i, &code);
+        if (length == 0 || !printable(code)) return bad_character(y, at, length, code);
+        i += (size_t)length;
+        at.column++;
+        if (line_break(code, i < s->size ? s->text[i] : '\0')) {
+            at.line++;
+            at.column = 1;
+        }
+    }
+    return true;
+}
+
+/* libyaml's events into nodes. libyaml itself takes duplicate keys silently and leaves aliases to its
+   caller; an anchor counts from the end of its value, so that nothing can contain itself. */
+
+enum { NODES_MAX = 100000, DEPTH_MAX = 64, KEYS_MAX = 1000, ANCHORS_MAX = 1000 };
+
+struct event {
+    yaml_event_type_t type;
+    struct diag_place at;
+    const char *text, *anchor;
+    size_t size;
+    bool plain, tagged;
+};
+
+struct anchor {
+    const char *name;
+    const struct yaml_node *node;
+};
+
+struct parse {
+    struct yaml *y;
+    const struct diag_source *source;
+    yaml_parser_t *parser;
+    int shift; /* characters before the parsed text on its first line */
+    int depth;
+    struct anchor *anchors;
+    int n_anchors;
+};
+
+/* ------------------------------------------------------------------ events */
+
+static int column_of(const struct parse *p, const yaml_mark_t *mark)
+{
+    return (int)mark->column + 1 + (mark->line == 0 ? p->shift : 0);
+}
+
+static struct diag_place place_of(const struct parse *p, const yaml_mark_t *from, const yaml_mark_t *to)
+{
+    bool one_line = from->line == to->line;
+    int width = one_line && to->column > from->column ? (int)(to->column - from->column) : one_line ? 1 : 0;
+    return (struct diag_place){p->source, (int)from->line + 1, column_of(p, from), width};
+}
+
+static const char *syntax_cure(const char *problem)
+{
+    if (strstr(problem, "cannot start any token") || strstr(problem, "tab character"))
+        return "indent with spaces, not tabs; put quotes around a text that starts with @, ` or %";
+    if (strstr(problem, "mapping values")) return "check the indentation; put quotes around a text that holds ': '";
+    if (strstr(problem, "expected key") || strstr(problem, "block end") || strstr(problem, "expected ':'"))
+        return "check the indentation, and that each key is followed by ': ' with a space";
+    return "check quotes, brackets and indentation near here";
+}
+
+static void syntax_error(struct parse *p)
+{
+    if (p->parser->error == YAML_MEMORY_ERROR) memory_out("for %.200s", p->source->name);
+    const char *problem = p->parser->problem ? p->parser->problem : "cannot be read";
+    struct diag_place at = {p->source, (int)p->parser->problem_mark.line + 1, column_of(p, &p->parser->problem_mark),
+                            1};
+    diag_add(p->y->diag, at, syntax_cure(problem), "not valid YAML: %s", problem);
+}
+
+static const char *copy_of(struct parse *p, const yaml_char_t *s, size_t size)
+{
+    char *copy = arena_take(p->y->arena, size + 1, 1);
+    memcpy(copy, s, size);
+    return copy;
+}
+
+static struct event event_of(struct parse *p, const yaml_event_t *from)
+{
+    struct event ev = {.type = from->type, .at = place_of(p, &from->start_mark, &from->end_mark)};
+    const yaml_char_t *anchor = NULL;
+    if (from->type == YAML_SCALAR_EVENT) {
+        ev.text = copy_of(p, from->data.scalar.value, from->data.scalar.length);
+        ev.size = from->data.scalar.length;
+        ev.plain = from->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
+        ev.tagged = from->data.scalar.tag != NULL;
+        anchor = from->data.scalar.anchor;
+    } else if (from->type == YAML_SEQUENCE_START_EVENT) {
+        ev.tagged = from->data.sequence_start.tag != NULL;
+        anchor = from->data.sequence_start.anchor;
+    } else if (from->type == YAML_MAPPING_START_EVENT) {
+        ev.tagged = from->data.mapping_start.tag != NULL;
+        anchor = from->data.mapping_start.anchor;
+    } else if (from->type == YAML_ALIAS_EVENT) {
+        anchor = from->data.alias.anchor;
+    }
+    ev.anchor = anchor ? copy_of(p, anchor, strlen((const char *)anchor)) : NULL;
+    return ev;
+}
+
+static bool event_next(struct parse *p, struct event *ev)
+{
+    yaml_event_t raw;
+    if (!yaml_parser_parse(p->parser, &raw)) {
+        syntax_error(p);
+        return false;
+    }
+    *ev = event_of(p, &raw);
+    yaml_event_delete(&raw);
+    return true;
+}
+
+/* ------------------------------------------------------------------ nodes */
+
+static bool room_for_one(struct parse *p, struct diag_place at)
+{
+    return ++p->y->nodes <= NODES_MAX ||
+           diag_add(p->y->diag, at, "a scene needs a few hundred; look for aliases (*name) of aliases",
+                    "more than %d values after expanding aliases", NODES_MAX);
+}
+
+static struct yaml_node *node_new(struct parse *p, enum yaml_kind kind, struct diag_place at, const char *text)
+{
+    return room_for_one(p, at) ? yaml_make(p->y, kind, at, text) : NULL;
+}
+
+/* A copy keeps the place of what it is a copy of; too many are the alias's fault. */
+static struct yaml_node *node_copy(struct parse *p, const struct yaml_node *from, struct diag_place alias)
+{
+    if (!room_for_one(p, alias)) return NULL;
+    struct yaml_node *copy = yaml_make(p->y, from->kind, from->at, from->text);
+    copy->plain = from->plain;
+    for (const struct yaml_node *item = from->first; item; item = item->next) {
+        struct yaml_node *value = node_copy(p, item, alias);
+        if (!value) return NULL;
+        yaml_append(copy, item->key, value);
+    }
+    return copy;
+}
+
+static struct yaml_node *alias_read(struct parse *p, const struct event *ev)
+{
+    for (int i = p->n_anchors - 1; i >= 0; i--)
+        if (strcmp(p->anchors[i].name, ev->anchor) == 0) return node_copy(p, p->anchors[i].node, ev->at);
+    diag_add(p->y->diag, ev->at,
+             "an anchor (&name) must stand before its aliases (*name); put quotes around a text that starts with *",
+             "no anchor '%s' before this", diag_shown(p->y->diag, ev->anchor));
+    return NULL;
+}
+
+static struct yaml_node *scalar_read(struct parse *p, const struct event *ev)
+{
+    struct yaml_node *node = node_new(p, YAML_SCALAR, ev->at, ev->text);
+    if (!node) return NULL;
+    node->plain = ev->plain;
+    if (strlen(ev->text) == ev->size) return node;
+    diag_add(p->y->diag, ev->at, "remove \\0 or \\x00", "a text must not hold a NUL character");
+    return NULL;
+}
+
+static struct yaml_node *node_read(struct parse *p, const struct event *ev);
+
+/* A map or list starts with an event of its own; its place is widened to its end when that is on the same line. */
+static void close_place(struct yaml_node *node, const struct event *end)
+{
+    if (end->at.line == node->at.line && end->at.column >= node->at.column)
+        node->at.width = end->at.column + end->at.width - node->at.column;
+    else
+        node->at.width = 0;
+}
+
+static struct yaml_node *list_read(struct parse *p, const struct event *start)
+{
+    struct yaml_node *list = node_new(p, YAML_LIST, start->at, NULL), *item;
+    struct event ev;
+    while (list && event_next(p, &ev)) {
+        if (ev.type == YAML_SEQUENCE_END_EVENT) {
+            close_place(list, &ev);
+            return list;
+        }
+        if (!(item = node_read(p, &ev))) return NULL;
+        yaml_append(list, NULL, item);
+    }
+    return NULL;
+}
+
+static const char *first_set(struct parse *p, const struct yaml_node *key)
+{
+    return arena_format(p->y->arena, "first set on line %d", key->at.line);
+}
+
+/* Is the pair to be kept? If not, says why. */
+static bool key_good(struct parse *p, const struct yaml_node *map, const struct yaml_node *key)
+{
+    const struct yaml_node *same = key->kind == YAML_SCALAR ? yaml_get(map, key->text) : NULL;
+    if (key->kind != YAML_SCALAR)
+        diag_add(p->y->diag, key->at, "write a word, a colon and a space", "a key must be a word, not a map or list");
+    else if (key->plain && strcmp(key->text, "<<") == 0)
+        diag_add(p->y->diag, key->at, "write the keys out, or put them into a file of their own and include: it",
+                 "'<<' is not supported");
+    else if (same)
+        diag_add(p->y->diag, key->at, first_set(p, same->key), "duplicate key '%s'", diag_shown(p->y->diag, key->text));
+    else
+        return true;
+    return false;
+}
+
+static bool pair_read(struct parse *p, struct yaml_node *map, const struct event *key_event)
+{
+    struct yaml_node *key = node_read(p, key_event), *value = NULL;
+    struct event ev;
+    if (!key || !event_next(p, &ev) || !(value = node_read(p, &ev))) return false;
+    if (map->n == KEYS_MAX) {
+        diag_add(p->y->diag, key->at, NULL, "more than %d keys in one map", KEYS_MAX);
+        return false;
+    }
+    if (key_good(p, map, key)) yaml_append(map, key, value);
+    return true;
+}
+
+static struct yaml_node *map_read(struct parse *p, const struct event *start)
+{
+    struct yaml_node *map = node_new(p, YAML_MAP, start->at, NULL);
+    struct event ev;
+    while (map && event_next(p, &ev)) {
+        if (ev.type == YAML_MAPPING_END_EVENT) {
+            close_place(map, &ev);
+            return map;
+        }
+        if (!pair_read(p, map, &ev)) return NULL;
+    }
+    return NULL;
+}
+
+static struct yaml_node *kind_read(struct parse *p, const struct event *ev)
+{
+    switch (ev->type) {
+    case YAML_ALIAS_EVENT:
+        return alias_read(p, ev);
+    case YAML_SCALAR_EVENT:
+        return scalar_read(p, ev);
+    case YAML_SEQUENCE_START_EVENT:
+        return list_read(p, ev);
+    case YAML_MAPPING_START_EVENT:
+        return map_read(p, ev);
+    default:
+        return NULL;
+    }
+}
+
+static bool anchor_add(struct parse *p, const struct event *ev, const struct yaml_node *node)
+{
+    if (p->n_anchors == ANCHORS_MAX) {
+        diag_add(p->y->diag, ev->at, NULL, "more than %d anchors", ANCHORS_MAX);
+        return false;
+    }
+    if (!p->anchors) p->anchors = ARENA_TAKE(p->y->arena, struct anchor, ANCHORS_MAX);
+    p->anchors[p->n_anchors++] = (struct anchor){ev->anchor, node};
+    return true;
+}
+
+static struct yaml_node *node_read(struct parse *p, const struct event *ev)
+{
+    if (ev->tagged)
+        diag_add(p->y->diag, ev->at, "remove the tag (!...); put quotes around a text that starts with !",
+                 "tags are not supported");
+    if (p->depth == DEPTH_MAX) {
+        diag_add(p->y->diag, ev->at, NULL, "nested more than %d deep", DEPTH_MAX);
+        return NULL;
+    }
+    p->depth++;
+    struct yaml_node *node = kind_read(p, ev);
+    p->depth--;
+    if (node && ev->anchor && ev->type != YAML_ALIAS_EVENT && !anchor_add(p, ev, node)) return NULL;
+    return node;
+}
+
+/* ------------------------------------------------------------------ documents */
+
+static struct yaml_node *document_read(struct parse *p)
+{
+    struct event ev;
+    if (!event_next(p, &ev) || !event_next(p, &ev)) /* the stream's start, then the document's */
+        return NULL;
+    if (ev.type == YAML_STREAM_END_EVENT) {
+        diag_add(p->y->diag, (struct diag_place){p->source, 0, 0, 0}, "rasp new prints a scene to start from",
+                 "there is nothing in it");
+        return NULL;
+    }
+    if (!event_next(p, &ev)) return NULL;
+    struct yaml_node *root = node_read(p, &ev);
+    if (!root || !event_next(p, &ev) || !event_next(p, &ev)) /* the document's end, then the stream's */
+        return NULL;
+    if (ev.type == YAML_STREAM_END_EVENT) return root;
+    diag_add(p->y->diag, ev.at, "one file holds one document: put the second into a file of its own",
+             "a second document starts here");
+    return NULL;
+}
+
+static struct yaml_node *text_read(struct yaml *y, const struct diag_source *source, size_t from)
+{
+    yaml_parser_t parser;
+    if (!yaml_parser_initialize(&parser)) memory_out("for %.200s", source->name);
+    struct parse p = {.y = y, .source = source, .parser = &parser, .shift = (int)text_utf8_count(source->text, from)};
+    yaml_parser_set_encoding(&parser, YAML_UTF8_ENCODING);
+    yaml_parser_set_input_string(&parser, (const unsigned char *)source->text + from, source->size - from);
+    struct yaml_node *root = document_read(&p);
+    yaml_parser_delete(&parser);
+    return root;
+}
+
+struct yaml_node *yaml_parse(struct yaml *y, const struct diag_source *source)
+{
+    return text_good(y, source) ? text_read(y, source, 0) : NULL;
+}
+
+struct yaml_node *yaml_parse_value(struct yaml *y, const struct diag_source *source, size_t from)
+{
+    if (!text_good(y, source)) return NULL;
+    from += strspn(source->text + from, " \t");
+    if (source->text[from] && strchr("[{\"'", source->text[from])) return text_read(y, source, from);
+    size_t size = source->size - from;
+    while (size > 0 && strchr(" \t\r\n", source->text[from + size - 1]))
+        size--;
+    int column = (int)text_utf8_count(source->text, from) + 1, width = (int)text_utf8_count(source->text + from, size);
+    struct diag_place at = {source, 1, column, width > 0 ? width : 1};
+    return yaml_make(y, YAML_SCALAR, at, arena_format(y->arena, "%.*s", (int)size, source->text + from));
 }

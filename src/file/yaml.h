@@ -1,4 +1,4 @@
-/* YAML as a tree in which every node knows its place, read with libyaml (file/yaml_parse.h).
+/* YAML as a tree in which every node knows its place, read with libyaml (yaml_parse).
 
    Scalars stay texts: what `yes`, `010` or `1:30` mean is up to who reads them. */
 #ifndef FILE_YAML_H
@@ -49,6 +49,7 @@ bool yaml_null(const struct yaml_node *node);
 /* Value of a key of a map; of a dotted path through maps. NULL: there is none (or something on the way is not a map).
  */
 struct yaml_node *yaml_get(const struct yaml_node *map, const char *key);
+
 struct yaml_node *yaml_find(struct yaml_node *map, const char *path);
 
 /* A new scalar or an empty map or list. */
@@ -56,5 +57,26 @@ struct yaml_node *yaml_make(struct yaml *y, enum yaml_kind kind, struct diag_pla
 
 /* Appends to a map (key is a scalar) or a list (key NULL). */
 void yaml_append(struct yaml_node *parent, struct yaml_node *key, struct yaml_node *value);
+
+/* The text of a file, or of a pipe (file/bytes.h), with a 0 behind it; of more than 4 MiB not all. NULL: errno */
+const char *yaml_bytes_text(const char *file, struct arena *a, size_t *size);
+
+/* The file as a source; NULL: an error, reported at the place that names the file (source NULL: none does); y->missing
+   is then set. A pipe is read where the command line names it, not where a text does. */
+struct diag_source *yaml_bytes_read(struct yaml *y, const char *file, struct diag_place named);
+
+/* YAML texts into nodes.
+
+   A strict part of YAML 1.1: one document, keys that are words and differ, no tags, no `<<`; anchors and aliases,
+   expanded into copies. Limits: 4 MiB a file, 100000 nodes after expansion (over all files of one struct yaml), depth
+   64, 1000 keys in a map, 1000 anchors. Every error goes to the diagnostics, with its place and a cure. */
+
+/* The source's one document; NULL: an error. Errors that leave the rest readable (duplicate keys: the first counts) are
+ * only reported. */
+struct yaml_node *yaml_parse(struct yaml *y, const struct diag_source *source);
+
+/* The value that starts at byte `from` of an option's text: a YAML flow value where it starts with [ { " or ', else the
+   whole rest as a plain scalar. NULL: an error. */
+struct yaml_node *yaml_parse_value(struct yaml *y, const struct diag_source *source, size_t from);
 
 #endif

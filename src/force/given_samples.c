@@ -9,7 +9,7 @@
 
 #include "base/shelf.h"
 #include "file/bytes.h"
-#include "file/heightfile_npy.h"
+#include "file/heightfile_formats.h"
 #include "file/npy.h"
 #include "file/wav.h"
 #include "force/given.h"
@@ -51,7 +51,7 @@ static bool given_make(const char *path, const void *how, struct arena *a, void 
     (void)how;
     bool ok = bytes_read(path, scratch, &b, e);
     f->is_npy = ok && npy_is(&b);
-    ok = ok && (f->is_npy ? heightfile_npy_read(path, &b, a, &f->npy, e) : wav_read(path, a, &f->wav, e));
+    ok = ok && (f->is_npy ? heightfile_formats_npy_read(path, &b, a, &f->npy, e) : wav_read(path, a, &f->wav, e));
     arena_close(scratch);
     return ok;
 }

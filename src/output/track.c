@@ -182,9 +182,9 @@ struct wav_written *track_written(const struct track *t, struct arena *a)
 {
     struct wav_written *w = ARENA_TAKE(a, struct wav_written, 1);
     *w = wav_written(t->wav);
-    bool *heard = ARENA_TAKE(a, bool, w->channels);
-    memcpy(heard, w->heard, (size_t)w->channels * sizeof *heard);
-    w->heard = heard;
+    bool *audible = ARENA_TAKE(a, bool, w->channels);
+    memcpy(audible, w->audible, (size_t)w->channels * sizeof *audible);
+    w->audible = audible;
     return w;
 }
 
@@ -197,7 +197,7 @@ static void forget(struct track *t)
 bool track_settle(struct track *t, struct err *e)
 {
     forget(t);
-    return wav_settle(t->wav, e);
+    return wav_finish(t->wav, e);
 }
 
 bool track_commit(struct track *t, struct err *e)

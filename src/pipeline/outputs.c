@@ -9,7 +9,7 @@
 
 #include "base/hash.h"
 #include "base/memory.h"
-#include "file/folder_index.h"
+#include "file/csv.h"
 #include "output/mark.h"
 #include "pipeline/plan.h"
 #include "scene/ball.h"
@@ -138,7 +138,7 @@ static void note(struct sources *all, const struct scene *s, const char *file, c
 static void note_key(struct sources *all, const struct scene *s, const char *file, const char *what)
 {
     int n = 0;
-    const char **files = file ? folder_index_files(file, &n, all->arena) : NULL;
+    const char **files = file ? csv_folder_files(file, &n, all->arena) : NULL;
     note(all, s, file, what);
     for (int i = 0; i < n; i++)
         note(all, s, files[i], what);

@@ -230,10 +230,11 @@ static json_t *channels_json(const struct scene *s, const struct sound_report *o
     json_t *all = json_array();
     for (int k = 0; k < o->channels; k++) {
         const double *place = s->output.listen.places + 3 * k;
-        json_array_append_new(all, json_pack("{s:[o, o, o], s:o, s:o, s:b}", "place_m", json_value_number(place[0]),
-                                             json_value_number(place[1]), json_value_number(place[2]), "peak",
-                                             json_value_number(o->channel_peak[k]), "rms",
-                                             json_value_number(o->channel_rms[k]), "silent", !wav->written->heard[k]));
+        json_array_append_new(all,
+                              json_pack("{s:[o, o, o], s:o, s:o, s:b}", "place_m", json_value_number(place[0]),
+                                        json_value_number(place[1]), json_value_number(place[2]), "peak",
+                                        json_value_number(o->channel_peak[k]), "rms",
+                                        json_value_number(o->channel_rms[k]), "silent", !wav->written->audible[k]));
     }
     return all;
 }

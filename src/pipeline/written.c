@@ -29,7 +29,7 @@ const char *written_silent(const struct scene *s, const struct render_file *f, d
     int n = 0;
     if (!w) return NULL;
     for (int k = 0; k < w->channels; k++)
-        if (!w->heard[k]) silent = arena_format(a, "%s%s%d", silent, n++ ? ", " : "", k + 1);
+        if (!w->audible[k]) silent = arena_format(a, "%s%s%d", silent, n++ ? ", " : "", k + 1);
     if (n == w->channels)
         return f->stem ? arena_format(a, "the stem %s is silent: every sample is 0", f->stem)
                        : sound_silent(s, peak, a);
@@ -58,7 +58,7 @@ const char *written_beyond(const struct scene *s, const struct render_file *f, s
 void written_tell(const struct render_file *f, json_t *to)
 {
     if (!f->written) return;
-    json_object_set_new(to, "silent", json_boolean(!wav_written_heard(f->written)));
+    json_object_set_new(to, "silent", json_boolean(!wav_written_audible(f->written)));
     json_object_set_new(to, "samples_beyond_full_scale",
                         has_full_scale(f) ? json_integer((json_int_t)f->written->beyond) : json_null());
 }

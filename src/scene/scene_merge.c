@@ -5,9 +5,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "file/piped.h"
-#include "file/yaml_bytes.h"
-#include "file/yaml_parse.h"
+#include "file/bytes.h"
+#include "file/yaml.h"
 
 enum { DEEPEST = 16, FILES_MAX = 200 };
 
@@ -21,8 +20,9 @@ struct chain { /* the files that are being included, innermost first */
 
 const char *scene_merge_path(struct yaml *y, const struct diag_source *source, const char *name)
 {
-    const char *slash =
-        source->option || source->made || name[0] == '/' || piped_is(source->name) ? NULL : strrchr(source->name, '/');
+    const char *slash = source->option || source->made || name[0] == '/' || bytes_piped(source->name)
+                            ? NULL
+                            : strrchr(source->name, '/');
     return slash ? arena_format(y->arena, "%.*s/%s", (int)(slash - source->name), source->name, name) : name;
 }
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
-#include "file/yaml_bytes.h"
+#include "file/yaml.h"
 #include "scene/accuracy.h"
 #include "scene/scene_check.h"
 #include "scene/scene_contacts.h"

@@ -3,8 +3,7 @@
 
 #include <string.h>
 
-#include "file/yaml_bytes.h"
-#include "file/yaml_parse.h"
+#include "file/yaml.h"
 #include "scene/scene_merge.h"
 #include "scene/scene_values.h"
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "file/yaml_parse.h"
+#include "file/yaml.h"
 #include "scene/scene_merge.h"
 
 struct assignment {

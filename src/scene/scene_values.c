@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "file/yaml_parse.h"
+#include "file/yaml.h"
 #include "scene/scene_example.h"
 #include "scene/scene_merge.h"
 #include "scene/scene_points.h"

@@ -7,7 +7,7 @@
 
 #include "base/relpath.h"
 #include "base/shelf.h"
-#include "file/folder_index.h"
+#include "file/csv.h"
 #include "scene/keys_yaml.h"
 
 struct list {
@@ -38,7 +38,7 @@ static void add(struct list *l, const char *file)
 static void add_all(struct list *l, const char *name)
 {
     int n;
-    const char **files = folder_index_files(name, &n, l->arena);
+    const char **files = csv_folder_files(name, &n, l->arena);
     if (n == 0) add(l, name);
     for (int i = 0; i < n; i++)
         add(l, files[i]);

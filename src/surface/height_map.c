@@ -1,8 +1,7 @@
 /* A measured map or profile under the contact: file, spline, checks of its geometry. */
 #include "surface/height_map.h"
 #include "base/shelf.h"
-#include "file/heightfile_doubt.h"
-#include "file/heightfile_load.h"
+#include "file/heightfile.h"
 #include "num/real.h"
 #include "stage.h"
 #include "surface/map.h"
@@ -31,7 +30,7 @@ struct height_map_read {
     struct height_map map;
     struct map_spline *plane; /* NULL: a profile                     */
     double *line;             /* [columns] a profile's coefficients  */
-    const char *doubts[HEIGHTFILE_DOUBTS];
+    const char *doubts[HEIGHTFILE_WARNINGS];
     int n_doubts;
 };
 
@@ -47,7 +46,7 @@ static bool height_map_make(const char *path, const void *how, struct arena *a, 
                                    .levelling = s->levelling};
     *m = (struct height_map_read){0};
     if (!heightfile_load(path, &o, a, h, e)) return false;
-    m->n_doubts = heightfile_doubt(h, NULL, a, m->doubts);
+    m->n_doubts = heightfile_warnings(h, NULL, a, m->doubts);
     m->map = (struct height_map){h->z, h->columns, h->rows, {h->pitch_x, h->rows > 1 ? h->pitch_y : h->pitch_x}};
     if (h->rows > 1) {
         m->plane = map_spline(a, &m->map, s->off_map);

@@ -11,7 +11,7 @@
    (surface/heights.h, which says what that does to the spectrum). */
 #include "surface/roughness.h"
 
-#include "file/heightfile_load.h"
+#include "file/heightfile.h"
 #include "num/real.h"
 #include "scene/rules.h"
 #include "stage.h"
@@ -116,7 +116,7 @@ static bool like_make(const char *file, const void *how, struct arena *a, void *
     *(struct roughness_plan *)thing = (struct roughness_plan){0};
     struct roughness_plan *p = thing;
     if (!heightfile_load(file, &o, a, &h, e) || !like_spectrum(a, &h, p, file, e)) return false;
-    p->n_doubts = heightfile_doubt(&h, &names, a, p->doubts);
+    p->n_doubts = heightfile_warnings(&h, &names, a, p->doubts);
     return true;
 }
 

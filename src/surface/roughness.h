@@ -4,7 +4,7 @@
 #include "base/arena.h"
 #include "base/err.h"
 #include "base/shelf.h"
-#include "file/heightfile_doubt.h"
+#include "file/heightfile.h"
 #include "num/noise.h"
 #include "scene/scene.h"
 #include "surface/profile.h"
@@ -15,8 +15,8 @@
 struct roughness_plan {
     struct spectrum spectrum;
     double rms, skewness, kurtosis;
-    const char *remark;                    /* what had to be departed from, or NULL */
-    const char *doubts[HEIGHTFILE_DOUBTS]; /* about the map that it is like */
+    const char *remark;                      /* what had to be departed from, or NULL */
+    const char *doubts[HEIGHTFILE_WARNINGS]; /* about the map that it is like */
     int n_doubts;
     bool once; /* as of struct tiles_grain; false unless it is set behind roughness_plan */
 };

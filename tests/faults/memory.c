@@ -69,7 +69,7 @@ static void *none(void)
 }
 
 /* libsndfile 1.2 notes the chunks of a WAV that it reads in such a table, and uses it whether it got it or not: this
-   one does not fail (src/file/wav_read.c asks for more just before). */
+   one does not fail (src/file/wav.c asks for more just before). */
 static bool sndfile_crashes(size_t n, size_t size) { return n == 20 && size == 96; }
 
 void *malloc(size_t n) { return fails(__builtin_return_address(0)) ? none() : got(__libc_malloc(n)); }

@@ -1,5 +1,5 @@
 /* The readers of tables, CSV and NPY; every cell is then read as a number. */
-#include "file/table.h"
+#include "file/csv.h"
 #include "fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -8,7 +8,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     struct arena *a = arena_open();
     struct csv t = {0};
     struct err e = {0};
-    bool ok = table_read(f.path, a, &t, &e);
+    bool ok = csv_table_read(f.path, a, &t, &e);
     fuzz_check(ok, &e);
     for (size_t i = 0; ok && i < t.rows * t.columns; i++) {
         struct err not_a_number = {0};

@@ -1,9 +1,9 @@
 /* The reader of heights as a CSV grid of numbers. */
-#include "file/heightfile_csv.h"
+#include "file/heightfile_formats.h"
 #include "heights.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    heights_fuzz(heightfile_csv_is, heightfile_csv_read, data, size);
+    heights_fuzz(heightfile_formats_csv_is, heightfile_formats_csv_read, data, size);
     return 0;
 }

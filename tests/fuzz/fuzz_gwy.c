@@ -1,5 +1,5 @@
 /* The reader of Gwyddion's own format. */
-#include "file/heightfile_gwy.h"
+#include "file/heightfile_formats.h"
 #include "heights.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

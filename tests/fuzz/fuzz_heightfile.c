@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "file/heightfile.h"
-#include "file/heightfile_fill.h"
 #include "fuzz.h"
 
 static void check_heights(const struct heightfile *h)

@@ -1,6 +1,6 @@
 /* The reader of 16-bit grey PNG. Its chunks are given the checksums that they should have, else hardly any input would
  * come past libpng's first look. */
-#include "file/heightfile_png.h"
+#include "file/heightfile_formats.h"
 #include "heights.h"
 
 static uint32_t checksum(const uint8_t *data, size_t n)
@@ -33,7 +33,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (!mended) abort();
     memcpy(mended, data, size);
     mend(mended, size);
-    heights_fuzz(heightfile_png_is, heightfile_png_read, mended, size);
+    heights_fuzz(heightfile_formats_png_is, heightfile_formats_png_read, mended, size);
     free(mended);
     return 0;
 }

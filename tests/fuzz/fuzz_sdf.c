@@ -1,5 +1,5 @@
 /* The reader of ISO 25178-71, text and binary. */
-#include "file/heightfile_sdf.h"
+#include "file/heightfile_formats.h"
 #include "heights.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

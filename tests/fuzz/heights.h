@@ -6,7 +6,6 @@
 
 #include "file/bytes.h"
 #include "file/heightfile.h"
-#include "file/heightfile_level.h"
 #include "fuzz.h"
 
 /* 8 bytes a height, and the format's own room: a short file must not take much. */

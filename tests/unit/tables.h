@@ -13,8 +13,8 @@
 #define HEAD SHARED COLUMNS
 
 /* Reads a table from text; false with the message in e. */
-static inline bool table_read(const char *text, const struct modes_ask *ask, struct arena *a, struct modes *m,
-                              struct err *e)
+static inline bool csv_table_read(const char *text, const struct modes_ask *ask, struct arena *a, struct modes *m,
+                                  struct err *e)
 {
     char path[] = "modes.XXXXXX";
     int fd = mkstemp(path);
@@ -32,7 +32,7 @@ static inline struct modes table_of(const char *text, int n, struct arena *a)
 {
     struct modes m;
     struct err e;
-    ck_assert_msg(table_read(text, &(struct modes_ask){.strongest = n, .pairing = 0.03, .rate = 48000}, a, &m, &e),
+    ck_assert_msg(csv_table_read(text, &(struct modes_ask){.strongest = n, .pairing = 0.03, .rate = 48000}, a, &m, &e),
                   "%s", e.text);
     return m;
 }

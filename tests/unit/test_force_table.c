@@ -3,7 +3,7 @@
    are printed with 9 digits: 5e-9 relative. */
 #include <unistd.h>
 
-#include "file/table.h"
+#include "file/csv.h"
 #include "pipeline/render.h"
 #include "rig.h"
 
@@ -19,8 +19,8 @@ static struct csv table_of(struct arena *a, const struct scene *s)
     ck_assert_ptr_nonnull(mkdtemp(folder));
     ck_assert_msg(render_scene(s, arena_format(a, "%s/t", folder), a, &report, &e), "%s", e.text);
     ck_assert_msg(
-        table_read(arena_format(a, "%s/t.%s", folder, s->output.diagnostics.format == TABLE_NPY ? "npy" : "csv"), a, &t,
-                   &e),
+        csv_table_read(arena_format(a, "%s/t.%s", folder, s->output.diagnostics.format == TABLE_NPY ? "npy" : "csv"), a,
+                       &t, &e),
         "%s", e.text);
     ck_assert_int_eq(system(arena_format(a, "rm -r %s", folder)), 0);
     return t;

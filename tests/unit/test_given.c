@@ -29,7 +29,7 @@ static void write_wav(const char *name, double rate, int channels, int bits, con
     struct err e = {0};
     struct wav_format f = {.rate = rate, .channels = channels, .bits = bits};
     struct wav_out *w = wav_create(path(name), &f, &e);
-    ck_assert_msg(w && wav_write(w, x, frames, &e) && wav_settle(w, &e) && wav_commit(w, &e), "%s", e.text);
+    ck_assert_msg(w && wav_write(w, x, frames, &e) && wav_finish(w, &e) && wav_commit(w, &e), "%s", e.text);
 }
 
 static void write_text(const char *name, const char *text, size_t n)

@@ -1,6 +1,6 @@
 /* height_map: the stage on files written here: what becomes of their heights, which coordinates the surface follows,
    and what of their geometry and place under the motion is refused. */
-#include "file/heightfile_write.h"
+#include "file/heightfile.h"
 #include "scene/scene.h"
 #include "stage.h"
 #include "surface/height_map.h"

@@ -1,6 +1,6 @@
 /* heightfile_fill: against harmonic polynomials, which the five-point equation solves exactly (its error is a fourth
    derivative, and they have none that do not cancel), and against the equation itself where there is no closed form. */
-#include "file/heightfile_fill.h"
+#include "file/heightfile.h"
 
 #include "heights.h"
 

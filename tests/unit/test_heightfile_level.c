@@ -1,5 +1,5 @@
 /* heightfile_level: planes are found and taken away; what is left is at right angles to every plane. */
-#include "file/heightfile_level.h"
+#include "file/heightfile.h"
 
 #include "heights.h"
 

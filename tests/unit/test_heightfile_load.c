@@ -1,9 +1,7 @@
 /* heightfile_load: scale, pitch, holes, levelling in their order; what is not plausible is refused, with a hint at the
  * unit. */
-#include "file/heightfile_load.h"
+#include "file/heightfile.h"
 
-#include "file/heightfile_level.h"
-#include "file/heightfile_write.h"
 #include "heights.h"
 
 static struct heightfile_options o;
@@ -135,7 +133,7 @@ START_TEST(holes_and_levelling)
     o.height_scale = 1e-6;
     grid("1 2 nan 4 5 nan 7 8");
     fails("missing heights (NaN): 2 of 8, the first at row 0, column 2 (counted from 0): set surface.holes: fill");
-    o.holes = HEIGHTFILE_KEEP;
+    o.holes = HEIGHTFILE_LEAVE;
     ck_assert(load() && h.holes == 2 && isnan(h.z[2]) && h.filled == 0);
     o.holes = HEIGHTFILE_FILL;
     ck_assert(load() && h.holes == 0 && h.filled == 2);
@@ -149,7 +147,7 @@ START_TEST(holes_and_levelling)
     o.levelling = HEIGHTFILE_LEVEL_MEAN;
     ck_assert(load() && h.levelled.slope_x == 0);
     grid("nan nan nan nan");
-    o.holes = HEIGHTFILE_KEEP;
+    o.holes = HEIGHTFILE_LEAVE;
     fails("all heights are missing");
     o.holes = HEIGHTFILE_FILL;
     fails("4 of 4 points are missing: too many");

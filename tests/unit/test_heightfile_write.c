@@ -1,7 +1,6 @@
 /* heightfile_write: round trips through every format, the bytes of short files, and what a format does not hold. */
-#include "file/heightfile_write.h"
+#include "file/heightfile.h"
 
-#include "file/heightfile_load.h"
 #include "heights.h"
 
 enum { W = 7, H = 5 };

@@ -12,7 +12,7 @@ static void refused(const char *text, const char *says)
 {
     struct modes m;
     struct err e;
-    bool ok = table_read(text, &(struct modes_ask){.strongest = 50, .pairing = 0.03, .rate = 48000}, arena, &m, &e);
+    bool ok = csv_table_read(text, &(struct modes_ask){.strongest = 50, .pairing = 0.03, .rate = 48000}, arena, &m, &e);
     ck_assert_msg(!ok, "accepted, but should say: %s", says);
     ck_assert_msg(strstr(e.text, says) != NULL, "\"%s\" does not say \"%s\"", e.text, says);
     ck_assert_int_eq(e.kind, ERR_SCENE);
@@ -280,16 +280,16 @@ START_TEST(the_strongest_of_a_band)
     for (int k = 0; k < 2; k++) {
         double rate = k ? 192000 : 4000, shift = k ? 1 - 3e-10 : 1 + 3e-10;
         struct modes_ask ask = {.strongest = 2, .band = {1000 * shift, 2000 * shift}, .pairing = 0.2, .rate = rate};
-        ck_assert_msg(table_read(text, &ask, arena, &m[k], &e), "%s", e.text);
+        ck_assert_msg(csv_table_read(text, &ask, arena, &m[k], &e), "%s", e.text);
         ck_assert(m[k].n == 2 && m[k].frequency[0] == 1999 && m[k].frequency[1] == 1500);
         ask.strongest = 50;
-        ck_assert_msg(table_read(text, &ask, arena, &m[k], &e), "%s", e.text);
+        ck_assert_msg(csv_table_read(text, &ask, arena, &m[k], &e), "%s", e.text);
         ck_assert(m[k].n == 3 && m[k].frequency[2] == 1000);
-        ck_assert_msg(table_read(moving, &ask, arena, &m[2 + k], &e), "%s", e.text);
+        ck_assert_msg(csv_table_read(moving, &ask, arena, &m[2 + k], &e), "%s", e.text);
         ck_assert_int_eq(m[2 + k].n, 2);
     }
     struct modes_ask none = {.strongest = 50, .band = {2001, 3000}, .pairing = 0.03, .rate = 48000};
-    ck_assert(!table_read(text, &none, arena, &m[0], &e));
+    ck_assert(!csv_table_read(text, &none, arena, &m[0], &e));
     ck_assert(e.kind == ERR_SCENE && strstr(e.text, "none of its modes lies from 2001 Hz to below 3000 Hz"));
     teardown();
 }

@@ -347,8 +347,9 @@ START_TEST(pairing_of_a_table)
         ck_assert((fabs(f - 100) < 1e-9 && size == 0) || (fabs(f - 201) < 1e-9 && size > 0.99) ||
                   (fabs(f - 303) < 1e-9 && size > 0.99));
     }
-    ck_assert(table_read(text, &(struct modes_ask){.strongest = 9, .pairing = 0.006, .rate = 48000}, arena, &m, &e) &&
-              m.n == 4); /* 200, 201 pair; 300, 303 do not */
+    ck_assert(
+        csv_table_read(text, &(struct modes_ask){.strongest = 9, .pairing = 0.006, .rate = 48000}, arena, &m, &e) &&
+        m.n == 4); /* 200, 201 pair; 300, 303 do not */
     snprintf(text, sizeof text, "# pairing: ids\n%s%s%s", SEPARATE, COLUMNS, rows);
     m = table_of(text, 9, arena);
     ck_assert_int_eq(m.n, 3);

@@ -94,8 +94,9 @@ START_TEST(like_a_file)
     ck_assert(heights_make(-0.8, 4.2, &h, &e));
     struct relief_part *p = heights_part(a, line(a, &s, "file"), &h, 4e-6);
     struct heightfile f = {.columns = N, .rows = 1, .pitch_x = 5e-6, .pitch_y = 5e-6};
+    struct heightfile_written written;
     f.z = sampled(a, p, N, 5e-6);
-    ck_assert_msg(heightfile_write_gsf("like.gsf", &f, NULL, &e), "%s", e.text);
+    ck_assert_msg(heightfile_write("like.gsf", &f, HEIGHTFILE_GSF, &written, &e), "%s", e.text);
     struct survey_grid g = {f.z, N, 1, 5e-6};
     struct survey_moments want = survey_heights(&g);
     struct spectrum before = survey_spectrum(a, &g);

@@ -2,8 +2,8 @@
  * writes. */
 #include <unistd.h>
 
+#include "file/csv.h"
 #include "file/npy.h"
-#include "file/table.h"
 #include "unit.h"
 
 static struct arena *arena;
@@ -19,7 +19,7 @@ static bool read_file(const void *bytes, size_t n)
     close(fd);
     arena = arena ? arena : arena_open();
     e = (struct err){0};
-    bool ok = table_read(path, arena, &t, &e);
+    bool ok = csv_table_read(path, arena, &t, &e);
     unlink(path);
     return ok;
 }

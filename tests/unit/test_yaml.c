@@ -6,8 +6,6 @@
 #include <unistd.h>
 
 #include "base/text.h"
-#include "file/yaml_bytes.h"
-#include "file/yaml_parse.h"
 #include "unit.h"
 
 static struct yaml_node *parsed(struct yaml *y, const char *text)
