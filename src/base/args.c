@@ -185,3 +185,19 @@ bool args_whole(const struct args *g, const char *name, const long range[2], lon
     *value = (long)x;
     return true;
 }
+
+bool args_word(const struct args *g, const char *name, const char *const *words, int *chosen, struct err *e)
+{
+    const char *text = args_value(g, name);
+    char all[200] = "";
+    if (!text) return true;
+    for (int k = 0; words[k]; k++) {
+        if (!strcmp(words[k], text)) {
+            *chosen = k;
+            return true;
+        }
+        size_t n = strlen(all);
+        snprintf(all + n, sizeof all - n, "%s%s", k == 0 ? "" : words[k + 1] ? ", " : " or ", words[k]);
+    }
+    return err_set(e, ERR_USAGE, "--%s: '%s' is not %s", name, text, all);
+}

@@ -44,5 +44,7 @@ const char **args_values(const struct args *g, const char *name, int *n);
 bool args_number(const struct args *g, const char *name, const double range[2], double *value, struct err *e);
 /* The same for a whole number. */
 bool args_whole(const struct args *g, const char *name, const long range[2], long *value, struct err *e);
+/* The same for one of the words (which end in NULL): its place among them. */
+bool args_word(const struct args *g, const char *name, const char *const *words, int *chosen, struct err *e);
 
 #endif

@@ -410,12 +410,9 @@ bool modes_lengths(struct cmd_call *c, const struct modes_lengths *want, double 
 
 bool modes_quantity(struct cmd_call *c, int *quantity, struct err *e)
 {
-    const char *text = args_value(&c->args, "quantity");
+    static const char *const words[] = {"displacement", "velocity", "acceleration", NULL};
     *quantity = MODES_VELOCITY;
-    if (!text) return true;
-    for (*quantity = MODES_DISPLACEMENT; *quantity <= MODES_ACCELERATION; ++*quantity)
-        if (!strcmp(text, modes_quantity_name(*quantity))) return true;
-    return err_set(e, ERR_USAGE, "--quantity: '%s' is not displacement, velocity or acceleration", text);
+    return args_word(&c->args, "quantity", words, quantity, e);
 }
 
 const char *modes_per_impulse(int quantity)

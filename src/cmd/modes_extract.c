@@ -31,19 +31,6 @@ static bool quantity(struct modes_extract *x, const char *name, enum key_dimensi
     return *value >= 0.0 || err_set(e, ERR_USAGE, "--%s: '%s' is below 0", name, text);
 }
 
-/* all: the words as a message names them. */
-static bool word(struct modes_extract *x, const char *name, const char *const *words, const char *all, int *chosen,
-                 struct err *e)
-{
-    const char *text = args_value(&x->c->args, name);
-    for (int k = 0; text && words[k]; k++)
-        if (!strcmp(words[k], text)) {
-            *chosen = k;
-            return true;
-        }
-    return !text || err_set(e, ERR_USAGE, "--%s: '%s' is not %s", name, text, all);
-}
-
 /* What belongs together. */
 static bool together(struct modes_extract *x, struct err *e)
 {
@@ -122,8 +109,7 @@ static bool options(struct modes_extract *x, struct err *e)
                                       .modes = 50,
                                       .impulse = args_given(a, "impulse"),
                                       .only = args_value(a, "strikes")};
-    if (!word(x, "quantity", quantities, "displacement, velocity, acceleration or pressure", &g->quantity, e) ||
-        !word(x, "method", methods, "esprit or spectrogram", &method, e) ||
+    if (!args_word(a, "quantity", quantities, &g->quantity, e) || !args_word(a, "method", methods, &method, e) ||
         !args_whole(a, "channel", channels, &g->channel, e) ||
         !args_whole(a, "force-channel", channels, &g->force_channel, e) ||
         !args_number(a, "scale", scales, &g->scale, e) || !args_number(a, "force-scale", scales, &g->force_scale, e) ||

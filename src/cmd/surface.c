@@ -352,19 +352,6 @@ static bool surface_length(struct cmd_call *c, const char *name, const double ra
     return true;
 }
 
-/* One of the words; its place is the value. */
-static bool option_word(struct cmd_call *c, const char *name, const char *const *words, int *value, struct err *e)
-{
-    const char *text = args_value(&c->args, name);
-    if (!text) return true;
-    for (int i = 0; words[i]; i++)
-        if (!strcmp(text, words[i])) {
-            *value = i;
-            return true;
-        }
-    return err_set(e, ERR_USAGE, "--%s: '%s' is not %s, %s or %s", name, text, words[0], words[1], words[2]);
-}
-
 /* --pitch, --height-scale, --height-range, --holes (else `holes`), --levelling. ERR_USAGE */
 bool surface_options(struct cmd_call *c, enum heightfile_holes holes, struct heightfile_options *o, struct err *e)
 {
@@ -380,8 +367,8 @@ bool surface_options(struct cmd_call *c, enum heightfile_holes holes, struct hei
     return surface_length(c, "pitch", pitch, &o->pitch, e) &&
            surface_length(c, "height-scale", scale, &o->height_scale, e) &&
            surface_length(c, "height-range", range, &o->height_range, e) &&
-           option_word(c, "holes", hole_words, &o->holes, e) &&
-           option_word(c, "levelling", levelling_words, &o->levelling, e);
+           args_word(&c->args, "holes", hole_words, &o->holes, e) &&
+           args_word(&c->args, "levelling", levelling_words, &o->levelling, e);
 }
 
 static int surface_run(struct cmd_call *c, struct err *e) { return cmd_actions("surface", actions, c, e); }

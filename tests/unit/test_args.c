@@ -142,4 +142,16 @@ START_TEST(test_numbers)
 }
 END_TEST
 
-UNIT("args", test_forms, test_values_as_they_are, test_repeated, test_refusals, test_help_ends_the_parse, test_numbers)
+START_TEST(test_words)
+{
+    static const char *const words[] = {"one", "two", "8", NULL};
+    int chosen = 1;
+    ck_assert(parse("") && args_word(&g, "jobs", words, &chosen, &e) && chosen == 1);
+    ck_assert(parse("-j8") && args_word(&g, "jobs", words, &chosen, &e) && chosen == 2);
+    ck_assert(parse("-j3") && !args_word(&g, "jobs", words, &chosen, &e) && chosen == 2);
+    ck_assert_str_eq(e.text, "--jobs: '3' is not one, two or 8");
+}
+END_TEST
+
+UNIT("args", test_forms, test_values_as_they_are, test_repeated, test_refusals, test_help_ends_the_parse, test_numbers,
+     test_words)
