@@ -42,16 +42,15 @@ static const double arrival = 0.05;       /* of the greatest step in that time: 
 static const double clip_share = 0.9999;  /* of what the file can hold */
 static const double considerable = 1e-3;  /* of the greatest sample: an offset */
 
-enum {
-    BESIDE = 4, /* samples to each side of a pulse that are force too: what a converter's low-pass makes of it */
-    ROW = 3,
-    STEPS = 4 /* of clipping: samples in a row, steps by which it is left */
-};
+enum { BESIDE = 4 }; /* samples to each side of a pulse that are force too: what a converter's low-pass makes of it */
+enum { ROW = 3, STEPS = 4 }; /* of clipping: samples in a row, steps by which it is left */
 
 static void note(struct strikes *s, struct arena *a, const char *text)
 {
     s->note = s->note ? arena_format(a, "%s\n%s", s->note, text) : text;
 }
+
+#define NOTE(s, a, ...) note(s, a, arena_format(a, __VA_ARGS__))
 
 static double greatest(const double *x, long from, long to)
 {
@@ -60,6 +59,8 @@ static double greatest(const double *x, long from, long to)
         most = fmax(most, fabs(x[i]));
     return most;
 }
+
+static long lesser(long a, long b) { return a < b ? a : b; }
 
 static double mean(const double *x, long from, long to)
 {
@@ -153,17 +154,15 @@ static bool stands(const double *x, long n, double extreme, double step)
     return false;
 }
 
-void strikes_clip(struct strikes_channel *c, long n)
+/* The levels at which a channel of n samples clips, though the file could hold more. */
+static void find_clip(struct strikes_channel *c, long n)
 {
-    const double *x = c->x;
-    double least = 0.0, most = 0.0, step = INFINITY;
-    for (long i = 0; i < n; i++) {
-        least = fmin(least, x[i]);
-        most = fmax(most, x[i]);
-        if (i && x[i] != x[i - 1]) step = fmin(step, fabs(x[i] - x[i - 1]));
-    }
-    c->clip[0] = least < 0.0 && stands(x, n, least, step) ? least : 0.0;
-    c->clip[1] = most > 0.0 && stands(x, n, most, step) ? most : 0.0;
+    double extreme[2], step = INFINITY;
+    for (long i = 1; i < n; i++)
+        if (c->x[i] != c->x[i - 1]) step = fmin(step, fabs(c->x[i] - c->x[i - 1]));
+    gsl_stats_minmax(&extreme[0], &extreme[1], c->x, 1, (size_t)n);
+    for (int k = 0; k < 2; k++)
+        c->clip[k] = (k ? extreme[k] > 0.0 : extreme[k] < 0.0) && stands(c->x, n, extreme[k], step) ? extreme[k] : 0.0;
 }
 
 /* A copy of the channel, turned over and less its offset. */
@@ -184,9 +183,9 @@ static void prepare(struct strikes_channel *c, const char *name, const struct st
     if (fabs(offset) > fmax(considerable * most, 4.0 * error) && most > 0.0) {
         change(c, r->n, 1.0, offset, a);
         c->offset = offset;
-        note(s, a, arena_format(a, "the %s stands beside 0, by %.3g: that offset is taken off", name, offset));
+        NOTE(s, a, "the %s stands beside 0, by %.3g: that offset is taken off", name, offset);
     }
-    strikes_clip(c, r->n);
+    find_clip(c, r->n);
 }
 
 static bool clips(const struct strikes_channel *c, long from, long to)
@@ -202,15 +201,12 @@ static bool clips(const struct strikes_channel *c, long from, long to)
 static void turn_up(struct strikes_recording *r, struct strikes *s, struct arena *a)
 {
     struct strikes_channel *c = &r->force;
-    double up = 0.0, down = 0.0;
-    for (long i = 0; i < r->n; i++) {
-        up = fmax(up, c->x[i]);
-        down = fmax(down, -c->x[i]);
-    }
-    if (down <= up) return;
+    double least, most;
+    gsl_stats_minmax(&least, &most, c->x, 1, (size_t)r->n);
+    if (-least <= fmax(most, 0.0)) return;
     change(c, r->n, -1.0, 0.0, a);
     *c = (struct strikes_channel){c->x, c->full, -c->offset, {-c->clip[1], -c->clip[0]}};
-    note(s, a, "the force points down in its channel, and is taken the other way round");
+    NOTE(s, a, "the force points down in its channel, and is taken the other way round");
 }
 
 /* ------------------------------------------------------------------ by the force */
@@ -230,7 +226,7 @@ static struct strikes_one pulse(const struct strikes_recording *r, long top)
     for (v.over = top; v.over < r->n && x[v.over] - v.base > edge_share * v.peak;)
         v.over++;
     v.onset = v.onset > BESIDE ? v.onset - BESIDE : 0;
-    v.over = v.over + BESIDE < r->n ? v.over + BESIDE : r->n;
+    v.over = lesser(v.over + BESIDE, r->n);
     return v;
 }
 
@@ -285,8 +281,8 @@ static void by_sound(const struct strikes_recording *r, double threshold, struct
     long ms = (long)fmax(1.0, 0.001 * r->rate);
     for (long k = 0; k < fine.n; k++) {
         if (fine.rms[k] <= least || fine.rms[k] <= 2.0 * greatest(fine.rms, k > 25 ? k - 25 : 0, k)) continue;
-        long at = k * fine.frame, to = at + 3 * ms < r->n ? at + 3 * ms : r->n,
-             onset = departs(r, at - ms > 0 ? at - ms : 0, to), late = onset + 20 * ms < r->n ? onset + 20 * ms : r->n;
+        long at = k * fine.frame, to = lesser(at + 3 * ms, r->n), onset = departs(r, at - ms > 0 ? at - ms : 0, to),
+             late = lesser(onset + 20 * ms, r->n);
         struct strikes_one *last = s->n ? &s->strike[s->n - 1] : NULL;
         if (last && (double)(onset - last->onset) <= doubled_time * r->rate)
             last->doubled = last->doubled || (double)(onset - last->onset) > 0.005 * r->rate;
@@ -302,36 +298,37 @@ static void by_sound(const struct strikes_recording *r, double threshold, struct
  * the table would be about something else. */
 static bool choose(const struct strikes_recording *r, struct strikes *s, struct arena *a, struct err *e)
 {
-    int clipped = 0, quiet = 0, doubled = 0;
-    long soon = (long)(0.05 * r->rate);
-    double loudest = greatest(r->sound.x, 0, r->n);
+    enum { USED, CLIPPED, QUIET, DOUBLED, REASONS };
+    static const char *const reasons[REASONS] = {NULL, "clipped", "too quiet", "doubled"};
+    int count[REASONS] = {0};
+    double least = quiet_share * greatest(r->sound.x, 0, r->n);
     for (struct strikes_one *v = s->strike; v < s->strike + s->n; v++) {
-        long to = v->onset + soon < v->end ? v->onset + soon : v->end;
-        v->left_out = v->clipped                                                   ? "clipped"
-                      : greatest(r->sound.x, v->onset, to) < quiet_share * loudest ? "too quiet"
-                      : v->doubled && !r->force.x                                  ? "doubled"
-                                                                                   : NULL;
-        clipped += v->clipped;
-        quiet += v->left_out && !strcmp(v->left_out, "too quiet");
-        doubled += v->left_out && !strcmp(v->left_out, "doubled");
+        long soon = lesser(v->onset + (long)(0.05 * r->rate), v->end);
+        int why = v->clipped                                     ? CLIPPED
+                  : greatest(r->sound.x, v->onset, soon) < least ? QUIET
+                  : v->doubled && !r->force.x                    ? DOUBLED
+                                                                 : USED;
+        v->left_out = reasons[why];
+        count[why]++;
     }
-    for (int k = 0; k < s->n && clipped + quiet + doubled == s->n; k++) /* of doubled ones alone all */
-        if (!strcmp(s->strike[k].left_out, "doubled")) s->strike[k].left_out = NULL;
-    if (clipped == s->n)
+    if (!count[USED]) /* of doubled ones alone all */
+        for (int k = 0; k < s->n; k++)
+            if (s->strike[k].left_out == reasons[DOUBLED]) s->strike[k].left_out = NULL;
+    s->used = count[USED] ? count[USED] : count[DOUBLED];
+    if (count[CLIPPED] == s->n)
         return err_set(e, ERR_SCENE,
                        "%s: %s clipped: no strike keeps below what the file can hold; record it again at a lower level",
                        r->name, s->n == 1 ? "the only strike is" : arena_format(a, "all %d strikes are", s->n));
-    if (clipped + quiet == s->n)
+    if (!s->used)
         return err_set(e, ERR_SCENE,
                        "%s: no strike can be used: %d of %d are clipped, the others more than 30 dB quieter than "
                        "the loudest sound of the recording; cut that out",
-                       r->name, clipped, s->n);
-    if (quiet)
-        note(s, a,
-             arena_format(a,
-                          "%d of %d strikes are more than 30 dB quieter than the loudest sound of the recording, "
-                          "and are left out",
-                          quiet, s->n));
+                       r->name, count[CLIPPED], s->n);
+    if (count[QUIET])
+        NOTE(s, a,
+             "%d of %d strikes are more than 30 dB quieter than the loudest sound of the recording, and are left "
+             "out",
+             count[QUIET], s->n);
     return true;
 }
 
@@ -340,14 +337,14 @@ static bool no_gap(const struct strikes_recording *r, const struct strikes_one *
 {
     const double *x = r->sound.x;
     long least = (long)(gap_least * r->rate);
-    for (long i = v->over + 1, run = 1; i < v->end; i++) {
+    for (long i = v->over + 1, run = 1; i < v->end && !v->left_out; i++) {
         run = x[i] == x[i - 1] ? run + 1 : 1;
         if (run < least) continue;
         long from = i - run + 1, to = i;
         while (to < v->end && x[to] == x[i])
             to++;
         if (greatest(x, from - least > v->over ? from - least : v->over, from) > 20.0 * r->rounding &&
-            greatest(x, to, to + least < v->end ? to + least : v->end) > 20.0 * r->rounding)
+            greatest(x, to, lesser(to + least, v->end)) > 20.0 * r->rounding)
             return err_set(e, ERR_SCENE,
                            "%s: from %.4g s on the sound stands still for %.3g ms while the object rings: the "
                            "recording has a gap; record it again",
@@ -358,22 +355,18 @@ static bool no_gap(const struct strikes_recording *r, const struct strikes_one *
     return true;
 }
 
-/* Enough of the file's steps to tell a mode from their rounding, which follows the sound where that is faint; and no
- * gap. */
-static bool sound_enough(const struct strikes_recording *r, const struct strikes *s, struct err *e)
+/* Enough of the file's steps to tell a mode from their rounding, which follows the sound where that is faint? */
+static bool high_enough(const struct strikes_recording *r, const struct strikes *s, struct err *e)
 {
     double peak = 0.0;
     for (const struct strikes_one *v = s->strike; v < s->strike + s->n; v++)
-        peak = fmax(peak, v->left_out ? 0.0 : greatest(r->sound.x, v->onset, v->end));
-    double steps = r->rounding > 0.0 ? peak / (r->rounding * sqrt(12.0)) : HUGE_VAL;
-    if (steps < fewest_steps)
-        return err_set(e, ERR_SCENE,
-                       "%s: the loudest strike is only %.0f of the file's steps high (%.0f are needed): what they "
-                       "round away would be taken for modes; record it with more bits, or louder",
-                       r->name, steps, fewest_steps);
-    for (const struct strikes_one *v = s->strike; v < s->strike + s->n; v++)
-        if (!v->left_out && !no_gap(r, v, e)) return false;
-    return true;
+        if (!v->left_out) peak = fmax(peak, greatest(r->sound.x, v->onset, v->end));
+    double steps = peak / (r->rounding * sqrt(12.0));
+    return r->rounding == 0.0 || steps >= fewest_steps ||
+           err_set(e, ERR_SCENE,
+                   "%s: the loudest strike is only %.0f of the file's steps high (%.0f are needed): what they "
+                   "round away would be taken for modes; record it with more bits, or louder",
+                   r->name, steps, fewest_steps);
 }
 
 bool strikes_find(struct strikes_recording *r, double threshold, struct arena *a, struct strikes *s, struct err *e)
@@ -399,7 +392,7 @@ bool strikes_find(struct strikes_recording *r, double threshold, struct arena *a
     }
     if (s->n && (double)(r->n - s->strike[s->n - 1].onset) < shortest * r->rate) {
         s->n--;
-        note(s, a, "a strike within the last 10 ms of the recording is left out");
+        NOTE(s, a, "a strike within the last 10 ms of the recording is left out");
     }
     if (s->n == 0)
         return err_set(e, ERR_SCENE,
@@ -411,7 +404,48 @@ bool strikes_find(struct strikes_recording *r, double threshold, struct arena *a
         v->end = v + 1 < s->strike + s->n ? v[1].onset - (long)(0.0005 * r->rate) : r->n;
         v->clipped = v->clipped || clips(&r->sound, v->onset, v->end);
     }
-    return choose(r, s, a, e) && sound_enough(r, s, e);
+    bool ok = choose(r, s, a, e) && high_enough(r, s, e);
+    for (int k = 0; k < s->n && ok; k++)
+        ok = no_gap(r, &s->strike[k], e);
+    return ok;
+}
+
+/* ------------------------------------------------------------------ a response */
+
+/* Samples before a response begins: what rises from the hundredth to the fifth of its greatest within 16 samples begins
+ * there, if all before is fainter. One more stays, as sample 0. */
+static long begins(const double *h, long n)
+{
+    double most = greatest(h, 0, n);
+    long at = 0, start, quiet = 0;
+    while (at < n && fabs(h[at]) < 0.2 * most)
+        at++;
+    for (start = at; start > 0 && fabs(h[start - 1]) >= 0.01 * most;)
+        start--;
+    while (quiet < start && fabs(h[quiet]) < 0.01 * most)
+        quiet++;
+    return quiet == start && start > 2 && at - start <= 16 ? start - 1 : 0;
+}
+
+bool strikes_response(struct strikes_recording *r, double delay, struct arena *a, struct strikes *s, struct err *e)
+{
+    const double *x = r->sound.x;
+    long shift = isnan(delay) ? begins(x, r->n) : (long)rint(delay * r->rate);
+    double most = greatest(x, shift, r->n);
+    *s = (struct strikes){.n = 1, .used = 1, .strike = ARENA_TAKE(a, struct strikes_one, 1)};
+    *s->strike = (struct strikes_one){.onset = shift, .over = shift, .end = r->n, .peak = most, .momentum = NAN};
+    if (isnan(delay) && shift)
+        NOTE(s, a, "the response begins %.4g ms into the file: that is taken off (--delay 0 ms keeps it)",
+             1e3 * (double)shift / r->rate);
+    if ((double)(r->n - shift) < shortest * r->rate)
+        return err_set(e, ERR_SCENE, "%s lasts %.3g ms%s; a response takes at least 10 ms", r->name,
+                       1e3 * (double)(r->n - shift) / r->rate, shift ? " behind --delay" : "");
+    if (most == 0.0)
+        return err_set(e, ERR_SCENE, "%s: the response is silent (all samples are 0): is --channel right?", r->name);
+    find_clip(&r->sound, r->n);
+    if (clips(&r->sound, shift, r->n))
+        NOTE(s, a, "its greatest sample is as large as the file can hold, or stands in a row: it may be clipped");
+    return true;
 }
 
 /* ------------------------------------------------------------------ length, delay */
@@ -449,8 +483,7 @@ double strikes_delay(const struct strikes_recording *r, const struct strikes *s)
     double *delay = ARENA_TAKE(a, double, s->n), *step = differences(r->sound.x, r->n, a);
     int n = 0;
     for (const struct strikes_one *v = s->strike; v < s->strike + s->n; v++) {
-        long most = (long)(longest_delay * r->rate), to = v->onset + most < v->end ? v->onset + most : v->end,
-             i = v->onset + 1;
+        long i = v->onset + 1, to = lesser(v->onset + (long)(longest_delay * r->rate), v->end);
         double loudest = greatest(step, i, to);
         while (i < to && fabs(step[i]) < arrival * loudest)
             i++;

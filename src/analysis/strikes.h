@@ -33,7 +33,7 @@ struct strikes_one {
 };
 
 struct strikes {
-    int n;
+    int n, used;                /* used: are not left out */
     struct strikes_one *strike; /* [n] by onset */
     const char *note;           /* lines; NULL */
 };
@@ -44,8 +44,9 @@ struct strikes {
    do. */
 bool strikes_find(struct strikes_recording *r, double threshold, struct arena *a, struct strikes *s, struct err *e);
 
-/* Sets the levels at which a channel of n samples clips, though the file could hold more. */
-void strikes_clip(struct strikes_channel *c, long n);
+/* A recording that is an impulse response already, as one strike: its delay (s) is taken off; of NAN what is silent
+   before it. ERR_SCENE: it is silent, or shorter than 10 ms. */
+bool strikes_response(struct strikes_recording *r, double delay, struct arena *a, struct strikes *s, struct err *e);
 
 /* How long the sound of all strikes rings, s: until the loudest has sunk into the noise, and as much longer as 20 dB
  * more take. */

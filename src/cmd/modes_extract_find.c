@@ -48,58 +48,9 @@ static void note(struct modes_extract *x, const struct modes_extract_place *p, c
     }
 }
 
+#define NOTE(x, ...) note(x, NULL, arena_format((x)->arena, __VA_ARGS__))
+
 /* ------------------------------------------------------------------ strikes */
-
-static double greatest(const double *x, long from, long to)
-{
-    double most = 0.0;
-    for (long i = from; i < to; i++)
-        most = fmax(most, fabs(x[i]));
-    return most;
-}
-
-/* Samples before a response begins: what rises from the hundredth to the fifth of its greatest within 16 samples begins
- * there, if all before is fainter. One more stays, as sample 0. */
-static long begins(const double *h, long n)
-{
-    double most = greatest(h, 0, n);
-    long at = 0, start, quiet = 0;
-    while (at < n && fabs(h[at]) < 0.2 * most)
-        at++;
-    for (start = at; start > 0 && fabs(h[start - 1]) >= 0.01 * most;)
-        start--;
-    while (quiet < start && fabs(h[quiet]) < 0.01 * most)
-        quiet++;
-    return quiet == start && start > 2 && at - start <= 16 ? start - 1 : 0;
-}
-
-/* A recording that is a response already: its delay is taken off; if none is given, what is silent before it. */
-static bool impulse(struct modes_extract *x, struct modes_extract_place *p, struct err *e)
-{
-    struct strikes_recording *r = &p->recording;
-    struct strikes_channel *c = &r->sound;
-    bool given = !isnan(x->given.delay);
-    long shift = given ? (long)rint(x->given.delay * r->rate) : begins(c->x, r->n);
-    if (!given && shift)
-        note(x, p,
-             arena_format(x->arena,
-                          "the response begins %.4g ms into the file: that is taken off (--delay 0 ms keeps it)",
-                          1e3 * (double)shift / r->rate));
-    if ((double)(r->n - shift) < 0.01 * r->rate)
-        return err_set(e, ERR_SCENE, "%s lasts %.3g ms%s; a response takes at least 10 ms", r->name,
-                       1e3 * (double)(r->n - shift) / r->rate, shift ? " behind --delay" : "");
-    double most = greatest(c->x, shift, r->n);
-    if (most == 0.0)
-        return err_set(e, ERR_SCENE, "%s: the response is silent (all samples are 0): is --channel right?", r->name);
-    strikes_clip(c, r->n);
-    if (most >= 0.9999 * c->full || c->clip[0] < 0.0 || c->clip[1] > 0.0)
-        note(x, p, "its greatest sample is as large as the file can hold, or stands in a row: it may be clipped");
-    p->delay = (double)shift / r->rate;
-    p->strikes = (struct strikes){.n = 1, .strike = ARENA_TAKE(x->arena, struct strikes_one, 1)};
-    p->strikes.strike[0] =
-        (struct strikes_one){.onset = shift, .over = shift, .end = r->n, .peak = most, .momentum = NAN};
-    return true;
-}
 
 /* --strikes 1,3,5-7: leaves the others out. */
 static bool only(const struct modes_extract *x, struct strikes *s, struct err *e)
@@ -120,68 +71,65 @@ static bool only(const struct modes_extract *x, struct strikes *s, struct err *e
         text = *end ? end + 1 : end;
     }
     for (int k = 0; k < s->n; k++)
-        if (!chosen[k] && !s->strike[k].left_out) s->strike[k].left_out = "not in --strikes";
+        if (!chosen[k] && !s->strike[k].left_out) {
+            s->strike[k].left_out = "not in --strikes";
+            s->used--;
+        }
     return true;
 }
 
 static bool strikes(struct modes_extract *x, struct modes_extract_place *p, struct err *e)
 {
-    int left = 0;
-    if (!strikes_find(&p->recording, x->given.threshold, x->arena, &p->strikes, e)) return false;
-    note(x, p, p->strikes.note);
-    if (x->given.only && !only(x, &p->strikes, e)) return false;
-    for (int k = 0; k < p->strikes.n; k++)
-        left += !p->strikes.strike[k].left_out;
-    if (!left)
-        return err_set(e, ERR_SCENE, "%s: --strikes %s leaves no strike that can be fitted", p->shown, x->given.only);
-    p->delay = !x->given.force_channel  ? 0.0
-               : !isnan(x->given.delay) ? x->given.delay
-                                        : strikes_delay(&p->recording, &p->strikes);
+    const struct modes_extract_given *g = &x->given;
+    struct strikes *s = &p->strikes;
+    if (!(g->impulse ? strikes_response(&p->recording, g->delay, x->arena, s, e)
+                     : strikes_find(&p->recording, g->threshold, x->arena, s, e)))
+        return false;
+    note(x, p, s->note);
+    if (g->only && !only(x, s, e)) return false;
+    if (!s->used)
+        return err_set(e, ERR_SCENE, "%s: --strikes %s leaves no strike that can be fitted", p->shown, g->only);
+    if (g->impulse)
+        p->delay = (double)s->strike[0].onset / x->rate;
+    else if (g->force_channel)
+        p->delay = isnan(g->delay) ? strikes_delay(&p->recording, s) : g->delay;
     return true;
 }
 
 /* ------------------------------------------------------------------ stretches */
 
-/* The force of a strike as late as the sound comes; without a channel for it a unit impulse at that sample. */
-static struct modal_pulse pulse(struct modes_extract *x, const struct modes_extract_place *p, int strike, long at)
-{
-    const struct strikes_one *v = &p->strikes.strike[strike];
-    const double *force = p->recording.force.x;
-    long n = force ? v->over - v->onset : 1;
-    double *f = ARENA_TAKE(x->arena, double, n);
-    f[0] = 1.0;
-    for (long i = 0; force && i < n; i++)
-        f[i] = force[v->onset + i] - v->base;
-    return (struct modal_pulse){at, n, f};
-}
-
-/* One before the first strike, where there is room, and one for each strike. */
+/* One before the first strike, where there is room, and one for each strike, with its force as late as the sound comes;
+ * without a channel for that with a unit impulse. */
 static void add_stretches(struct modes_extract *x, struct modal_stretch *list, struct modes_extract_place *p)
 {
+    static const double unit[1] = {1.0};
     const struct strikes *s = &p->strikes;
     const struct strikes_recording *r = &p->recording;
     bool force = x->given.force_channel, response = x->given.impulse;
     long late = (long)rint(p->delay * x->rate), early = (long)ceil(before * x->rate),
-         begin = response ? 1
-                 : force  ? late - early
-                          : (long)(past * x->rate),
          longest = (long)(strikes_ringing(r, s) * x->rate);
     p->first = x->data.stretches;
     for (int k = -1; k < s->n; k++) {
-        struct modal_stretch st = {.y = r->sound.x, .place = (int)(p - x->place), .strike = k};
+        struct modal_stretch st = {.place = (int)(p - x->place), .strike = k};
         long end = k + 1 < s->n ? s->strike[k + 1].onset + (force && k >= 0 ? late - early : -early) : r->n;
         if (k < 0 && (response || end <= (long)(lead_least * x->rate))) continue;
         if (k >= 0) {
             const struct strikes_one *v = &s->strike[k];
-            st.first = v->onset + begin;
+            st.first = v->onset + (response ? 1 : force ? late - early : (long)(past * x->rate));
             end = end < st.first + longest ? end : st.first + longest;
             st.first = st.first > 0 ? st.first : 0;
             st.fitted = !v->left_out;
-            st.ringing = force ? v->over + late - st.first : 0;
-            st.pulse = pulse(x, p, k, force ? v->onset + late : response ? v->onset : st.first);
+            st.pulse = (struct modal_pulse){response ? v->onset : st.first, 1, unit};
+            if (force) {
+                double *f = ARENA_TAKE(x->arena, double, v->over - v->onset);
+                st.pulse = (struct modal_pulse){v->onset + late, v->over - v->onset, f};
+                st.ringing = v->over + late - st.first;
+                for (long i = 0; i < st.pulse.n; i++)
+                    f[i] = r->force.x[v->onset + i] - v->base;
+            }
         }
         st.group = x->data.groups++;
-        st.y += st.first;
+        st.y = r->sound.x + st.first;
         st.n = modal_length((end < r->n ? end : r->n) - st.first);
         if ((double)(st.n - st.ringing) >= shortest * r->rate) list[x->data.stretches++] = st;
     }
@@ -205,19 +153,19 @@ double *modes_extract_find_power(const double *y, long n, long size, struct aren
 static double reach_of_force(const struct modes_extract *x, const struct modes_extract_place *p)
 {
     struct arena *a = arena_open();
-    long n = (long)fft_good_size((size_t)(0.1 * x->rate));
-    double *power = ARENA_TAKE(a, double, n / 2 + 1), most = 0.0, high = 0.49 * x->rate;
-    for (int s = p->first; p->recording.force.x && s < p->first + p->stretches; s++) {
+    long n = (long)fft_good_size((size_t)(0.1 * x->rate)), k = n / 2;
+    double *power = ARENA_TAKE(a, double, n / 2 + 1), high = 0.49 * x->rate;
+    for (int s = p->first; s < p->first + p->stretches; s++) {
         const struct modal_stretch *st = &x->data.stretch[s];
         if (!st->fitted) continue;
         const double *one = modes_extract_find_power(st->pulse.f, st->pulse.n, n, a);
-        for (long k = 0; k <= n / 2; k++)
-            power[k] += one[k];
+        for (long i = 0; i <= n / 2; i++)
+            power[i] += one[i];
     }
-    for (long k = 0; k <= n / 2; k++)
-        most = fmax(most, power[k]);
-    for (long k = n / 2; most > 0.0 && k > 0 && power[k] < reach * most; k--)
-        high = fmin(high, (double)(k - 1) * x->rate / (double)n);
+    double most = gsl_stats_max(power, 1, (size_t)n / 2 + 1);
+    while (k > 0 && power[k] < reach * most)
+        k--;
+    if (k < n / 2) high = fmin(high, (double)k * x->rate / (double)n);
     arena_close(a);
     return high;
 }
@@ -235,7 +183,7 @@ static bool stretches(struct modes_extract *x, struct err *e)
     for (int k = 0; k < x->n; k++) {
         struct modes_extract_place *p = &x->place[k];
         add_stretches(x, list, p);
-        p->high = reach_of_force(x, p);
+        p->high = g->force_channel ? reach_of_force(x, p) : 0.49 * x->rate;
         rounding[k] = p->recording.rounding;
         x->high = fmin(x->high, p->high);
     }
@@ -246,9 +194,7 @@ static bool stretches(struct modes_extract *x, struct err *e)
                        x->place[0].shown, x->data.stretches, STRIKES);
     if (!fitted)
         return err_set(e, ERR_SCENE, "%s: no strike has %.3g ms of sound behind it", x->place[0].shown, 1e3 * shortest);
-    if (g->high > x->high)
-        note(x, NULL,
-             arena_format(x->arena, "--high %g Hz lies beyond what the strikes hold, %.6g Hz", g->high, x->high));
+    if (g->high > x->high) NOTE(x, "--high %g Hz lies beyond what the strikes hold, %.6g Hz", g->high, x->high);
     x->low = isnan(g->low) ? 20.0 : fmax(g->low, 1.0);
     x->high = isnan(g->high) ? x->high : fmin(g->high, x->high);
     return x->low < x->high ||
@@ -329,16 +275,13 @@ static bool explains(struct modes_extract *x, struct err *e)
     const char *name = x->place[st->place].shown;
     double percent = 100.0 * fmax(x->found.fitted[worst], 0.0);
     if (direct > much && x->given.force_channel)
-        note(x, NULL,
-             arena_format(x->arena,
-                          "up to %.0f %% of the sound follows the force at once and is in no mode: the object moves as "
-                          "a whole, or modes decay faster than --fastest",
-                          100.0 * direct));
+        NOTE(x,
+             "up to %.0f %% of the sound follows the force at once and is in no mode: the object moves as a whole, or "
+             "modes decay faster than --fastest",
+             100.0 * direct);
     if (x->given.spectrogram) {
         if (percent < 100.0 * half)
-            note(x, NULL,
-                 arena_format(x->arena, "the modes explain only %.0f %% of strike %d: --method esprit finds more",
-                              percent, st->strike + 1));
+            NOTE(x, "the modes explain only %.0f %% of strike %d: --method esprit finds more", percent, st->strike + 1);
         return true;
     }
     if (percent < 100.0 * half)
@@ -364,42 +307,32 @@ static bool explains(struct modes_extract *x, struct err *e)
 
 /* ------------------------------------------------------------------ gains */
 
-struct strike_gain {
-    double size, se, shared, phase; /* shared: of all strikes alike */
-};
-
-/* A of a component in the strikes of a place that are fitted. Returns how many there are. */
-static int strike_gains(const struct modes_extract *x, const struct modal_mode *m, const struct modes_extract_place *p,
-                        struct strike_gain *g)
-{
-    bool force = x->given.force_channel, response = x->given.impulse;
-    int n = 0;
-    for (int k = p->first; k < p->first + p->stretches; k++) {
-        const struct modal_stretch *st = &x->data.stretch[k];
-        double se = m->gain_se[st->group];
-        if (!st->fitted || !isfinite(se) || se <= 0.0) continue;
-        const struct strikes_one *v = &p->strikes.strike[st->strike];
-        double back = force || response ? 0.0 : (double)(st->pulse.at - v->onset) / x->rate,
-               unit = response ? 1.0
-                      : force  ? x->rate
-                               : 1.0 / v->peak,
-               scale = unit * real_exp(m->decay * back);
-        cplx a = cplx_scale(unit, cplx_mul((cplx){m->re[st->group], m->im[st->group]},
-                                           cplx_exp((cplx){-m->decay, 2.0 * REAL_PI * m->frequency}, -back)));
-        g[n++] =
-            (struct strike_gain){cplx_abs(a), scale * se, scale * m->gain_shared[st->group], real_atan2(a.im, a.re)};
-    }
-    return n;
-}
-
-/* The place's gain: of its strikes the mean of sizes, weighted by noise and by how far strikes differ, and the phase of
- * the most certain. */
+/* A of a component at a place: of its strikes that are fitted the mean of sizes, weighted by noise and by how far
+ * strikes differ, and the phase of the most certain. */
 static struct modes_extract_gain place_gain(const struct modes_extract *x, const struct modal_mode *m,
                                             const struct modes_extract_place *p)
 {
-    struct arena *a = arena_open();
-    struct strike_gain *g = ARENA_TAKE(a, struct strike_gain, p->stretches + 1);
-    int n = strike_gains(x, m, p, g), best = 0;
+    struct {
+        double size, se, shared, phase; /* shared: error of all strikes alike */
+    } g[STRIKES];
+    int n = 0, best = 0;
+    for (int k = p->first; k < p->first + p->stretches; k++) {
+        const struct modal_stretch *st = &x->data.stretch[k];
+        double se = m->gain_se[st->group], back = 0.0, unit = x->given.impulse ? 1.0 : x->rate;
+        if (!st->fitted || !isfinite(se) || se <= 0.0) continue;
+        if (!x->given.impulse && !x->given.force_channel) {
+            back = (double)(st->pulse.at - p->strikes.strike[st->strike].onset) / x->rate;
+            unit = 1.0 / p->strikes.strike[st->strike].peak;
+        }
+        cplx a = cplx_mul((cplx){m->re[st->group], m->im[st->group]},
+                          cplx_exp((cplx){-m->decay, 2.0 * REAL_PI * m->frequency}, -back));
+        double scale = unit * real_exp(m->decay * back);
+        a = cplx_scale(unit, a);
+        g[n].size = cplx_abs(a);
+        g[n].se = scale * se;
+        g[n].shared = scale * m->gain_shared[st->group];
+        g[n++].phase = real_atan2(a.im, a.re);
+    }
     double mean = 0.0, between = 0.0, noise = 0.0, weights = 0.0, size = 0.0, shared = 0.0;
     for (int i = 0; i < n; i++)
         mean += g[i].size / n;
@@ -415,13 +348,10 @@ static struct modes_extract_gain place_gain(const struct modes_extract *x, const
         size += w * g[i].size;
         shared += w * g[i].shared;
     }
-    struct modes_extract_gain gain = {0.0, 0.0, 0.0};
-    if (n)
-        gain = (struct modes_extract_gain){size / weights * real_cos(g[best].phase),
-                                           size / weights * real_sin(g[best].phase),
-                                           sqrt(1.0 / weights + shared * shared / (weights * weights))};
-    arena_close(a);
-    return gain;
+    if (n == 0) return (struct modes_extract_gain){0.0, 0.0, 0.0};
+    return (struct modes_extract_gain){size / weights * real_cos(g[best].phase),
+                                       size / weights * real_sin(g[best].phase),
+                                       sqrt(1.0 / weights + shared * shared / (weights * weights))};
 }
 
 /* Of the sound, and of the table's quantity: a monopole's radiation is divided out, if its sizes are given. */
@@ -429,18 +359,15 @@ static void gains(struct modes_extract *x)
 {
     const struct modes_extract_given *g = &x->given;
     bool divides = g->quantity == MODES_PRESSURE && !isnan(g->radius);
-    x->quantity = g->quantity != MODES_PRESSURE ? g->quantity : divides ? MODES_VELOCITY : MODES_ACCELERATION;
-    x->sound = x->gain = ARENA_TAKE(x->arena, struct modes_extract_gain, x->found.n * x->n);
-    for (int i = 0; i < x->found.n; i++)
-        for (int k = 0; k < x->n; k++)
-            x->sound[i * x->n + k] = place_gain(x, &x->found.mode[i], &x->place[k]);
-    if (!divides) return;
     struct radiator_monopole r = radiator_monopole(g->radius, g->distance, air_density, air_speed);
+    x->quantity = g->quantity != MODES_PRESSURE ? g->quantity : divides ? MODES_VELOCITY : MODES_ACCELERATION;
+    x->sound = ARENA_TAKE(x->arena, struct modes_extract_gain, x->found.n * x->n);
     x->gain = ARENA_TAKE(x->arena, struct modes_extract_gain, x->found.n * x->n);
     for (int i = 0; i < x->found.n * x->n; i++) {
         const struct modal_mode *m = &x->found.mode[i / x->n];
-        struct modes_extract_gain a = x->sound[i];
+        struct modes_extract_gain a = x->sound[i] = x->gain[i] = place_gain(x, m, &x->place[i % x->n]);
         double h[2], s[2] = {-m->decay, 2.0 * REAL_PI * m->frequency};
+        if (!divides) continue;
         radiator_monopole_at(&r, s, h);
         double power = h[0] * h[0] + h[1] * h[1];
         x->gain[i] = (struct modes_extract_gain){(a.re * h[0] + a.im * h[1]) / power,
@@ -476,7 +403,7 @@ static void level(struct modes_extract *x)
         k++;
     x->why_not = reasons[k].why;
     if (air && !force) note(x, NULL, air_note);
-    if (x->why_not) note(x, NULL, arena_format(x->arena, "the level is relative: %s", x->why_not));
+    if (x->why_not) NOTE(x, "the level is relative: %s", x->why_not);
 }
 
 /* Of decays. By energy: shares add up to 1 and are none below 0, so that components which cancel do not rule; each
@@ -511,7 +438,7 @@ bool modes_extract_find(struct modes_extract *x, struct err *e)
 {
     const struct modes_extract_given *g = &x->given;
     for (int k = 0; k < x->n; k++)
-        if (!(g->impulse ? impulse : strikes)(x, &x->place[k], e)) return false;
+        if (!strikes(x, &x->place[k], e)) return false;
     if (!stretches(x, e)) return false;
     struct modal_options o = {.most = (int)g->modes,
                               .low = x->low,

@@ -9,14 +9,6 @@
 
 static double size(const struct modes_extract_gain *g) { return sqrt(g->re * g->re + g->im * g->im); }
 
-static int used(const struct strikes *s)
-{
-    int n = 0;
-    for (int k = 0; k < s->n; k++)
-        n += !s->strike[k].left_out;
-    return n;
-}
-
 static double t60(const struct modal_mode *m) { return 3.0 * real_log(10.0) / m->decay; }
 
 /* ------------------------------------------------------------------ table */
@@ -32,7 +24,7 @@ static void comments(FILE *f, const struct modes_extract *x)
     for (int k = 0; k < x->n; k++) {
         const struct modes_extract_place *p = &x->place[k];
         fprintf(f, "# source %d: %s, sha256 %s\n", k + 1, p->name, p->hash);
-        if (!g->impulse) fprintf(f, "# strikes %d: %d of %d used\n", k + 1, used(&p->strikes), p->strikes.n);
+        if (!g->impulse) fprintf(f, "# strikes %d: %d of %d used\n", k + 1, p->strikes.used, p->strikes.n);
     }
     fprintf(f, "# method: %s, then output error on DFT bins, %.6g to %.6g Hz at %g Hz\n",
             g->spectrogram ? "peaks of the power spectrogram" : "ESPRIT in sub-bands", x->low, x->high, x->rate);
@@ -94,8 +86,8 @@ static void report_strikes(struct report *r, const struct modes_extract *x, cons
     bool force = x->given.force_channel;
     bool text = !x->given.impulse;
     if (text)
-        report_text(r, "strikes: %d found, %d used\n%6s %10s %12s %12s %10s\n", p->strikes.n, used(&p->strikes),
-                    "strike", "onset_s", force ? "peak_force" : "peak_sound", force ? "momentum" : "", "explained");
+        report_text(r, "strikes: %d found, %d used\n%6s %10s %12s %12s %10s\n", p->strikes.n, p->strikes.used, "strike",
+                    "onset_s", force ? "peak_force" : "peak_sound", force ? "momentum" : "", "explained");
     report_list(r, "strikes");
     for (int k = 0; k < p->strikes.n; k++) {
         const struct strikes_one *v = &p->strikes.strike[k];
