@@ -174,16 +174,23 @@ static void change(struct strikes_channel *c, long n, double sign, double offset
     c->x = to;
 }
 
-static void prepare(struct strikes_channel *c, const char *name, const struct strikes_recording *r, struct strikes *s,
-                    struct arena *a)
+/* Offset and clipping; a hammer pushes: its greatest force is positive. */
+static void prepare(struct strikes_channel *c, const struct strikes_recording *r, struct strikes *s, struct arena *a)
 {
-    double most = 0.0, error, offset = offset_of(c->x, r, &error);
+    bool force = c == &r->force;
+    double least, most = 0.0, error, offset = offset_of(c->x, r, &error);
     for (long i = 0; i < r->n; i++)
         most = fmax(most, fabs(c->x[i] - offset));
     if (fabs(offset) > fmax(considerable * most, 4.0 * error) && most > 0.0) {
         change(c, r->n, 1.0, offset, a);
         c->offset = offset;
-        NOTE(s, a, "the %s stands beside 0, by %.3g: that offset is taken off", name, offset);
+        NOTE(s, a, "the %s stands beside 0, by %.3g: that offset is taken off", force ? "force" : "sound", offset);
+    }
+    gsl_stats_minmax(&least, &most, c->x, 1, (size_t)r->n);
+    if (force && -least > fmax(most, 0.0)) {
+        change(c, r->n, -1.0, 0.0, a);
+        c->offset = -c->offset;
+        NOTE(s, a, "the force points down in its channel, and is taken the other way round");
     }
     find_clip(c, r->n);
 }
@@ -195,18 +202,6 @@ static bool clips(const struct strikes_channel *c, long from, long to)
             (c->clip[1] > 0.0 && c->x[i] >= c->clip[1]))
             return true;
     return false;
-}
-
-/* A hammer pushes: its greatest force is positive. */
-static void turn_up(struct strikes_recording *r, struct strikes *s, struct arena *a)
-{
-    struct strikes_channel *c = &r->force;
-    double least, most;
-    gsl_stats_minmax(&least, &most, c->x, 1, (size_t)r->n);
-    if (-least <= fmax(most, 0.0)) return;
-    change(c, r->n, -1.0, 0.0, a);
-    *c = (struct strikes_channel){c->x, c->full, -c->offset, {-c->clip[1], -c->clip[0]}};
-    NOTE(s, a, "the force points down in its channel, and is taken the other way round");
 }
 
 /* ------------------------------------------------------------------ by the force */
@@ -373,8 +368,8 @@ bool strikes_find(struct strikes_recording *r, double threshold, struct arena *a
 {
     bool force = r->force.x != NULL;
     *s = (struct strikes){.strike = ARENA_TAKE(a, struct strikes_one, (double)r->n / (doubled_time * r->rate) + 2.0)};
-    prepare(&r->sound, "sound", r, s, a);
-    if (force) prepare(&r->force, "force", r, s, a);
+    prepare(&r->sound, r, s, a);
+    if (force) prepare(&r->force, r, s, a);
     if ((double)r->n < shortest * r->rate)
         return err_set(e, ERR_SCENE, "%s lasts %.3g ms; a strike and what rings after it take at least 10 ms", r->name,
                        1e3 * (double)r->n / r->rate);
@@ -384,12 +379,7 @@ bool strikes_find(struct strikes_recording *r, double threshold, struct arena *a
         return err_set(e, ERR_SCENE,
                        "%s: the channel of the force is silent (all samples are 0): is --force-channel right?",
                        r->name);
-    if (force) {
-        turn_up(r, s, a);
-        by_force(r, threshold, s, a);
-    } else {
-        by_sound(r, threshold, s, a);
-    }
+    (force ? by_force : by_sound)(r, threshold, s, a);
     if (s->n && (double)(r->n - s->strike[s->n - 1].onset) < shortest * r->rate) {
         s->n--;
         NOTE(s, a, "a strike within the last 10 ms of the recording is left out");

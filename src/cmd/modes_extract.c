@@ -14,7 +14,6 @@
 #include "file/wav.h"
 #include "num/real.h"
 #include "output/mark.h"
-#include "output/gnuplot.h"
 #include "scene/rules.h"
 #include "scene/units.h"
 
@@ -100,15 +99,10 @@ static bool options(struct modes_extract *x, struct err *e)
     const struct args *a = &x->c->args;
     struct modes_extract_given *g = &x->given;
     int method = 0;
-    *g = (struct modes_extract_given){.channel = 1,
-                                      .scale = NAN,
-                                      .force_scale = NAN,
-                                      .quantity = MODES_PRESSURE,
-                                      .fastest = NAN,
-                                      .threshold = 20.0,
-                                      .modes = 50,
-                                      .impulse = args_given(a, "impulse"),
-                                      .only = args_value(a, "strikes")};
+    *g = (struct modes_extract_given){.channel = 1, .quantity = MODES_PRESSURE, .threshold = 20.0, .modes = 50};
+    g->scale = g->force_scale = g->fastest = NAN;
+    g->impulse = args_given(a, "impulse");
+    g->only = args_value(a, "strikes");
     if (!args_word(a, "quantity", quantities, &g->quantity, e) || !args_word(a, "method", methods, &method, e) ||
         !args_whole(a, "channel", channels, &g->channel, e) ||
         !args_whole(a, "force-channel", channels, &g->force_channel, e) ||
@@ -126,74 +120,60 @@ static bool options(struct modes_extract *x, struct err *e)
 
 /* ------------------------------------------------------------------ places */
 
-static bool length(struct modes_extract *x, const char *text, const char *operand, double *m, struct err *e)
-{
-    struct units_fault fault = {NULL, NULL};
-    return units_read(text, KEY_LENGTH, m, x->arena, &fault) ||
-           err_set(e, ERR_USAGE, "%s: the place behind @ is X,Y, each a length: '%s' %s", operand, text, fault.text);
-}
-
-static bool row(struct modes_extract *x, const struct csv *t, size_t k, const char *folder, struct err *e)
+static bool folder(struct modes_extract *x, const char *path, struct err *e)
 {
     enum { FILE_NAME, X, Y, GAIN, Z, COLUMNS };
     static const char *const names[] = {"file_name", "x_m", "y_m", "gain_db", "z_m"};
-    struct modes_extract_place *p = &x->place[x->n++];
     int column[COLUMNS];
-    double value[COLUMNS] = {0};
-    for (int c = 0; c < COLUMNS; c++) {
-        column[c] = csv_column(t, names[c]);
-        if (column[c] < 0 && c <= Y)
-            return err_set(e, ERR_SCENE, "%s: its columns are file_name,x_m,y_m and, if you like, z_m and gain_db",
-                           t->file);
-    }
-    const char *name = t->cells[k * t->columns + (size_t)column[FILE_NAME]];
-    if (name[0] == '\0' || name[0] == '/' || strstr(name, "../"))
-        return err_set(e, ERR_SCENE, "%s:%d: '%s' is not a file in the folder", t->file, t->lines[k], name);
-    for (int c = X; c < COLUMNS; c++)
-        if (column[c] >= 0 && !csv_number(t, k, column[c], &value[c], e)) return false;
-    if (fabs(value[GAIN]) > 200.0 || value[Z] != 0.0)
-        return err_set(e, ERR_SCENE, "%s:%d: gain_db lies between -200 and 200 dB, and z_m is 0: places lie in a plane",
-                       t->file, t->lines[k]);
-    *p = (struct modes_extract_place){.file = arena_format(x->arena, "%s/%s", folder, name),
-                                      .shown = name,
-                                      .placed = true,
-                                      .x = value[X],
-                                      .y = value[Y],
-                                      .gain = real_exp10(value[GAIN] / 20.0)};
-    return true;
-}
-
-static bool folder(struct modes_extract *x, const char *path, struct err *e)
-{
     struct csv t;
     x->index = arena_format(x->arena, "%s/index.csv", path);
-    if (!csv_read_file(x->index, x->arena, &t, e))
-        return e->kind == ERR_INPUT
-                   ? err_at(e, "a folder of recordings has its places in index.csv (file_name,x_m,y_m)")
-                   : false;
+    if (!csv_read_file(x->index, x->arena, &t, e)) {
+        if (e->kind == ERR_INPUT) err_at(e, "a folder of recordings has its places in index.csv (file_name,x_m,y_m)");
+        return false;
+    }
     if (t.rows == 0) return err_set(e, ERR_SCENE, "%s: has no rows; name at least one recording", t.file);
+    for (int c = 0; c < COLUMNS; c++) {
+        column[c] = csv_column(&t, names[c]);
+        if (column[c] < 0 && c <= Y)
+            return err_set(e, ERR_SCENE, "%s: its columns are file_name,x_m,y_m and, if you like, z_m and gain_db",
+                           t.file);
+    }
     x->place = ARENA_TAKE(x->arena, struct modes_extract_place, t.rows);
-    for (size_t k = 0; k < t.rows; k++)
-        if (!row(x, &t, k, path, e)) return false;
+    for (size_t k = 0; k < t.rows; k++) {
+        struct modes_extract_place *p = &x->place[x->n++];
+        double gain = 0.0, z = 0.0, *const to[COLUMNS] = {[X] = &p->x, [Y] = &p->y, [GAIN] = &gain, [Z] = &z};
+        const char *name = t.cells[k * t.columns + (size_t)column[FILE_NAME]];
+        if (name[0] == '\0' || name[0] == '/' || strstr(name, "../"))
+            return err_set(e, ERR_SCENE, "%s:%d: '%s' is not a file in the folder", t.file, t.lines[k], name);
+        for (int c = X; c < COLUMNS; c++)
+            if (column[c] >= 0 && !csv_number(&t, k, column[c], to[c], e)) return false;
+        if (fabs(gain) > 200.0 || z != 0.0)
+            return err_set(e, ERR_SCENE,
+                           "%s:%d: gain_db lies between -200 and 200 dB, and z_m is 0: places lie in a plane", t.file,
+                           t.lines[k]);
+        p->file = arena_format(x->arena, "%s/%s", path, name);
+        p->shown = name;
+        p->placed = true;
+        p->gain = real_exp10(gain / 20.0);
+    }
     return true;
 }
 
 /* FILE@X,Y; a file of the whole name goes first. */
-static bool operands(struct modes_extract *x, struct err *e)
+static bool operand(struct modes_extract *x, const char *text, struct err *e)
 {
-    const struct args *a = &x->c->args;
-    struct stat s;
-    if (a->n_operands == 1 && stat(a->operands[0], &s) == 0 && S_ISDIR(s.st_mode)) return folder(x, a->operands[0], e);
-    x->place = ARENA_TAKE(x->arena, struct modes_extract_place, a->n_operands);
-    for (; x->n < a->n_operands; x->n++) {
-        struct modes_extract_place *p = &x->place[x->n];
-        const char *text = a->operands[x->n];
-        char *name = arena_text(x->arena, text), *at = strrchr(name, '@'), *comma = at ? strchr(at, ',') : NULL;
-        *p = (struct modes_extract_place){.file = name, .shown = name, .gain = 1.0};
-        if (!comma || access(text, F_OK) == 0) continue;
-        *at = *comma = '\0';
-        p->placed = true;
-        if (!length(x, at + 1, text, &p->x, e) || !length(x, comma + 1, text, &p->y, e)) return false;
+    struct modes_extract_place *p = &x->place[x->n++];
+    struct units_fault fault = {NULL, NULL};
+    char *name = arena_text(x->arena, text), *at = strrchr(name, '@'), *comma = at ? strchr(at, ',') : NULL;
+    *p = (struct modes_extract_place){.file = name, .shown = name, .gain = 1.0};
+    if (!comma || access(text, F_OK) == 0) return true;
+    *at = *comma = '\0';
+    p->placed = true;
+    for (int k = 0; k < 2; k++) {
+        const char *length = k ? comma + 1 : at + 1;
+        if (!units_read(length, KEY_LENGTH, k ? &p->y : &p->x, x->arena, &fault))
+            return err_set(e, ERR_USAGE, "%s: the place behind @ is X,Y, each a length: '%s' %s", text, length,
+                           fault.text);
     }
     return true;
 }
@@ -227,50 +207,39 @@ static bool distinct(const struct modes_extract *x, struct err *e)
 
 /* ------------------------------------------------------------------ samples */
 
-static const double *channel(const struct wav *w, long number, double factor, struct arena *a)
+/* A channel of the file, times `scale`. Returns the rms of rounding to the file's steps, one step wide, per full scale:
+   of an integer its last bit, of single precision the last of its greatest sample; 0: of neither. */
+static double take(struct strikes_channel *c, const struct wav *w, long number, double scale, struct arena *a)
 {
-    double *x = ARENA_TAKE(a, double, w->frames);
-    for (size_t i = 0; i < w->frames; i++)
-        x[i] = factor * w->x[i * (size_t)w->channels + (size_t)number - 1];
-    return x;
-}
-
-/* rms of rounding to the file's steps, one step wide, per full scale: of an integer its last bit, of single precision
- * the last of its greatest sample; 0: of neither. */
-static double rounding(const struct wav *w, long number)
-{
-    double most = 0.0;
+    double *x = ARENA_TAKE(a, double, w->frames), most = 0.0;
+    bool single = true;
     int exponent;
-    if (w->bits) return ldexp(sqrt(1.0 / 12.0), 1 - w->bits);
     for (size_t i = 0; i < w->frames; i++) {
-        double x = w->x[i * (size_t)w->channels + (size_t)number - 1];
-        if ((double)(float)x != x) return 0.0;
-        most = fmax(most, fabs(x));
+        double sample = w->x[i * (size_t)w->channels + (size_t)number - 1];
+        x[i] = scale * sample;
+        single = single && (double)(float)sample == sample;
+        most = fmax(most, fabs(sample));
     }
     frexp(most, &exponent);
-    return ldexp(sqrt(1.0 / 12.0), exponent - 24);
+    *c = (struct strikes_channel){.x = x, .full = w->bits ? scale : INFINITY};
+    return !w->bits && !single ? 0.0 : ldexp(sqrt(1.0 / 12.0), w->bits ? 1 - w->bits : exponent - 24);
 }
 
-static bool samples(struct modes_extract *x, struct modes_extract_place *p, struct arena *scratch, struct err *e)
+static bool recording(struct modes_extract *x, struct modes_extract_place *p, struct arena *scratch, struct err *e)
 {
     const struct modes_extract_given *g = &x->given;
+    struct strikes_recording *r = &p->recording;
     struct wav w;
     if (!wav_read(p->file, scratch, &w, e) || !hash_file(p->file, p->hash, e)) return false;
-    if (g->channel > w.channels || g->force_channel > w.channels) {
-        bool sound = g->channel > w.channels;
+    bool sound = g->channel > w.channels;
+    if (sound || g->force_channel > w.channels)
         return err_set(e, ERR_SCENE, "%s has %d channel%s; there is no --%s %ld", p->shown, w.channels,
                        w.channels == 1 ? "" : "s", sound ? "channel" : "force-channel",
                        sound ? g->channel : g->force_channel);
-    }
-    double scale = p->gain * (isnan(g->scale) ? 1.0 : g->scale),
-           force_scale = isnan(g->force_scale) ? 1.0 : g->force_scale;
-    struct strikes_recording *r = &p->recording;
+    double scale = p->gain * (isnan(g->scale) ? 1.0 : g->scale);
     *r = (struct strikes_recording){.name = p->shown, .n = (long)w.frames, .rate = w.rate};
-    r->rounding = fabs(scale) * rounding(&w, g->channel);
-    r->sound.x = channel(&w, g->channel, scale, x->arena);
-    r->sound.full = w.bits ? fabs(scale) : INFINITY;
-    if (g->force_channel) r->force.x = channel(&w, g->force_channel, force_scale, x->arena);
-    r->force.full = w.bits ? force_scale : INFINITY;
+    r->rounding = scale * take(&r->sound, &w, g->channel, scale, x->arena);
+    if (g->force_channel) take(&r->force, &w, g->force_channel, isnan(g->force_scale) ? 1.0 : g->force_scale, x->arena);
     if (x->rate == 0.0) x->rate = w.rate;
     return x->rate == w.rate ||
            err_set(e, ERR_SCENE,
@@ -280,27 +249,31 @@ static bool samples(struct modes_extract *x, struct modes_extract_place *p, stru
 
 static bool recordings(struct modes_extract *x, struct err *e)
 {
-    if (!operands(x, e) || !distinct(x, e)) return false;
-    for (struct modes_extract_place *p = x->place; p < x->place + x->n; p++) {
+    const struct args *a = &x->c->args;
+    struct stat s;
+    bool ok = true;
+    if (a->n_operands == 1 && stat(a->operands[0], &s) == 0 && S_ISDIR(s.st_mode))
+        ok = folder(x, a->operands[0], e);
+    else
+        x->place = ARENA_TAKE(x->arena, struct modes_extract_place, a->n_operands);
+    while (ok && !x->index && x->n < a->n_operands)
+        ok = operand(x, a->operands[x->n], e);
+    ok = ok && distinct(x, e);
+    for (int k = 0; k < x->n && ok; k++) {
+        struct modes_extract_place *p = &x->place[k];
         struct arena *scratch = arena_open();
         const char *slash = strrchr(p->shown, '/');
         char *name = arena_text(x->arena, slash ? slash + 1 : p->shown);
         p->name = name;
         for (; *name; name++)
             *name = (unsigned char)*name < ' ' ? '?' : *name;
-        bool ok = samples(x, p, scratch, e);
+        ok = recording(x, p, scratch, e);
         arena_close(scratch);
-        if (!ok) return false;
     }
-    return true;
+    return ok;
 }
 
 /* ------------------------------------------------------------------ outputs */
-
-struct written {
-    struct outfile table, picture;
-    struct wav_out *sound[2]; /* resynthesis, residual */
-};
 
 /* One channel for each place, as long as the longest recording: what the modes make of it, or what they leave. */
 static bool sound(const struct modes_extract *x, int what, struct wav_out **w, struct err *e)
@@ -324,49 +297,40 @@ static bool sound(const struct modes_extract *x, int what, struct wav_out **w, s
     return wav_write(*w, frames, (size_t)length, e) && wav_finish(*w, e);
 }
 
-static bool prepare(struct modes_extract *x, struct written *o, struct err *e)
+/* All of them, or none. */
+static bool write_outputs(struct modes_extract *x, struct err *e)
 {
-    const char *const *file = x->given.file;
-    if (!outfile_open(&o->table, file[MODES_EXTRACT_TABLE], e)) return false;
-    modes_extract_write_table(o->table.stream, x);
-    return outfile_settle(&o->table, e) && sound(x, MODES_EXTRACT_RESYNTHESIS, &o->sound[0], e) &&
-           sound(x, MODES_EXTRACT_RESIDUAL, &o->sound[1], e) &&
-           (!file[MODES_EXTRACT_PLOT] ||
-            (gnuplot_draw(&o->picture, file[MODES_EXTRACT_PLOT], x->given.svg, modes_extract_write_picture, x, e) &&
-             outfile_settle(&o->picture, e)));
-}
-
-static bool commit(struct written *o, bool picture, struct err *e)
-{
-    bool ok = true;
+    const char *const *file = x->given.file, *plot = file[MODES_EXTRACT_PLOT];
+    struct outfile *table = ARENA_TAKE(x->arena, struct outfile, 2), *picture = table + 1;
+    struct wav_out *sounds[2] = {NULL, NULL};
+    bool ok = outfile_open(table, file[MODES_EXTRACT_TABLE], e);
+    if (ok) modes_extract_write_table(table->stream, x);
+    ok = ok && outfile_settle(table, e) && sound(x, MODES_EXTRACT_RESYNTHESIS, &sounds[0], e) &&
+         sound(x, MODES_EXTRACT_RESIDUAL, &sounds[1], e) &&
+         (!plot ||
+          (gnuplot_draw(picture, plot, x->given.svg, modes_extract_write_picture, x, e) && outfile_settle(picture, e)));
     interrupt_hold();
-    for (int k = 0; k < 2 && ok; k++) {
-        ok = !o->sound[k] || wav_commit(o->sound[k], e);
-        o->sound[k] = NULL;
-    }
-    ok = ok && (!picture || outfile_commit(&o->picture, e)) && outfile_commit(&o->table, e);
+    for (int k = 0; k < 2; k++)
+        if (sounds[k] && !ok)
+            wav_drop(sounds[k]);
+        else if (sounds[k])
+            ok = wav_commit(sounds[k], e);
+    ok = ok && (!plot || outfile_commit(picture, e)) && outfile_commit(table, e);
     interrupt_go();
+    outfile_drop(picture); /* nothing, of what is committed */
+    outfile_drop(table);
     return ok;
 }
 
 int modes_extract_run(struct cmd_call *c, struct err *e)
 {
     struct modes_extract *x = ARENA_TAKE(c->arena, struct modes_extract, 1);
-    struct written *o = ARENA_TAKE(c->arena, struct written, 1);
+    bool json = args_given(&c->args, "json"), text = !args_given(&c->args, "quiet");
     x->c = c;
     x->arena = c->arena;
     if (!options(x, e) || !recordings(x, e)) return (int)e->kind;
     for (int k = 0; k < MODES_EXTRACT_FILES; k++) /* before the work */
         if (x->given.file[k] && !modes_output_possible(x->given.file[k], e)) return (int)e->kind;
-    if (!modes_extract_find(x, e)) return (int)e->kind;
-    bool json = args_given(&c->args, "json");
-    if (prepare(x, o, e) && commit(o, x->given.file[MODES_EXTRACT_PLOT], e)) {
-        if (json || !args_given(&c->args, "quiet")) modes_extract_write_report(x, json, e);
-        return (int)e->kind;
-    }
-    for (int k = 0; k < 2; k++)
-        if (o->sound[k]) wav_drop(o->sound[k]);
-    outfile_drop(&o->picture);
-    outfile_drop(&o->table);
+    if (modes_extract_find(x, e) && write_outputs(x, e) && (json || text)) modes_extract_write_report(x, json, e);
     return (int)e->kind;
 }

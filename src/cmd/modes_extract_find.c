@@ -59,11 +59,9 @@ static bool only(const struct modes_extract *x, struct strikes *s, struct err *e
     for (const char *text = x->given.only; *text;) {
         char *end;
         long from = strtol(text, &end, 10), to = from;
-        if (end != text && *end == '-') {
-            text = end + 1;
-            to = strtol(text, &end, 10);
-        }
-        if (end == text || (*end && *end != ',') || from < 1 || to < from)
+        if (end != text && *end == '-') to = strtol(text = end + 1, &end, 10);
+        bool whole = end != text && (!*end || *end == ',');
+        if (!whole || from < 1 || to < from)
             return err_set(e, ERR_USAGE, "--strikes: '%s' is not of the form 1,3,5-7", x->given.only);
         if (to > s->n) return err_set(e, ERR_USAGE, "--strikes: '%s': there are %d strikes", x->given.only, s->n);
         for (long k = from; k <= to; k++)

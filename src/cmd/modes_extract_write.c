@@ -197,11 +197,12 @@ bool modes_extract_write_report(const struct modes_extract *x, bool json, struct
 
 /* ------------------------------------------------------------------ picture */
 
-#define BLUE "#0072b2"
-#define RED "#d55e00"
-#define GREY "#888888"
-
-enum { COLUMNS = 900, POINTS = 700 };
+#define RED "'#d55e00'"
+#define POINTS " pointtype 7 pointsize 0.5 linecolor rgb " RED
+#define CURVES /* columns 2 to 4 of the data */                                                                        \
+    " using 1:2 with lines linewidth 1.2 linecolor rgb '#888888' title 'strike'"                                       \
+    ", '' using 1:4 with lines linewidth 1 linecolor rgb '#f0b48a' title 'what is left'"                               \
+    ", '' using 1:3 with lines linewidth 1.2 linecolor rgb '#0072b2' title 'its modes'"
 
 static double decibel(double power) { return power > 0.0 ? 10.0 * real_log10(power) : -400.0; }
 
@@ -215,14 +216,15 @@ static void levels(struct gnuplot *g, double at, const double power[3])
 static void spectra(struct gnuplot *g, double *const y[3], long n, double rate, double low, double high)
 {
     struct arena *a = arena_open();
+    const int columns = 900;
     long padded = (long)fft_good_size((size_t)(2 * n));
     double *power[3];
     for (int k = 0; k < 3; k++)
         power[k] = modes_extract_find_power(y[k], n, padded, a);
     fputs("$s << END\n", g->in);
-    for (int c = 0; c < COLUMNS; c++) {
-        double from = low * real_pow(high / low, (double)c / COLUMNS),
-               to = low * real_pow(high / low, (c + 1.0) / COLUMNS), most[3] = {0};
+    for (int c = 0; c < columns; c++) {
+        double from = low * real_pow(high / low, (double)c / columns),
+               to = low * real_pow(high / low, (c + 1.0) / columns), most[3] = {0};
         for (long i = (long)(from / rate * (double)padded); i <= (long)(to / rate * (double)padded) && i <= padded / 2;
              i++)
             for (int k = 0; k < 3; k++)
@@ -244,7 +246,7 @@ static void stems(struct gnuplot *g, const struct modes_extract *x)
                off_decay = m->decay_se / m->decay, off = 2.0 * sqrt(off_gain * off_gain + off_decay * off_decay);
         fprintf(g->in, "%.7g %.5g %.5g %.5g %.5g %.5g %.5g\n", m->frequency, height,
                 height + 20.0 * real_log10(fmax(1.0 - off, 1e-3)), height + 20.0 * real_log10(1.0 + off), t60(m),
-                t60(m) / (1.0 + 2.0 * m->decay_se / m->decay), t60(m) / fmax(1.0 - 2.0 * m->decay_se / m->decay, 0.01));
+                t60(m) / (1.0 + 2.0 * off_decay), t60(m) / fmax(1.0 - 2.0 * off_decay, 0.01));
     }
     fputs("END\n", g->in);
 }
@@ -252,7 +254,7 @@ static void stems(struct gnuplot *g, const struct modes_extract *x)
 /* $l: mean squares of y[n] over time. */
 static void decays(struct gnuplot *g, double *const y[3], long n, double rate)
 {
-    long step = n / POINTS > 16 ? n / POINTS : 16;
+    long step = n / 700 > 16 ? n / 700 : 16;
     fputs("$l << END\n", g->in);
     for (long i = 0; i + step <= n; i += step) {
         double power[3] = {0};
@@ -264,15 +266,6 @@ static void decays(struct gnuplot *g, double *const y[3], long n, double rate)
         levels(g, ((double)i + 0.5 * (double)step) / rate, power);
     }
     fputs("END\n", g->in);
-}
-
-static void curves(struct gnuplot *g, const char *data)
-{
-    fprintf(g->in,
-            "plot %s using 1:2 with lines linewidth 1.2 linecolor rgb '" GREY
-            "' title 'strike', '' using 1:4 with lines linewidth 1 linecolor rgb '#f0b48a' title "
-            "'what is left', '' using 1:3 with lines linewidth 1.2 linecolor rgb '" BLUE "' title 'its modes'",
-            data);
 }
 
 /* Of the first place's loudest strike, above: the spectrum of its sound, from the hammer's end on, with its modes' and
@@ -296,28 +289,19 @@ void modes_extract_write_picture(void *self, struct gnuplot *g)
     gnuplot_put_setting(
         g, "multiplot title",
         arena_format(x->arena, "%s: %d modes explain %.1f %%", p->name, x->found.modes, 100.0 * p->explained));
-    fprintf(g->in,
-            "set size 1,0.56\nset origin 0,0.4\nset logscale x\nset xrange [%.6g:%.6g]\nset xlabel "
-            "'frequency / Hz'\nset ylabel 'level / dB'\n",
-            low, high);
     spectra(g, y, n, x->rate, low, high);
     stems(g, x);
-    fputs("stats $s using 2 nooutput\nset yrange [STATS_max - 90:STATS_max + 6]\n", g->in);
-    curves(g, "$s");
-    fputs(", $m using 1:2:(0):(-200) with vectors nohead linewidth 0.6 linecolor rgb '" RED
-          "' notitle, '' using 1:2:3:4 with yerrorbars pointtype 7 pointsize 0.5 linecolor rgb '" RED
-          "' title 'modes, ± 2 standard errors'\nunset logscale x\n",
-          g->in);
     decays(g, y, n, x->rate);
     fprintf(g->in,
-            "set size 0.5,0.4\nset origin 0,0\nset xrange [0:%.6g]\nset xlabel 'time / s'\nset yrange [*:*]\nstats $l "
-            "using 2 nooutput\nset yrange [STATS_max - 80:STATS_max + 6]\n",
-            (double)n / x->rate);
-    curves(g, "$l");
-    fprintf(g->in,
-            "\nset origin 0.5,0\nset logscale xy\nset xrange [%.6g:%.6g]\nset yrange [*:*]\nset xlabel 'frequency / "
-            "Hz'\nset ylabel 'T60 / s'\n"
-            "plot $m using 1:5:6:7 with yerrorbars pointtype 7 pointsize 0.5 linecolor rgb '" RED
-            "' notitle\nunset multiplot\n",
-            low, high);
+            "set size 1,0.56\nset origin 0,0.4\nset logscale x\nset xrange [%.6g:%.6g]\n"
+            "set xlabel 'frequency / Hz'\nset ylabel 'level / dB'\n"
+            "stats $s using 2 nooutput\nset yrange [STATS_max - 90:STATS_max + 6]\nplot $s" CURVES
+            ", $m using 1:2:(0):(-200) with vectors nohead linewidth 0.6 linecolor rgb " RED " notitle"
+            ", '' using 1:2:3:4 with yerrorbars" POINTS " title 'modes, ± 2 standard errors'\n"
+            "unset logscale x\nset size 0.5,0.4\nset origin 0,0\nset xrange [0:%.6g]\nset xlabel 'time / s'\n"
+            "set yrange [*:*]\nstats $l using 2 nooutput\nset yrange [STATS_max - 80:STATS_max + 6]\nplot $l" CURVES
+            "\nset origin 0.5,0\nset logscale xy\nset xrange [%.6g:%.6g]\nset yrange [*:*]\n"
+            "set xlabel 'frequency / Hz'\nset ylabel 'T60 / s'\n"
+            "plot $m using 1:5:6:7 with yerrorbars" POINTS " notitle\nunset multiplot\n",
+            low, high, (double)n / x->rate, low, high);
 }
