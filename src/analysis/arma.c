@@ -5,14 +5,16 @@
    by Gauss and Newton. Ours departs from it where that matters for few impacts, as a1 is about -0.97:
 
    - The pre-sample values are not 0: W_n are the innovations of the stationary series over their deviations (Brockwell
-   and Davis, Time Series: Theory and Methods, section 5.3): v_0 = (1 + b1^2 - 2 a1 b1)/(1 - a1^2), v_n = 1 + b1^2 -
-   b1^2/v_(n-1), I_n = X_n + a1 X_(n-1) - b1/v_(n-1) I_(n-1), W_n = I_n/sqrt(v_n). Nothing is dropped and nothing decays
-   from a wrong start.
+     and Davis, Time Series: Theory
+     and Methods, section 5.3): v_0 = (1 + b1^2 - 2 a1 b1)/(1 - a1^2), v_n = 1 + b1^2 - b1^2/v_(n-1),
+     I_n = X_n + a1 X_(n-1) - b1/v_(n-1) I_(n-1), W_n = I_n/sqrt(v_n). Nothing is dropped and nothing decays from a
+       wrong start.
    - The mean is that which leaves the least energy: m = sum W U/sum U^2, U the series of ones whitened (generalised
-   least squares).
+     least squares).
    - The energy is multiplied by (prod v_n . sum U_n^2)^(1/(n-1)): the residual likelihood (Harville, J. Am. Stat.
-   Assoc. 72, 1977, 320), in place of the plain energy, whose a1 lies nearer to 0 by (1 + 3 |a1|)/n or so; half of that
-   is left. The factor tends to 1 with n.
+     Assoc. 72, 1977, 320), in place
+     of the plain energy, whose a1 lies nearer to 0 by (1 + 3 |a1|)/n or so; half of that is left. The factor tends to 1
+       with n.
 
    GSL's damped Gauss-Newton steps (Levenberg and Marquardt) in u, v with a1 = EDGE tanh u, b1 = EDGE tanh v: the region
    cannot be left. From the STARTS best points of a grid; the best end is taken. Of more than MANY values the first MANY

@@ -2,7 +2,7 @@
    -log2 h, and results y(h) = y + C h^p, the differences from the finest are
 
      d_1 = |C| (h_1^p - h_3^p),  d_2 = |C| (h_2^p - h_3^p),  so  d_1/d_2 = (2^(p(u_3 - u_1)) - 1) / (2^(p(u_3 - u_2)) -
-   1) ,
+       1) ,
 
    which grows with p from (u_3 - u_1)/(u_3 - u_2), at p = 0: p is found by halving, and the error of the finest is |C|
    h_3^p = d_2 / (2^(p(u_3 - u_2)) - 1). Where the ratio is not above that of p = 0 nothing is seen to converge, and the

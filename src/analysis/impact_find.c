@@ -1,24 +1,37 @@
 /* Impacts are the local maxima of the force (papers/002, section IV-A). What is done beside that:
 
    Ripples.  A force that was brought to its sample rate by a low-pass has small maxima beside the large ones, and so
-   has noise. A maximum counts if it rises above the higher of the two valleys beside it (that part towards the next
-   higher maximum on each side; its prominence) by at least `prominence` of the greatest force within 24 samples, and if
-   it is at least `threshold` of the greatest of all. What is left out is counted. Place.    The signal is taken as
-   band-limited (num/between.h): the greatest value in steps of 1/32 of a sample, and a parabola through it and those a
-   quarter of a sample beside it. Times are right within 0.01 of a sample of forces that rasp brought to their rate, and
-   of point samples of raised cosines that last 12 or more. Alone.    An impact stands alone if on both sides the force
-   falls to `quiet` of its own amplitude before the valley that parts it from its neighbour. `quiet` is how nearly 0 the
-   force must be, and has to lie above the ripple. Duration. Of one that stands alone, its contact time. Near its ends
-   force is taken as A sin^p of the time from there, which a raised cosine is with p = 2 and Hertz's impact nearly with
-   p = 1.5: the times at which it passes 1/20, 1/10 and 1/5 of A (2, 4 and 8 times `quiet` where that is more) give p
-   and the end. The low-pass blurs the ends: this is right within 0.5 % from 32 samples on (twice the width at half
-   height), and within 1 % from 15 on. Of shorter impacts, and of those that do not stand alone, `stretch` times the
-   width at half height, which the low-pass hardly touches (within 0.3 % from 6 samples on): `stretch` is the median
-   ratio of the two durations of the impacts of 32 samples and more that stand alone, if there are IMPACT_FEET_MANY of
-   them and they are a tenth of those of 12 samples and more (fewer may all be merged ones); else of those of 12 and
-   more; if there is none it is 2. It is 2 of raised cosines, 1.82 of Hertz's impacts. Half height may be passed on one
-   side only: then twice the half there. Merged.   A flank whose slope falls and rises again by more than a tenth of its
-   steepest is one of two impacts that made a single maximum: they are counted, and taken as one. */
+   has noise. A maximum counts if it
+             rises above the higher of the two valleys beside it (that part towards the next higher maximum on each
+               side; its prominence) by at least
+             `prominence` of the greatest force within 24 samples, and if it is at least `threshold` of the greatest of
+               all. What is left out is counted.
+   Place.    The signal is taken as band-limited (num/between.h): the greatest value in steps of 1/32 of a sample, and a
+             parabola through it and those
+             a quarter of a sample beside it. Times are right within 0.01 of a sample of forces that rasp brought to
+               their rate, and of point samples of
+             raised cosines that last 12 or more.
+   Alone.    An impact stands alone if on both sides the force falls to `quiet` of its own amplitude before the valley
+             that parts it from its
+             neighbour. `quiet` is how nearly 0 the force must be, and has to lie above the ripple.
+   Duration. Of one that stands alone, its contact time. Near its ends force is taken as A sin^p of the time from there,
+   which a raised cosine is with
+             p = 2 and Hertz's impact nearly with p = 1.5: the times at which it passes 1/20, 1/10 and 1/5 of A (2, 4
+               and 8 times `quiet` where that is
+             more) give p and the end. The low-pass blurs the ends: this is right within 0.5 % from 32 samples on (twice
+               the width at half height), and within
+             1 % from 15 on. Of shorter impacts, and of those that do not stand alone, `stretch` times the width at half
+               height, which the low-pass hardly
+             touches (within 0.3 % from 6 samples on): `stretch` is the median ratio of the two durations of the impacts
+               of 32 samples and more that stand
+             alone, if there are IMPACT_FEET_MANY of them and they are a tenth of those of 12 samples and more (fewer
+               may all be merged ones); else of
+             those of 12 and more; if there is none it is 2. It is 2 of raised cosines, 1.82 of Hertz's impacts. Half
+               height may be passed on one side
+             only: then twice the half there.
+   Merged.   A flank whose slope falls and rises again by more than a tenth of its steepest is one of two impacts that
+             made a single maximum: they are
+             counted, and taken as one. */
 #include "analysis/impact_find.h"
 
 #include <gsl/gsl_sort.h>

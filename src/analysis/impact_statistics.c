@@ -6,9 +6,10 @@
    - a1, b1: 1.96 errors to each side, kept within -1 and 1; where any a1 = b1 fits, all of -1 to 1.
    - deviation s of the white process: s exp(+- 1.96 e), e^2 = (kurtosis - 1)/(4 n).
    - mean: s/sqrt(sum U^2), which tends to s |1 + b1|/(|1 + a1| sqrt(n)); 1 + a1 is 0.03 for smooth rolling and known to
-   a fifth of itself after 2000 impacts. So Student's t takes the place of 1.96, with 2/var(ln error^2) degrees of
-   freedom (Satterthwaite, Biometrics Bull. 2, 1946, 110), at least 3; the variance follows from the errors of a1, b1
-   and s. */
+     a fifth of itself after 2000 impacts.
+     So Student's t takes the place of 1.96, with 2/var(ln error^2) degrees of freedom (Satterthwaite, Biometrics Bull.
+       2, 1946, 110), at least 3; the variance follows from
+     the errors of a1, b1 and s. */
 #include "analysis/impact_statistics.h"
 
 #include <gsl/gsl_cdf.h>

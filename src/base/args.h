@@ -1,9 +1,10 @@
 /* A command line against a table of options, and the help text made from that table.
 
      --name, --name VALUE, --name=VALUE, -n, -n VALUE, -nVALUE, clusters of flags (-qf); options and operands in any
-   order;
+       order;
      `--` ends the options; `-` alone is an operand. A long name must be written out: an abbreviation is refused with a
-   suggestion, so that an option added later never changes what an old script means. */
+       suggestion,
+     so that an option added later never changes what an old script means. */
 #ifndef BASE_ARGS_H
 #define BASE_ARGS_H
 #include <stdbool.h>

@@ -3,8 +3,9 @@
 
      m w'' = f - G                                     w   height of the ball, m; G = m g cos(incline), N
      q_i'' + 2 sigma_i q_i' + |s_i|^2 q_i = phi_i f    q_i modal displacements, positive DOWNWARDS; phi_i (1/sqrt(kg))
-   at the contact's place, signed xi = s(t) - sum phi_i q_i - w                     penetration, m; s the rolling curve
-   under the ball f = k xi^1.5 max(0, 1 + mu xi'), xi > 0; else 0
+                                                       at the contact's place, signed
+     xi = s(t) - sum phi_i q_i - w                     penetration, m; s the rolling curve under the ball
+     f = k xi^1.5 max(0, 1 + mu xi'), xi > 0; else 0
 
    Integrators: coupled_gradient.c (default), coupled_rk4.c, coupled_exact.c; each says its formula, order and cost. */
 #ifndef CONVOLUTION_COUPLED_H

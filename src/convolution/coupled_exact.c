@@ -7,7 +7,7 @@
    The isolated impact (a = 0) hides a Hamiltonian. With eta = ln(1 + mu v)/mu,
 
        eta' = v'/(1 + mu v) = -V'(xi),   xi' = v = K'(eta),   K = (e^(mu eta) - 1)/mu^2 - eta/mu = (mu v - ln(1 + mu
-   v))/mu^2
+                                                              v))/mu^2
 
    so V + K is kept, which is the relation between v and xi of Papetti, Avanzini and Rocchesso (2011) that papers/002
    builds on; where an impact begins and ends V = 0, so K(v_out) = K(v_in), whatever kappa. Gonzalez' discrete gradient
@@ -30,7 +30,7 @@
    Energy. By the second and third equation, exactly,
 
        H+ - H = F (s+ - s) - L,   L = m h (y h (D - a)^2 + mu D (v + v+)/2 X) >= 0,   per unit mass H/m = w'^2/2 + a w +
-   V
+                                  V
 
    (p <= 0: L = m (V - V+), as xi falls). Both terms together are a quadratic form in (D - a) and (v + v+)/2, not
    negative for p B <= 4; beyond (p > 8) L stays positive for mu h a < 1, tried on p to 1e4, d from 1e-4 to 600 and mu h

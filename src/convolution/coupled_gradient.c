@@ -4,7 +4,7 @@
      f = DV max(0, 1 + mu (xi+ - xi) / h),   DV = (V(xi+) - V(xi)) / (xi+ - xi)
      w+ = w + h w' + h^2 (f - G) / 2m,       w'+ = w' + h (f - G) / m
      q+ = q + d,  d = h (p + p+) / 2,        p+ = p + h (-2 sigma~ d/h - W (q+ + q)/2 + phibar f / m~),   phibar = (phi
-   + phi+)/2
+                                             + phi+)/2
 
    (Papetti, Avanzini and Rocchesso 2011 compare such forces; the form of a discrete gradient is Gonzalez's, 1996.) A
    mode's pole is that of the step: s~ = (2/h) tanh(s h / 2) = -sigma~ + ..., W = |s~|^2, so that exp(s h) is exact in

@@ -3,8 +3,10 @@
      xi <= 0, A <= 0          free flight, f = 0;
      xi > 0, xi+ <= 0         lift-off: with y = xi - xi+ a quadratic, y^2 - (xi - A - B V mu / h) y = B V;
      xi > 0, xi+ > 0          with a = sqrt(xi), b = sqrt(xi+): DV is a polynomial over a + b (force/hertz_mean.h);
-   times a + b a polynomial in b, by Halley's method from the force's continuation by a parabola: one division a pass,
-   no root; else (landings; what that does not settle) Newton's method in xi+, kept between 0 and A by halving. */
+                              times a + b a
+                              polynomial in b, by Halley's method from the force's continuation by a parabola: one
+                                division a pass, no root;
+     else (landings; what that does not settle) Newton's method in xi+, kept between 0 and A by halving. */
 #include "convolution/coupled_pinch.h"
 
 #include <float.h>

@@ -1,7 +1,7 @@
 /* The force of one step of coupled_gradient.c, with which the step ends where the force says:
 
      xi+ = A - B f(xi+),  f = DV max(0, 1 + mu (xi+ - xi) / h),  DV = (V(xi+) - V(xi)) / (xi+ - xi),  V = (2/5) k max(0,
-   xi)^2.5,
+       xi)^2.5,
 
    A the penetration without force, m; B > 0 what 1 N takes off it. V is convex, so f never falls as xi+ rises and there
    is one root. Only + - * / sqrt. */

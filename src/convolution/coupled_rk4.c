@@ -10,13 +10,17 @@
    Where we depart from the paper: the clamp max(0, 1 + mu xi') of coupled.h (without it a fast ball blows up sooner),
    and what we refuse. Where the method itself departs from the equations:
      - xi^1.5 is not smooth at 0, so that an impact converges with order 2.5 or so, not 4, and may gain energy: a part
-   of 4e-5 of the speed at 42 steps per contact, 6e-4 at 12, 7e-3 at 5.5, and 0.45 at 1.6. Hence fewer than 12 steps per
-   contact are refused, counted at each landing by coupled_contact_time at its closing speed.
+       of 4e-5 of the speed at 42 steps
+       per contact, 6e-4 at 12, 7e-3 at 5.5, and 0.45 at 1.6. Hence fewer than 12 steps per contact are refused, counted
+         at each landing by
+       coupled_contact_time at its closing speed.
      - the contact's dissipation is a decay of mu k xi^1.5 / m, stable up to 2.8 / h: beyond 1 / h it is refused.
      - a mode is damped of its own by about omega^6 h^5 / 144 (at 44.1 kHz: 37 1/s at 5 kHz, 2000 1/s at 10 kHz) and
-   unstable beyond omega h = 2.83. Refused where this passes the decay that the mode was given. The sound is made from
-   the force by exact poles; what is damped too much is the push back. No balance is kept: the residual of the ledger is
-   the error of the method. Work and losses are integrated along with the state, by the same weights.
+       unstable beyond omega h = 2.83.
+       Refused where this passes the decay that the mode was given. The sound is made from the force by exact poles;
+         what is damped too much is the push back.
+   No balance is kept: the residual of the ledger is the error of the method. Work and losses are integrated along with
+   the state, by the same weights.
 
    Modes (coupled_stages.h): linear, so that one pass over them tells all four stages what they would do without a
    force, and it is one step behind the ball. In its units, g = f h^2/4 and h/2 times a velocity, the ball is one more

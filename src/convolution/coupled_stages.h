@@ -26,7 +26,7 @@ enum { SUM_Q, SUM_V, SUM_V1, SUM_V2, SUM_V3, SUMS };
 /* What forces in the step add to the sums, phi half a step on for A1 and A2, a whole one for A3:
      phi v1: A1_SELF g0;   phi v2: A2_OLDER g0 + A2_SELF g1;   phi v3: 2 (A3_OLDEST g0 + A3_MIDDLE g1 + A3_SELF g2)
      phi q2: A1_SELF g0;   phi q3: 2 (A3_OLDER g0 + A3_SELF g1);   slant q2: GLIDE2 g0;   slant q3: 2 (GLIDE3_OLDER g0 +
-   GLIDE3_SELF g1) */
+                                                                   GLIDE3_SELF g1) */
 enum {
     A1_SELF,
     A2_SELF,

@@ -5,7 +5,7 @@
      f' = f + sum over modes of g_i B_i(f),   g_i = (10^(gain/20) - 1) |a_i| / max |a|
 
      B_i(z) = (1 - r^2)/2 (1 - z^-2) / (1 - 2 r cos(theta) z^-1 + r^2 z^-2)      r = e^(-sigma_i/rate), theta = 2 pi
-   f_i/rate
+       f_i/rate
 
    B_i has the mode's own poles, hence its bandwidth, and zeros at 0 Hz and half the rate; its gain is 1, without phase,
    at its peak (where cos is 2 r cos(theta)/(1 + r^2): at the mode but for a share (sigma/omega)^2/2), and 2 sigma

@@ -429,9 +429,10 @@ double solid_eigen_residual(const struct solid_matrices *x, const struct solid_p
 
    The matrix is indefinite, which CHOLMOD's Cholesky cannot factor, so here is the multifrontal method (Duff and Reid
    1983; Liu 1992) over the supernodes that CHOLMOD has found: each supernode's columns and its children's updates are
-   summed in a dense front F = [F11 F21^T; F21 F22],   F11 = P L D L^T P^T (Bunch and Kaufman, pivots within the
-   supernode),   update F22 - F21 F11^-1 F21^T  to its parent. Only signs of pivots are kept, so no factor needs memory,
-   only updates that wait for their parents. */
+   summed in a dense front
+       F = [F11 F21^T; F21 F22],   F11 = P L D L^T P^T (Bunch and Kaufman, pivots within the supernode),   update F22 -
+                                   F21 F11^-1 F21^T  to its parent.
+   Only signs of pivots are kept, so no factor needs memory, only updates that wait for their parents. */
 
 struct fronts {
     const cholmod_factor *l;

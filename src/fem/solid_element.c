@@ -2,7 +2,7 @@
    ed., vol. 1, sections 8.8, 9.10):
 
        K = integral B^T C B dV,   m = density integral N_a N_b dV,   x(L) = sum over the ten of N_a(L) x_a
-   (isoparametric where p is 2).
+                                                                     (isoparametric where p is 2).
 
    Straight edges, midsides in their middle: the Jacobian is constant, K's integrand of degree 2 p - 2 and the mass's of
    degree 2 p. Order 2 takes 4 and 14 points (degree 5), others p + 1 and p + 2 Gauss-Legendre points each way of

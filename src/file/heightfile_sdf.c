@@ -1,9 +1,12 @@
 /* Surface data files (SDF, ISO 25178-71; NIST's and NPL's pages on their reference data).
 
      binary   version char[8], ManufacID char[10], CreateDate char[12], ModDate char[12], NumPoints u16, NumProfiles u16
-   (version 2.0: u32 each), Xscale, Yscale, Zscale, Zresolution f64, Compression u8, DataType u8, CheckType u8; then
-   NumProfiles rows of NumPoints numbers; all little-endian, packed text     the version; lines "Key = value" with the
-   same keys, "; " before remarks; a line "*"; the numbers; a line "*"
+              (version 2.0:
+              u32 each), Xscale, Yscale, Zscale, Zresolution f64, Compression u8, DataType u8, CheckType u8; then
+                NumProfiles rows of
+              NumPoints numbers; all little-endian, packed
+     text     the version; lines "Key = value" with the same keys, "; " before remarks; a line "*"; the numbers; a line
+              "*"
 
    The version's first letter says which, a or b; of the rest only ISO-2 counts, for the width of NumPoints: files come
    as BCR-0.0, BC-1.0, NPL-V1.0, ISO-1.0 ... Keys in any case and order. z = number * Zscale in metres; Xscale and

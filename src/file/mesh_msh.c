@@ -101,7 +101,7 @@ static bool element_nodes(struct mesh_msh *g, int64_t type, int bytes, int node[
      $Nodes     count; per node: tag, x y z (binary: 4 bytes, three doubles)
      $Elements  count; per element: tag, type, number of tags, tags (the first: physical group, 0 none), nodes
                 (binary: runs of one type: type, elements, number of tags; per element: tag, tags, nodes; 4 bytes each)
- */
+                  */
 
 /* A count in text, and what follows its line. */
 static bool read_count(struct mesh_source *s, size_t least, size_t *n, const char *what)
@@ -181,8 +181,9 @@ static bool elements_2(struct mesh_msh *g)
      $Entities  points, curves, surfaces, volumes (counts); per point: tag, x y z, physical groups (count, numbers);
                 per other: tag, box (6), physical groups (count, numbers), what bounds it (count, tags)
      $Nodes     blocks, nodes, least, greatest tag; per block: dimension, entity, parametric (0, 1), nodes; their tags;
-   their x y z (and as many parameters as the dimension) $Elements  blocks, elements, least, greatest tag; per block:
-   dimension, entity, type, elements; per element: tag, nodes */
+                their x y z (and as many parameters as the dimension)
+     $Elements  blocks, elements, least, greatest tag; per block: dimension, entity, type, elements; per element: tag,
+       nodes */
 
 enum { MOST_GROUPS = 64 }; /* of one entity: each of its faces is kept for each */
 

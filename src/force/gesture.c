@@ -2,7 +2,7 @@
    Pai 2001):
 
      f_c = contact.gesture.cutoff |v| / contact.gesture.speed      -3 dB, at most 0.49 of the sample rate, from where on
-   it counts as open
+                                                                   it counts as open
 
    Order 1: y' = w (x - y). Order 2, Butterworth's two poles: s' = w (x - sqrt(2) s - y), y' = w s, with w = 2 pi f_c.
    Each is stepped by the trapezoidal rule with w T / 2 replaced by g = tan(pi f_c T), which puts the -3 dB at f_c at

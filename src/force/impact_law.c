@@ -2,7 +2,7 @@
    pi/3, 4 pi/3 (rub, scratch, roll) is
 
      s_k = (1 - r)/3 + r T(theta - theta_k),   T(t) = 1 - 3 |t| / (2 pi) for |t| < 2 pi/3, t taken round the circle,
-   else 0     (equations 8 to 11)
+                                               else 0     (equations 8 to 11)
 
    zeta, theta, means and filters are the sums of s_k times the anchors' values; the distributions of the white
    processes are mixtures with the shares (hence of area 1), from which one number of the uniform process draws by the
@@ -12,9 +12,11 @@
      theta beyond 2 pi, negative r   taken round the circle; the other side
      modulation (not in 004's P)     its depth is roll's times roll's share; its rate is roll's everywhere
      a floor on amplitudes           002's A is above 0; where roll's share is 1, or for custom if it is asked for.
-   Elsewhere the signs stay |A|^-theta near A = 0           |A| counts as at least 0.01 of the rms amplitude there (of
-   the stationary series), and at least a tenth of what it counts as at the quietest anchor; where there is a floor, as
-   the floor times 1 - m, within 0.001 to 0.01 of the rms amplitude */
+                                     Elsewhere the signs stay
+     |A|^-theta near A = 0           |A| counts as at least 0.01 of the rms amplitude there (of the stationary series),
+                                     and at least a tenth of what it
+                                     counts as at the quietest anchor; where there is a floor, as the floor times 1 - m,
+                                       within 0.001 to 0.01 of the rms amplitude */
 #include "force/impact_law.h"
 
 #include "force/impact_anchors.h"

@@ -5,10 +5,13 @@
    W_n is number n of one uniform process, which drives both (`processes: two`: each has its own). Then, in this order:
 
      marginal   lognormal: with M, V the mean and variance of the stationary series, which is Gaussian, value = M exp(s
-   Z - s^2/2), Z = X_n / sqrt(V), s^2 = ln(1 + V/M^2): the same M and V. Correlations become (exp(s^2 r_k) -
-   1)/(exp(s^2) - 1) of r_k, a little less floors     a value below is raised to it, and told so; X_n stays what it was
+                Z - s^2/2), Z = X_n / sqrt(V),
+                s^2 = ln(1 + V/M^2): the same M and V. Correlations become (exp(s^2 r_k) - 1)/(exp(s^2) - 1) of r_k, a
+                  little less
+     floors     a value below is raised to it, and told so; X_n stays what it was
      modulation the amplitude times 1 + m sin(2 pi phase); the phase grows by nu times the interval: continuous whatever
-   moves duration   zeta max(|A|, shortest)^-theta, of the modulated amplitude; then the amplitude becomes newtons
+       moves
+     duration   zeta max(|A|, shortest)^-theta, of the modulated amplitude; then the amplitude becomes newtons
 
    The start. The series has no beginning: it is begun so long before time 0 that nothing of that beginning is left,
    with P of time 0, and run until the first impact that is not over at 0. The state is begun at its mean and has then

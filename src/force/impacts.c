@@ -3,7 +3,7 @@
    handed over in it, exactly, by all impacts that touch it:
 
      mean = (1/h) sum over n of A_n t0_n / 2 (p((t + h - T_n) / t0_n) - p((t - T_n) / t0_n)),   h the sub-interval, p
-   the share of cosine.h
+       the share of cosine.h
 
    so that all momentum arrives at any sample rate and oversampling. Times are counted from the sub-interval in which an
    impact begins: an hour into a scene impacts have the same shapes as at its start.

@@ -4,7 +4,7 @@
    the surface roughness", such as a fractal surface.
 
      f(t) = k z(x(t))          f force, N      k contact.playback.stiffness, N/m      z height of the surface where the
-   contact is, m
+                                               contact is, m
 
    Departures. The paper plays a sampled noise; here it is the surface itself, whatever it is made of, in metres and
    newtons, and in the plane too. Heights are taken as they are: a mean is a constant force (surface.levelling takes

@@ -4,7 +4,7 @@
      half_sine   m x'' = -k x         f = v sqrt(k m) sin(t sqrt(k/m))       contact time t_c = pi sqrt(m/k)
      hertz       m x'' = -k x^1.5     x_m = (5 m v^2 / (4 k))^(2/5)          contact time t_c = 2.9432752 x_m / v
                                       largest force k x_m^1.5                2.9432752 = (4/5) B(2/5, 1/2), B Euler's
-   beta function
+                                        beta function
 
    (H. Hertz 1882; K. Johnson, Contact Mechanics, 1985, section 11.4.) Either way the speed is reversed and the momentum
    handed over is 2 m v. What is wanted is exact means of the force over any interval: differences of the momentum
@@ -12,10 +12,11 @@
 
      half_sine   p = sin^2(pi q / 2)
      hertz       y = x / x_m, s = t v / x_m:  y'' = -(5/4) y^1.5, y = s G(z), z = s^2.5, G analytic: the equation gives
-   G's series
+                 G's series
 
        g_0 = 1,   g_{n+1} a (1 + a) = -(5/4) h_n,  a = 5 (n + 1) / 2,   sum h_n z^n = (sum g_n z^n)^1.5   (Miller's
-   recurrence) p = -1/2 sum over n >= 1 of g_n (1 + 5 n / 2) z^n    for q <= 1/2;   p(q) = 1 - p(1 - q) beyond
+         recurrence)
+       p = -1/2 sum over n >= 1 of g_n (1 + 5 n / 2) z^n    for q <= 1/2;   p(q) = 1 - p(1 - q) beyond
 
    At q = 1/2, where it converges most slowly, terms fall by 11 and more; the first one left out is 2e-24. No power but
    s^2 sqrt(s) is taken. */

@@ -1,7 +1,7 @@
 /* A sinc under Kaiser's window, in steps of 1/BETWEEN_PHASES of a sample:
 
      x(i + p) = sum over j = 1 - R..R of x[i + j] sinc(p - j) I0(beta sqrt(1 - ((p - j)/R)^2)) / I0(beta),   R =
-   BETWEEN_REACH, beta = 9 */
+       BETWEEN_REACH, beta = 9 */
 #include "num/between.h"
 
 #include "num/bessel.h"

@@ -4,14 +4,17 @@
    itself 0.01 dB in the upper half of the band: -67 dB.
 
    Same bits on every CPU. Three things in libsoxr 0.1.3 vary, measured over eleven pairs of rates:
-   - It has two double-precision engines and picks by CPU: cr64s (AVX), cr64 (plain C); 90 % of samples differ, by up
-   to 2.4e-15. The environment decides before the CPU does, and so `portable` asks for cr64 there, and takes away the
-   variables that change filters.
+   - It has two double-precision engines and picks by CPU: cr64s (AVX), cr64 (plain C); 90 % of samples differ, by up to
+     2.4e-15. The
+     environment decides before the CPU does, and so `portable` asks for cr64 there, and takes away the variables that
+       change filters.
    - Its filters come from libm. Without FMA 16 samples of 674550 differ, by 1.1e-16: rounding the result to a grid
-   would make such a flip rare, never impossible. So libm's functions are replaced (num/libm.h): then all samples are
-   the same with and without FMA.
+     would make such a flip
+     rare, never impossible. So libm's functions are replaced (num/libm.h): then all samples are the same with and
+       without FMA.
    - A clock of 32 bits for ratios that are not small fractions: SOXR_HI_PREC_CLOCK makes it exact enough for the figure
-   above. What remains: another version of libsoxr may differ, as another FFTW may.
+     above.
+   What remains: another version of libsoxr may differ, as another FFTW may.
 
    The beginning. libsoxr starts as if nothing could ring before sample 0, and where it has several stages each of them
    drops its own: of an impulse in the first sample 4 % are missing even from what comes after it (44.1 to 48 kHz). So

@@ -2,7 +2,7 @@
    rings (modes, recordings, an object, scraper and surface) and however it is heard needs no second formula here.
 
      |H(f)|^2 = sum over channels |FFT of the sound|^2 / (sum of the force's samples)^2      means over 1/512 of the
-   band */
+       band */
 #include "pipeline/audible.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Energy of the sound of a stretch of force F, heard by the power |H|^2 (audible.h):
 
      E = weight  sum over windows, bins of |FFT(w F)|^2 |H|^2 / N        w = sin^2(pi (n + 1/2) / N), N =
-   EXCERPTS_WINDOW
+       EXCERPTS_WINDOW
 
    A stretch of one window is one window; a longer one is cut into windows that overlap by half. The squares of w have a
    mean of 3/8: that is what weights undo.

@@ -6,8 +6,9 @@
      predicted^2 = sum of e_k^2 <= (asked / margin)^2        margin  PROMISE_MARGIN, for what excerpts do not see
 
    e of gain_ramp   the sound of the whole motion at halved values against each other (promise_curve.h), all else at
-   `draft` e of steps       rehearsed on excerpts of the motion, up to the force, at doubled values (excerpts.h), and
-   weighed by what of the force is heard */
+                    `draft`
+   e of steps       rehearsed on excerpts of the motion, up to the force, at doubled values (excerpts.h), and weighed by
+                    what of the force is heard */
 #ifndef PIPELINE_PROMISE_H
 #define PIPELINE_PROMISE_H
 #include "base/arena.h"

@@ -2,7 +2,7 @@
    their errors. With e ~ v^-p
 
      e_i = d_i / (1 - 2^-p_i)        p_i = log2(d_i / d_(i+1)), of the last one that of the one before, from 1/2 to
-   `order`
+                                     `order`
 
    Between values log e is a straight line over log v. Beyond the last one it falls with that one's p, so never faster
    than `order`: what has been seen to fall more slowly is not trusted to fall faster. A sound's rest of the filters'

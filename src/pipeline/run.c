@@ -4,8 +4,8 @@
      offset(stage) = max over later stages c that read what it gives of offset(c) + ahead(c)
 
    and each call of run_block(to) runs every stage, in the order of the plan, up to frame to + offset. A signal holds
-   the frames from offset(giver) back to the slowest reader's first. Every item that is given is checked to be finite.
- */
+   the frames from offset(giver) back to the slowest reader's first. Every item that is given is checked to be
+   finite. */
 #include "pipeline/run.h"
 
 #include <limits.h>

@@ -583,7 +583,7 @@ bool object_make(const struct object_given *given, const struct object_ask *ask,
    heard at l, by
 
        q(t) = phi(x) phi(l)/(m w_d) e^(-d t) sin(w_d t),   so that  dq/dt = Im(A e^(s t)),   A = phi(x) phi(l)/m (j -
-   d/w_d),   s = -d + j w_d.
+                                                           d/w_d),   s = -d + j w_d.
 
    Heard where it is touched: l = x, the driving-point response. Of a spherical shell, whose modes come in families of 2
    l + 1, phi(x) phi(l) stands for P_l(cos of the angle between x and l), which is 1 at the place that is touched,

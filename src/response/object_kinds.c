@@ -397,7 +397,7 @@ const struct object_kind object_kinds_drum = {"membrane theory", drum_list, obje
    448):
 
        R = J_n(lambda r/a) + C I_n(lambda r/a)/I_n(lambda),   w = lambda^2/a^2 sqrt(D/(rho h)),   D = E h^3/(12 (1 -
-   nu^2)),
+                                                              nu^2)),
 
    with, at r = a (a = 1; L f = f'' + nu (f' - n^2 f) the bending moment, V f = (laplacian f)' - (1 - nu) n^2 (f' - f)
    the edge's shear force): clamped R = R' = 0, supported R = L R = 0, free L R = V R = 0. Bessel's equation turns f''
@@ -405,9 +405,9 @@ const struct object_kind object_kinds_drum = {"membrane theory", drum_list, obje
 
        L = -+lambda^2 f - (1 - nu)(f' - n^2 f),   V = -+lambda^2 f' - (1 - nu) n^2 (f' - f),   - for J, + for I.
 
-   Mass: 2 pi (n = 0) or pi times rho h a^2 int_0^1 R^2 r dr; the integrals of J^2 r, I^2 r and J I r are known
-   (DLMF 10.22.5, 10.22.4). Rigid motions (n = 0, 1 of a free disk) are left out. What thin-plate theory leaves out: as
-   in object_plate.c. */
+   Mass: 2 pi (n = 0) or pi times rho h a^2 int_0^1 R^2 r dr; the integrals of J^2 r, I^2 r and J I r are known (DLMF
+   10.22.5, 10.22.4). Rigid motions (n = 0, 1 of a free disk) are left out. What thin-plate theory leaves out: as in
+   object_plate.c. */
 
 struct edge {             /* at r = a: J and I/I_n(lambda) */
     double j, dj, lj, vj; /* f, f', L f, V f */

@@ -22,14 +22,17 @@
 /* Delaunay's triangulation of places: a sweep, then flips.
 
    1. Sweep. Places are taken by rising x (then y); each is joined to the sides of the hull so far that it sees, which
-   are those next to the place before it (as in Sinclair's S-hull, 2010). A side is seen from more than 1e-14 of the
-   extent in front of it, so that every triangle has an area. While all places lie on one line the hull is that line,
-   there and back.
+   are those next to the
+      place before it (as in Sinclair's S-hull, 2010). A side is seen from more than 1e-14 of the extent in front of it,
+        so that
+      every triangle has an area. While all places lie on one line the hull is that line, there and back.
    2. Flips (Lawson, Software for C1 surface interpolation, 1977). An edge is flipped while the angles alpha and beta
-   opposite to it sum to more than pi: cot(alpha) + cot(beta) < -tie. Within the tie the four corners lie on one circle
-   (every cell of a regular grid) and both diagonals are Delaunay's: that through the place of lowest index is taken, so
-   that a grid's all run the same way, and a polygon on a circle becomes a fan. Such flips lower the sum of the
-   triangles' lowest indices, so they end, too.
+   opposite to it sum to more
+      than pi: cot(alpha) + cot(beta) < -tie. Within the tie the four corners lie on one circle (every cell of a regular
+        grid) and both
+      diagonals are Delaunay's: that through the place of lowest index is taken, so that a grid's all run the same way,
+        and a polygon on a
+      circle becomes a fan. Such flips lower the sum of the triangles' lowest indices, so they end, too.
    3. Slivers that rounded coordinates leave along the hull's straight sides are peeled off from outside.
 
    Whether it is a triangulation is checked by Euler's formula: triangles = 2 n - 2 - sides of the hull.

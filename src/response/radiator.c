@@ -139,7 +139,7 @@ static int panels_points(const struct panels *x, int points, double *at, double 
    heard, A_i(y) = const phi_i(y) phi_i(l), hence
 
        factor_i = (s_i rho / 2 pi) int phi_i(y)/phi_i(l) e^(-s_i (R - R_0) / c) / R dS ,   phi_i(y)/phi_i(l) =
-   A_i(y)/A_i(l) ,
+         A_i(y)/A_i(l) ,
 
    R_0 the distance of the object's centre, whose delay R_0/c is left to the caller.
 

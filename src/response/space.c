@@ -42,16 +42,22 @@
    are not exponential.)
 
    Spectra: what a shape of each material has of closed forms; the material acts through its ratios of stiffness only,
-   the size is that of the fundamental asked for. bar    free, length l = 30 h, Timoshenko's dispersion (Timoshenko
-   1921) at the wave numbers b_i/l of the slender bar, cosh b cos b = 1 (the ends' near field is left as that of the
-   slender bar: an approximation). With a = k^2 h^2/12 and s = E/(5/6 G), w^2 is in proportion to the smaller root y of
-   s y^2 - (1 + a (1 + s)) y + a^2 = 0. Wood, weak in shear (s = 26; steel 3.1), has its overtones lower. plate
-   supported, sides 1 : 0.7, orthotropic (Leissa, NASA SP-160): w^2 ~ m^4 + 2 H/Dx m^2 (n/0.7)^2 + Dy/Dx (n/0.7)^4,
-   Dy/Dx = E_y/E, H/Dx = nu E_y/E + 2 G (1 - nu^2 E_y/E)/E: 1 of what is isotropic, all ratios of metal and glass are
-   alike. shell  closed thin sphere, h = R/50 (Junger, Feit, Sound, Structures, and Their Interaction, ch. 7), the lower
-   root W^2, W = w R sqrt(rho (1 - nu^2)/E), of W^4 - (1 + 3 nu + L - q (1 - nu - L^2 - nu L)) W^2 + (L - 2) (1 - nu^2)
-   + q (L^3 - 4 L^2 + L (5 - nu^2) - 2 (1 - nu^2)) = 0, L = i (i + 1), i = 2, 3, ..., q = h^2/(12 R^2); wood as if
-   isotropic, nu = sqrt(nu_LT nu_TL) = nu_LT sqrt(E_T/E_L).
+   the size is that of the fundamental asked for.
+     bar    free, length l = 30 h, Timoshenko's dispersion (Timoshenko 1921) at the wave numbers b_i/l of the slender
+            bar, cosh b cos b = 1 (the ends' near
+            field is left as that of the slender bar: an approximation). With a = k^2 h^2/12 and s = E/(5/6 G), w^2 is
+              in proportion to the smaller
+            root y of s y^2 - (1 + a (1 + s)) y + a^2 = 0. Wood, weak in shear (s = 26; steel 3.1), has its overtones
+              lower.
+     plate  supported, sides 1 : 0.7, orthotropic (Leissa, NASA SP-160): w^2 ~ m^4 + 2 H/Dx m^2 (n/0.7)^2 + Dy/Dx
+       (n/0.7)^4, Dy/Dx = E_y/E,
+            H/Dx = nu E_y/E + 2 G (1 - nu^2 E_y/E)/E: 1 of what is isotropic, all ratios of metal and glass are alike.
+     shell  closed thin sphere, h = R/50 (Junger, Feit, Sound, Structures, and Their Interaction, ch. 7), the lower root
+       W^2, W = w R sqrt(rho (1 - nu^2)/E), of
+            W^4 - (1 + 3 nu + L - q (1 - nu - L^2 - nu L)) W^2 + (L - 2) (1 - nu^2) + q (L^3 - 4 L^2 + L (5 - nu^2) - 2
+              (1 - nu^2)) = 0,
+            L = i (i + 1), i = 2, 3, ..., q = h^2/(12 R^2); wood as if isotropic, nu = sqrt(nu_LT nu_TL) = nu_LT
+              sqrt(E_T/E_L).
 
    Gains: equal modal masses of bar (its end) and plate (on average over it); (2 i + 1)/5 of a shell, whose 2 i + 1
    modes of one frequency move as one where it is touched. */

@@ -6,7 +6,8 @@
      u        m, way of the centre of mass from `from` towards `to`, u(0) = 0, u'(0) = start_speed >= 0
      g        m/s^2, gravity                      incline  rad, above 0: `to` lies higher
      c        rolling friction: the couple c N R against the turning of what rolls, or the force c N against what
-   slides, N = m g cos(incline) I        kg m^2, moment of inertia about the centre; R  m, outer radius
+              slides, N = m g cos(incline)
+     I        kg m^2, moment of inertia about the centre; R  m, outer radius
 
    So u is one parabola up to the stop (if there is one before `to`), then, where g sin(incline) outweighs friction, a
    second one back to `from`, or rest for good. u and u' are continuous; u'' jumps at the stop where there is friction.

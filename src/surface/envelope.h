@@ -1,5 +1,6 @@
 /* The upper envelope of a ball that slides over heights on a square lattice, without its constant R (grey-scale
-   dilation by the ball): E(p) = max over |d| <= R of z(p + d) + sqrt(R^2 - |d|^2) - R */
+   dilation by the ball):
+     E(p) = max over |d| <= R of z(p + d) + sqrt(R^2 - |d|^2) - R */
 #ifndef SURFACE_ENVELOPE_H
 #define SURFACE_ENVELOPE_H
 #include "base/arena.h"

@@ -4,17 +4,19 @@
    `exponent` the beta of 002 (of 004: -beta). n = length / pitch heights z_i at i pitch are
 
      z_i = sum over j = 1 .. n/2 - 1 of A_j cos(2 pi (i j / n + u_j)),   A_j ~ j^(beta/2) (spectrum: power) or j^beta
-   (amplitude)
+       (amplitude)
 
    with phases u_j, uniform in (0, 1), from the seed, and the sum scaled so that the largest |z_i| is `maximum`.
 
    What neither paper states, and what is taken here:
      what lies between the heights   `interpolation`; under nearest steps, whose edges belong to the higher side, under
-   spline the largest height may be passed in between maximum of what                 |z| of the heights about their
-   mean, which is 0 the lowest frequency            1/length; the profile has that period. The highest is below 1/(2
-   pitch) phases or Gaussian amplitudes   phases alone: the periodogram of each draw is the power law itself, not only
-   the mean of many S: of power or amplitude        `spectrum`; 002 says power. 004 says S, and that its amplitude is
-   normalised: either */
+                                     spline the largest height may be passed in between
+     maximum of what                 |z| of the heights about their mean, which is 0
+     the lowest frequency            1/length; the profile has that period. The highest is below 1/(2 pitch)
+     phases or Gaussian amplitudes   phases alone: the periodogram of each draw is the power law itself, not only the
+                                     mean of many
+     S: of power or amplitude        `spectrum`; 002 says power. 004 says S, and that its amplitude is normalised:
+                                     either */
 #include "surface/fractal.h"
 
 #include "num/fft.h"

@@ -10,11 +10,10 @@
    rounding for functions so smooth. |e| <= 5, 0.02 <= b <= 3.
 
    What it does to the spectrum: with c_n = E[H He_n]/sqrt(n!) the autocorrelation r of g becomes the sum of c_n^2 r^n.
-   The share c_1^2
-   (`linear`) keeps its spectrum, the rest is spread over wider bands, up to n times as far. Coarse detail therefore has
-   at least c_1^2 of the density asked for, and detail much finer than most of the height is steepened as H' has it: its
-   density is multiplied by E[H'^2] = sum of n c_n^2 (`steeper`). Between them lies all; skewness -1 and kurtosis 5:
-   0.95 and 1.06 (-0.2 and 0.3 dB); 3 and 30: 0.72 and 1.49 (-1.4 and 1.7 dB). */
+   The share c_1^2 (`linear`) keeps its spectrum, the rest is spread over wider bands, up to n times as far. Coarse
+   detail therefore has at least c_1^2 of the density asked for, and detail much finer than most of the height is
+   steepened as H' has it: its density is multiplied by E[H'^2] = sum of n c_n^2 (`steeper`). Between them lies all;
+   skewness -1 and kurtosis 5: 0.95 and 1.06 (-0.2 and 0.3 dB); 3 and 30: 0.72 and 1.49 (-1.4 and 1.7 dB). */
 #include "surface/heights.h"
 
 #include <string.h>

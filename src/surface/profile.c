@@ -4,8 +4,9 @@
    Interpolation: (c[i-1] + 4 c[i] + c[i+1]) / 6 = z[i]. Its solution on an endless grid is c = sqrt(3) sum_k p^|k|
    z[i-k] with p = sqrt(3) - 2 (Unser, Aldroubi, Eden 1993), computed by one causal and one anticausal recursion; the
    sums are begun 64 samples beyond the ends, where p^64 < 1e-36, with the samples that the continuation rule puts
-   there: mirror  z[-i] = z[i], z[n-1+i] = z[n-1-i], period 2n - 2      wrap  z[n+i] = z[i], period n Heights are taken
-   from the first sample, so that a flat profile is flat to the bit, wherever it lies. */
+   there:
+     mirror  z[-i] = z[i], z[n-1+i] = z[n-1-i], period 2n - 2      wrap  z[n+i] = z[i], period n
+   Heights are taken from the first sample, so that a flat profile is flat to the bit, wherever it lies. */
 #include "surface/profile.h"
 
 #include <limits.h>

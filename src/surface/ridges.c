@@ -5,8 +5,10 @@
    the standard deviation `jitter` (at most 1.73 of it), v_i log-normal with mean 1 and standard deviation `variation`.
 
      round    z = sum over i of h_i b((q - place_i)/R),  b(t) = (1 - t^2)^3 for |t| < 1,  R = width/(2 sqrt(1 -
-   2^(-1/3))): `width` at half height groove   the same, downwards sine     z = h(p)/2 cos(2 pi (p - j(p))),  p =
-   q/spacing,  h and j going from ridge to ridge by the step t^3 (10 - 15 t + 6 t^2)
+              2^(-1/3))): `width` at half height
+     groove   the same, downwards
+     sine     z = h(p)/2 cos(2 pi (p - j(p))),  p = q/spacing,  h and j going from ridge to ridge by the step t^3 (10 -
+              15 t + 6 t^2)
 
    All have continuous second derivatives. Ridges that overlap add up. A sine's ridges are where they should be as far
    as the step is flat: within 0.1 j_i at j_i = 0.2; beyond a jitter of 0.15 two of them may melt into one. */

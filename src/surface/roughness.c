@@ -1,7 +1,8 @@
 /* Procedural roughness, from figures
 
      P(k) = P0 (max(k, 1/longest))^exponent   for k < 1/shortest, 0 above        one-sided density of a profile, k in
-   cycles/m rms^2 = integral of P dk
+                                              cycles/m
+     rms^2 = integral of P dk
 
    or like a measured map: the table of its density by thirds of an octave, up to its band limit (surface/survey.h), its
    rms, skewness and kurtosis. Waves longer than the table's are given what is missing from the rms, spread evenly.

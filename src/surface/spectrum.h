@@ -4,8 +4,8 @@
      P(k) = p[i] (k/k[i])^a between k[i] and k[i+1] (a straight line in log-log), 0 above the last node;
      below the first node p[0] if `flat`, else 0;
      times X(k), the share of a continuation that takes over at `takeover` (0: none, X = 1): 0 below takeover/sqrt 2, 1
-   above takeover sqrt 2, sin^2(pi/2 sin^2(pi/4 (1 + 2 log2(k/takeover)))) between: with 1 - X, which is its mirror
-   image, it adds to 1.
+       above takeover sqrt 2,
+     sin^2(pi/2 sin^2(pi/4 (1 + 2 log2(k/takeover)))) between: with 1 - X, which is its mirror image, it adds to 1.
 
    rms^2 = integral of P dk. */
 #ifndef SURFACE_SPECTRUM_H

@@ -1,8 +1,8 @@
 /* Random fields in the plane.
 
      P(k)      one-sided density that a trace has                                      C2(kappa), W(kappa)
-   surface/spectrum.h xi, eta   place along and across the grain, in m: xi = (x cos d + y sin d)/ratio, eta = -x sin d +
-   y cos d
+               surface/spectrum.h
+     xi, eta   place along and across the grain, in m: xi = (x cos d + y sin d)/ratio, eta = -x sin d + y cos d
 
    The spectrum is split into octave bands [top/2, top), top halving from 1/shortest down; the last band goes down to 0.
    Each has a tile of N x N B-spline coefficients at a pitch of 1/(4 top), periodic, the inverse FFT of random phases
@@ -21,15 +21,15 @@
    b^2/2 (0.7/24)^2 of a power law k^b in the plane, b = exponent - 1: 0.5 % at -2.4, 3 % at -8, and rounds kinks. A
    spline has images: of k at 1/pitch - k, that is from 3 to 7 times k, with at most 1/81 of the amplitude. Those of a
    lower octave land among the higher ones, where they add 3^(-8 - exponent) to the density in a fifth of each octave
-   (0.2 % at -2.4, nothing to be heard above -6), and beyond 1/shortest, which is therefore not empty: measured
-   between 1.1 and 2.8/shortest, the density is at most 6e-5 of that at the edge at exponent 0, 1.2e-4 at -2.4, 1e-3 at
-   -5 (a profile, surface/blocks.h, has nothing there). The window's own leak is less, but for 4e-5 just above the edge;
-   it would be four times that with a corner at its ends.
+   (0.2 % at -2.4, nothing to be heard above -6), and beyond 1/shortest, which is therefore not empty: measured between
+   1.1 and 2.8/shortest, the density is at most 6e-5 of that at the edge at exponent 0, 1.2e-4 at -2.4, 1e-3 at -5 (a
+   profile, surface/blocks.h, has nothing there). The window's own leak is less, but for 4e-5 just above the edge; it
+   would be four times that with a corner at its ends.
 
    Bands are read as one: a spline of pitch 2 h is one of pitch h too, with the coefficients
 
      c'(2 m) = (c(m - 1) + 6 c(m) + c(m + 1)) / 8,   c'(2 m + 1) = (c(m) + c(m + 1)) / 2   (in either direction; de Boor
-   1978, ch. XI)
+                                                     1978, ch. XI)
 
    so that to the coefficients of each band those of all coarser ones are added, from the coarsest on, and only the
    finest lattice is read, in patches that are kept (surface/patches.c). A coefficient is the same sum in the same order

@@ -2,10 +2,10 @@
    tridiagonal system
 
      h_{i-1} b_{i-1} / 6 + (h_{i-1} + h_i) b_i / 3 + h_i b_{i+1} / 6 = (y_{i+1} - y_i) / h_i - (y_i - y_{i-1}) / h_{i-1}
-   R b = Q'y
+       R b = Q'y
 
-   Smoothing (C. Reinsch, Numer. Math. 10 (1967) 177; P. Green, B. Silverman, Nonparametric Regression, 1994,
-   section 2.3): the f that minimises sum w_i (y_i - f(x_i))^2 + p integral f''^2 dx is a natural cubic spline with
+   Smoothing (C. Reinsch, Numer. Math. 10 (1967) 177; P. Green, B. Silverman, Nonparametric Regression, 1994, section
+   2.3): the f that minimises sum w_i (y_i - f(x_i))^2 + p integral f''^2 dx is a natural cubic spline with
 
      (R + p Q' W^-1 Q) b = Q'y,      f(x_i) = y_i - p (W^-1 Q b)_i
 

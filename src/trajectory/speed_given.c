@@ -3,7 +3,7 @@
 
      d_i = 0 where the chords' slopes m_{i-1}, m_i differ in sign, else (w1 + w2) / (w1 / m_{i-1} + w2 / m_i),
      w1 = 2 h_i + h_{i-1}, w2 = h_i + 2 h_{i-1};   at the ends the parabola's slope, held to the chord's sign and three
-   times the chord's slope
+                                                   times the chord's slope
 
    so that v is C1, rises and falls only where the rows do, and never goes below 0. The distance is its exact integral,
    a quartic in each interval. The motion starts with the first row and ends with the last. */

@@ -1,8 +1,9 @@
 /* Laws in closed form, over a stroke of length l in a time T, q = (t - t0) / T from 0 to 1:
 
      constant       p = q
-     harmonic       p = (1 - cos pi q) / 2                  simple harmonic motion from rest to rest, papers/000
-   section 2.3 minimum jerk   p = 10 q^3 - 15 q^4 + 6 q^5             T. Flash, N. Hogan, J. Neurosci. 5 (1985) 1688
+     harmonic       p = (1 - cos pi q) / 2                  simple harmonic motion from rest to rest, papers/000 section
+                                                            2.3
+     minimum jerk   p = 10 q^3 - 15 q^4 + 6 q^5             T. Flash, N. Hogan, J. Neurosci. 5 (1985) 1688
 
    u = u0 + l p. Strokes follow one another without a pause, each with its share of the duration by length, or go there
    and back: then 2 rate strokes a second between u = 0 and l. So the speeds of back_and_forth and of four_in_line with

@@ -2,14 +2,16 @@
 
      x = R theta - r sin(theta)            papers/000 equation 18, x = u + x(start) the way of the centre of mass
      rise = -r cos(theta)                  height of the centre of mass over the geometric centre, which stays R above a
-   level surface bulge = lobe_height cos(lobes theta)  how much further out than R the rim lies where it touches
+                                           level surface
+     bulge = lobe_height cos(lobes theta)  how much further out than R the rim lies where it touches
 
      theta  rad, 0: the centre of mass is lowest     R, r  m     primes: by time, each the derivative of the formula
-   above it: theta' = u' / (R - r cos theta)       theta'' = (u'' - r sin(theta) theta'^2) / (R - r cos theta)
+                                                                 above it:
+     theta' = u' / (R - r cos theta)       theta'' = (u'' - r sin(theta) theta'^2) / (R - r cos theta)
 
    Equations 16 and 17 put theta = x / R into the cosine, which is right for r = 0 only; here theta solves 18, and
-   `printed` is -r cos(x/R) for who wants it as it stands. The point that touches is r sin(theta) away
-   from x along the way; like the paper, what reads the surface reads it at x.
+   `printed` is -r cos(x/R) for who wants it as it stands. The point that touches is r sin(theta) away from x along the
+   way; like the paper, what reads the surface reads it at x.
 
    Equation 18 is Kepler's: phi - q sin(phi) = y, q = r / R < 1, y = x / R less whole turns, |y| <= pi. On [0, pi] the
    left side is rising and convex, so Newton's method from above, from min(y + q, pi), falls to the root and nowhere

@@ -3,8 +3,9 @@
 
      straight       place = from + u e                              velocity = u' e          acceleration = u'' e
      curved         place = P(u)                                    velocity = u' e(u)       acceleration = u'' e + u'^2
-   de/ds own time       place = P(t), velocity and acceleration its derivatives; u = integral of |P'| dt, u' = |P'|, u''
-   = P' . P'' / |P'|
+                                                                    de/ds
+     own time       place = P(t), velocity and acceleration its derivatives; u = integral of |P'| dt, u' = |P'|, u'' =
+                    P' . P'' / |P'|
 
    The paths and times of papers/000 section 3.2: back_and_forth and four_in_line share one speed over time, circle and
    line another. */
