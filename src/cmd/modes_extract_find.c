@@ -152,9 +152,8 @@ static double reach_of_force(const struct modes_extract *x, const struct modes_e
 {
     struct arena *a = arena_open();
     long n = (long)fft_good_size((size_t)(0.1 * x->rate)), k = n / 2;
-    double *power = ARENA_TAKE(a, double, n / 2 + 1), high = 0.49 * x->rate;
-    for (int s = p->first; s < p->first + p->stretches; s++) {
-        const struct modal_stretch *st = &x->data.stretch[s];
+    double *power = ARENA_TAKE(a, double, n / 2 + 1);
+    for (const struct modal_stretch *st = x->data.stretch + p->first, *end = st + p->stretches; st < end; st++) {
         if (!st->fitted) continue;
         const double *one = modes_extract_find_power(st->pulse.f, st->pulse.n, n, a);
         for (long i = 0; i <= n / 2; i++)
@@ -163,9 +162,8 @@ static double reach_of_force(const struct modes_extract *x, const struct modes_e
     double most = gsl_stats_max(power, 1, (size_t)n / 2 + 1);
     while (k > 0 && power[k] < reach * most)
         k--;
-    if (k < n / 2) high = fmin(high, (double)k * x->rate / (double)n);
     arena_close(a);
-    return high;
+    return fmin(0.49 * x->rate, (double)k * x->rate / (double)n);
 }
 
 static bool stretches(struct modes_extract *x, struct err *e)
@@ -373,33 +371,25 @@ static void gains(struct modes_extract *x)
     }
 }
 
-/* What a physical level lacks: the first that applies. */
+/* What a physical level lacks: the last that applies. */
 static void level(struct modes_extract *x)
 {
     static const char air_note[] = "a microphone's pressure is taken as proportional to the surface's acceleration "
                                    "(--radius and --distance would divide a monopole out)";
     const struct modes_extract_given *g = &x->given;
     bool air = g->quantity == MODES_PRESSURE && isnan(g->radius), force = g->force_channel || g->impulse;
-    const struct {
-        bool lacks;
-        const char *why;
-    } reasons[] = {
-        {!force && x->n > 1,
-         "no channel holds the force, so that gains at each place are those of a strike whose sound there "
-         "has the peak 1 and the onset 0, and hold the hammer's spectrum: places cannot be "
-         "compared with each other; --force-channel, or impulse responses with --impulse and one --delay "
-         "for all, keep what is between them"},
-        {!force, "no channel holds the force, so that gains are those of a strike whose sound's peak is 1, and "
-                 "hold the hammer's spectrum"},
-        {air, air_note},
-        {isnan(g->scale) && g->impulse, "--scale, what the file's full scale is, is not given"},
-        {isnan(g->scale), "--scale and --force-scale, what the channels' full scales are, are not given"},
-        {true, NULL},
-    };
-    int k = 0;
-    while (!reasons[k].lacks)
-        k++;
-    x->why_not = reasons[k].why;
+    if (isnan(g->scale))
+        x->why_not = g->impulse ? "--scale, what the file's full scale is, is not given"
+                                : "--scale and --force-scale, what the channels' full scales are, are not given";
+    if (air) x->why_not = air_note;
+    if (!force)
+        x->why_not = "no channel holds the force, so that gains are those of a strike whose sound's peak is 1, and "
+                     "hold the hammer's spectrum";
+    if (!force && x->n > 1)
+        x->why_not = "no channel holds the force, so that gains at each place are those of a strike whose sound there "
+                     "has the peak 1 and the onset 0, and hold the hammer's spectrum: places cannot be compared with "
+                     "each other; --force-channel, or impulse responses with --impulse and one --delay for all, keep "
+                     "what is between them";
     if (air && !force) note(x, NULL, air_note);
     if (x->why_not) NOTE(x, "the level is relative: %s", x->why_not);
 }

@@ -83,8 +83,7 @@ void modes_extract_write_table(FILE *f, const struct modes_extract *x)
 
 static void report_strikes(struct report *r, const struct modes_extract *x, const struct modes_extract_place *p)
 {
-    bool force = x->given.force_channel;
-    bool text = !x->given.impulse;
+    bool force = x->given.force_channel, text = !x->given.impulse;
     if (text)
         report_text(r, "strikes: %d found, %d used\n%6s %10s %12s %12s %10s\n", p->strikes.n, p->strikes.used, "strike",
                     "onset_s", force ? "peak_force" : "peak_sound", force ? "momentum" : "", "explained");
@@ -213,7 +212,7 @@ static void levels(struct gnuplot *g, double at, const double power[3])
 }
 
 /* $s: spectra of y[n], in a column of the picture the greatest of its bins: lines stay as high as they are. */
-static void spectra(struct gnuplot *g, double *const y[3], long n, double rate, double low, double high)
+static void spectra(struct gnuplot *g, const double *const y[3], long n, double rate, double low, double high)
 {
     struct arena *a = arena_open();
     const int columns = 900;
@@ -225,8 +224,8 @@ static void spectra(struct gnuplot *g, double *const y[3], long n, double rate, 
     for (int c = 0; c < columns; c++) {
         double from = low * real_pow(high / low, (double)c / columns),
                to = low * real_pow(high / low, (c + 1.0) / columns), most[3] = {0};
-        for (long i = (long)(from / rate * (double)padded); i <= (long)(to / rate * (double)padded) && i <= padded / 2;
-             i++)
+        long first = (long)(from / rate * (double)padded), last = (long)(to / rate * (double)padded);
+        for (long i = first; i <= last && i <= padded / 2; i++)
             for (int k = 0; k < 3; k++)
                 most[k] = fmax(most[k], power[k][i] / (rate * rate));
         levels(g, sqrt(from * to), most);
@@ -252,7 +251,7 @@ static void stems(struct gnuplot *g, const struct modes_extract *x)
 }
 
 /* $l: mean squares of y[n] over time. */
-static void decays(struct gnuplot *g, double *const y[3], long n, double rate)
+static void decays(struct gnuplot *g, const double *const y[3], long n, double rate)
 {
     long step = n / 700 > 16 ? n / 700 : 16;
     fputs("$l << END\n", g->in);
@@ -276,14 +275,11 @@ void modes_extract_write_picture(void *self, struct gnuplot *g)
     const struct modes_extract_place *p = &x->place[0];
     const struct modal_stretch *st = &x->data.stretch[p->loudest];
     long n = st->n - st->ringing;
-    double low = fmax(20.0, 0.7 * x->low), high = fmin(1.4 * x->high, 0.5 * x->rate), *y[3];
-    for (int k = 0; k < 3; k++)
-        y[k] = ARENA_TAKE(x->arena, double, n);
-    for (long i = 0; i < n; i++) {
-        y[0][i] = st->y[st->ringing + i];
-        y[1][i] = x->found.model[p->loudest][st->ringing + i];
-        y[2][i] = y[0][i] - y[1][i];
-    }
+    double low = fmax(20.0, 0.7 * x->low), high = fmin(1.4 * x->high, 0.5 * x->rate);
+    double *rest = ARENA_TAKE(x->arena, double, n);
+    const double *y[3] = {st->y + st->ringing, x->found.model[p->loudest] + st->ringing, rest};
+    for (long i = 0; i < n; i++)
+        rest[i] = y[0][i] - y[1][i];
     gnuplot_page(g, x->given.svg, 1100, 900);
     fputs("set key noenhanced outside top horizontal center samplen 2\n", g->in);
     gnuplot_put_setting(
