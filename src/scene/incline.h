@@ -1,5 +1,5 @@
 /* Free motion along the straight path `incline`, in closed form: see incline.c. The scene's checks and
- * trajectory/speed_incline.c both go by it. */
+ * trajectory/speed.c both go by it. */
 #ifndef SCENE_INCLINE_H
 #define SCENE_INCLINE_H
 #include <stdbool.h>

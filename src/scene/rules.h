@@ -75,7 +75,7 @@ static inline double rules_chords(const struct motion *m)
 }
 
 /* The mean speed in m/s as far as the scene alone tells it, for predictions of cost; 0.2 where only a file would. A
-   scribble's sines (trajectory/course_scribble.c) make, in the mean over their draws, a velocity along each axis
+   scribble's sines (trajectory/path.c) make, in the mean over their draws, a velocity along each axis
    of 1.22 times rate and size, rms; the mean of its amount is some 0.8 to 0.89 of that. */
 static inline double rules_speed(const struct motion *m)
 {

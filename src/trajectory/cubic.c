@@ -106,3 +106,16 @@ void cubic_at(const struct cubic *c, size_t i, double x, double out[4])
     out[2] = b0 + s * third;
     out[3] = third;
 }
+
+size_t cubic_find(size_t n, const double *at, double x)
+{
+    size_t low = 0, high = n - 2;
+    while (low < high) {
+        size_t middle = (low + high + 1) / 2;
+        if (at[middle] <= x)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    return low;
+}

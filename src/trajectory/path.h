@@ -1,13 +1,40 @@
-/* A curve in the plane over its own length: path_*.c make them. The straight ones need none of this (trajectory.c). */
+/* Curves in the plane. A course has a parameter of its own, P(w): of a recorded motion and of a scribble w is time in
+   s, of a spline through points the length of chords in m. A path is a curve over its own length; the straight ones
+   need none of this (trajectory.c). */
 #ifndef TRAJECTORY_PATH_H
 #define TRAJECTORY_PATH_H
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/arena.h"
 #include "base/err.h"
 #include "scene/scene.h"
-#include "trajectory/course.h"
+#include "trajectory/panels.h"
+
+struct course_out {
+    double *p[2], *d[2], *dd[2], *ddd[2]; /* [n] each: P and its derivatives by w; NULL: not asked for */
+};
+
+struct course {
+    double end;           /* w runs from 0 to it; beyond, the formula goes on                */
+    const double *breaks; /* [n_breaks] rising from 0 to end: where P''' may jump            */
+    size_t n_breaks;
+    void (*at)(const struct course *, size_t n, const double *w, const struct course_out *);
+    const void *state;
+};
+
+/* |P'| and its derivative by w, as a slope of panels.h; self is the course. Where P' is 0 the derivative is that from
+ * the right. */
+void path_course_speed(const void *self, size_t n, const double *w, double *g, double *dg);
+
+/* A hand's wandering loops. Never ends; `end` is as asked for. */
+void path_scribble(struct course *, const struct motion *, uint64_t seed, double end, struct arena *);
+
+/* Reads m->file (time_s, x_m, y_m) and smooths it at m->cutoff. The course's parameter is s after the first row; *clock
+   is that row's time. Ends with the file, or earlier after the duration (s; NAN: not said). ERR_INPUT, ERR_SCENE. */
+bool path_recorded(const struct motion *m, double duration, struct arena *, struct course *, double *clock,
+                   struct err *);
 
 struct path_out {    /* [n] each; NULL members are not asked for                   */
     double *p[2];    /* m, place                                                   */

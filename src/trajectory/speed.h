@@ -1,4 +1,4 @@
-/* How far along a path the motion is at time t: speed_*.c make the laws. */
+/* How far along a path the motion is at time t. */
 #ifndef TRAJECTORY_SPEED_H
 #define TRAJECTORY_SPEED_H
 #include <stdbool.h>

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "fuzz.h"
-#include "trajectory/recorded.h"
+#include "trajectory/path.h"
 #include "trajectory/speed.h"
 
 enum { POINTS = 33 };
@@ -21,7 +21,7 @@ static void places(const char *path, double cutoff, double duration)
     struct course c = {0};
     struct err e = {0};
     double clock, w[POINTS], x[8][POINTS];
-    bool ok = recorded_read(&m, duration, a, &c, &clock, &e);
+    bool ok = path_recorded(&m, duration, a, &c, &clock, &e);
     fuzz_check(ok, &e);
     if (ok) {
         for (int i = 0; i < POINTS; i++)
