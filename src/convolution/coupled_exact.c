@@ -47,7 +47,7 @@
 #include <math.h>
 
 #include "convolution/coupled_parts.h"
-#include "force/hertz_mean.h"
+#include "force/hertz.h"
 #include "num/real.h"
 
 enum { ITERATIONS_MOST = 60, SERIES = 8 };

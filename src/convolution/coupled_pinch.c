@@ -2,7 +2,7 @@
 
      xi <= 0, A <= 0          free flight, f = 0;
      xi > 0, xi+ <= 0         lift-off: with y = xi - xi+ a quadratic, y^2 - (xi - A - B V mu / h) y = B V;
-     xi > 0, xi+ > 0          with a = sqrt(xi), b = sqrt(xi+): DV is a polynomial over a + b (force/hertz_mean.h);
+     xi > 0, xi+ > 0          with a = sqrt(xi), b = sqrt(xi+): DV is a polynomial over a + b (force/hertz.h);
                               times a + b a
                               polynomial in b, by Halley's method from the force's continuation by a parabola: one
                                 division a pass, no root;
@@ -12,7 +12,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "force/hertz_mean.h"
+#include "force/hertz.h"
 
 enum { HALLEY = 8, PASSES = 60 }; /* most passes of Halley's method; of Newton's and halving */
 

@@ -22,7 +22,7 @@
 #include "convolution/roll_curve.h"
 #include "convolution/roll_ground.h"
 #include "force/hertz.h"
-#include "force/onset.h"
+#include "force/approach.h"
 #include "num/real.h"
 #include "scene/ball.h"
 #include "scene/rules.h"
@@ -113,7 +113,7 @@ static void rolling_start(struct rolling *w, struct stage_run *r)
     w->rest = coupled_rest(w->ball, *s, phi);
     coupled_flights(w->ball, 1 / r->board->rate);
     coupled_start(w->ball, w->drop > 0 ? *s + w->drop : w->rest, 0, *s, phi, !(w->drop > 0));
-    if (w->drop > 0) onset_told(r, "the ball's first impact", sqrt(2 * w->drop / w->gravity));
+    if (w->drop > 0) approach_warn(r, "the ball's first impact", sqrt(2 * w->drop / w->gravity));
 }
 
 static bool rolling_open(struct stage_run *r, struct err *e)

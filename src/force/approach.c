@@ -3,9 +3,24 @@
    scraper is lowered (trajectory/load.h: a minimum-jerk step, 10 u^3 - 15 u^4 + 6 u^5, over load.approach and
    load.release). Papers/000 has no such thing: its sounds begin and end with a ramp of the whole. Under contact.gesture
    it comes after the low-pass, in gesture.c. */
+#include "force/approach.h"
+
 #include "scene/rules.h"
-#include "stage.h"
 #include "trajectory/load.h"
+
+void approach_warn(struct stage_run *r, const char *what, double at)
+{
+    const struct contact *c = r->contact;
+    double ramp = r->scene->output.ramp;
+    if (c->start + at < ramp)
+        board_warn(
+            r->board,
+            arena_format(
+                r->arena,
+                "contact '%s': %s comes %.4g s after the scene's start and is faded in by output.ramp, %.4g s: let it "
+                "come later, or shorten the ramp",
+                c->name, what, c->start + at, ramp));
+}
 
 static bool approach_wanted(const struct contact *c, const struct scene *s)
 {

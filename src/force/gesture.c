@@ -56,7 +56,7 @@ static bool fade_make(const struct stage_run *r, struct load_law *fade, struct e
     return true;
 }
 
-static void open_told(const struct stage_run *r, double greatest)
+static void warn_open(const struct stage_run *r, double greatest)
 {
     const struct gesture *g = &r->contact->contact.gesture;
     if (greatest > GESTURE_OPEN * r->board->rate)
@@ -75,7 +75,7 @@ static bool gesture_open(struct stage_run *r, struct err *e)
     r->state = f;
     f->order = g->order;
     f->per_speed = g->cutoff / g->speed / r->board->rate;
-    open_told(r, f->per_speed * r->board->rate * r->board->trajectory->top_speed);
+    warn_open(r, f->per_speed * r->board->rate * r->board->trajectory->top_speed);
     return fade_make(r, &f->fade, e);
 }
 

@@ -21,7 +21,11 @@
    at any instant. So a long interval is more likely to lie across time 0 than a short one, as it should. */
 #include "force/impact_series.h"
 
+#include <math.h>
+
 #include "num/real.h"
+#include "stage.h"
+#include "trajectory/trajectory.h"
 
 #define TOUCH 1e-9 /* of the mean duration */
 
@@ -122,4 +126,59 @@ void impact_series_open(const struct impact_law *l, uint64_t seed, const char *c
         impact_series_next(&next, &i);
         if (i.time + 0.5 * i.duration > 0) return;
     }
+}
+
+/* ------------------------------------------------------------------ the impacts that take place */
+
+/* An impact takes place if its middle comes before the motion's end and it is not over before the contact's start. */
+
+#define IMPACT_LONGEST 10.0 /* s: half of it is how far the force must look ahead */
+
+static void train_look(struct impact_train *t)
+{
+    impact_series_next(&t->series, &t->next);
+    t->any = t->next.time < t->end;
+}
+
+bool impact_series_train(const struct stage_run *r, struct impact_train *t, struct err *e)
+{
+    const struct contact *c = r->contact;
+    *t = (struct impact_train){.end = r->board->trajectory->duration};
+    if (!impact_law_make(c, t->end, r->arena, &t->law, e)) return false;
+    if (!(t->law.longest <= IMPACT_LONGEST))
+        return err_set(e, ERR_SCENE,
+                       "contact '%s': contact.impacts.duration.zeta: an impact of the least amplitude would last %.4g "
+                       "s, and at most %g s make sense: lower "
+                       "zeta or theta, or raise contact.impacts.floor.amplitude",
+                       c->name, t->law.longest, IMPACT_LONGEST) ||
+               err_about(e, c->name, "contact.impacts.duration.zeta");
+    t->report.time = t->end;
+    t->before[0] = HUGE_VAL;
+    impact_series_open(&t->law, r->scene->seed, c->name, r->arena, &t->series);
+    train_look(t);
+    return true;
+}
+
+static void train_report(struct impact_train *t, const struct impact *i)
+{
+    struct impact_report *o = &t->report;
+    o->count++;
+    o->limited_amplitude += (i->limited & IMPACT_LIMITED_AMPLITUDE) != 0;
+    o->limited_interval += (i->limited & IMPACT_LIMITED_INTERVAL) != 0;
+    o->overlaps += impact_series_overlap(t->before[0], t->before[1], i->duration, 0);
+    o->longest = fmax(o->longest, i->duration);
+    t->sums[0] += i->amplitude;
+    t->sums[1] += i->interval;
+    o->mean_amplitude = t->sums[0] / (double)o->count;
+    o->mean_interval = t->sums[1] / (double)o->count;
+    t->before[0] = i->interval;
+    t->before[1] = i->duration;
+}
+
+struct impact impact_series_take(struct impact_train *t)
+{
+    struct impact now = t->next;
+    train_report(t, &now);
+    train_look(t);
+    return now;
 }

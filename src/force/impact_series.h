@@ -11,6 +11,7 @@
 
 #include "force/impact_law.h"
 #include "num/noise.h"
+#include "stage.h"
 
 enum { IMPACT_LIMITED_AMPLITUDE = 1, IMPACT_LIMITED_INTERVAL = 2 };
 
@@ -40,5 +41,25 @@ void impact_series_next(struct impact_series *s, struct impact *i);
 /* Does an impact begin before the one before is over? `apart`: s, between their middles, known within `grain`;
    durations in s. Impacts that follow each other without a gap may meet by rounding, and do not overlap: they touch. */
 bool impact_series_overlap(double apart, double before, double now, double grain);
+
+/* The impacts of a contact that take place, and what is to be reported of them. Whoever needs them draws them anew: the
+ * force, the listing, the table. */
+struct impact_train {
+    struct impact_law law;
+    struct impact_series series;
+    struct impact next; /* the next one, if there is any            */
+    bool any;
+    double end;       /* s, of the motion                         */
+    double before[2]; /* s: interval and duration of the last one */
+    double sums[2];   /* of amplitudes, N, and intervals, s       */
+    struct impact_report report;
+};
+
+/* Of a stage's contact; the motion is on the board. Errors: those of impact_law_make; ERR_SCENE: impacts that last
+ * longer than 10 s. */
+bool impact_series_train(const struct stage_run *r, struct impact_train *t, struct err *e);
+
+/* Takes `next`, which there is, and looks for the one after it. The report is that of all that have been taken. */
+struct impact impact_series_take(struct impact_train *t);
 
 #endif

@@ -1,9 +1,9 @@
 /* The stage that lays a series of impacts on the board: f(t) = sum over n of A_n phi_n(t - T_n) (papers/002 equation 5,
-   papers/004 equation 2), phi_n a raised cosine (cosine.h) that lasts t0_n. The mean of a sub-interval is the momentum
+   papers/004 equation 2), phi_n a raised cosine (pulse.h) that lasts t0_n. The mean of a sub-interval is the momentum
    handed over in it, exactly, by all impacts that touch it:
 
      mean = (1/h) sum over n of A_n t0_n / 2 (p((t + h - T_n) / t0_n) - p((t - T_n) / t0_n)),   h the sub-interval, p
-       the share of cosine.h
+       the share of pulse.h
 
    so that all momentum arrives at any sample rate and oversampling. Times are counted from the sub-interval in which an
    impact begins: an hour into a scene impacts have the same shapes as at its start.
@@ -15,8 +15,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "force/cosine.h"
-#include "force/impact_train.h"
+#include "force/pulse.h"
+#include "force/impact_series.h"
 
 struct impact_waiting {
     double from, after; /* number of the sub-interval in which it begins; when in it, 0 to 1 */
@@ -67,7 +67,7 @@ static bool stage_open(struct stage_run *r, struct err *e)
     r->state = q;
     q->room = 64;
     q->waiting = ARENA_TAKE(r->arena, struct impact_waiting, q->room);
-    return impact_train_open(r, &q->train, e);
+    return impact_series_train(r, &q->train, e);
 }
 
 /* Room doubles: what the arena keeps of smaller ones is less than the last. */
@@ -85,20 +85,20 @@ static void queue_add(struct impact_queue *q, const struct impact_waiting *w, st
 /* Its share at the end of sub-interval k - 1. */
 static double waiting_share(const struct impact_waiting *w, double k)
 {
-    return cosine_share((k - w->from - w->after) / w->length - 0.5);
+    return pulse_cosine((k - w->from - w->after) / w->length - 0.5);
 }
 
 /* Adds what it does in the block; true when it is over then. */
 static bool waiting_lay(struct impact_waiting *w, const struct impact_block *b)
 {
     double k = fmax(w->from, b->first), last = fmin(b->end, w->from + ceil(w->after + w->length) + 1),
-           share[COSINE_MOST];
+           share[PULSE_COSINES];
     while (k < last && w->share < 1) {
         double *force = b->force + (long)(k - b->first);
-        int n = (int)fmin(last - k, COSINE_MOST);
+        int n = (int)fmin(last - k, PULSE_COSINES);
         for (int i = 0; i < n; i++)
             share[i] = (k + (i + 1) - w->from - w->after) / w->length - 0.5;
-        cosine_shares(n, share);
+        pulse_cosines(n, share);
         for (int i = 0; i < n; i++) {
             force[i] += w->momentum * (share[i] - w->share);
             w->share = share[i];
@@ -126,7 +126,7 @@ static void queue_lay(struct impact_queue *q, const struct impact_block *b, doub
         if (!waiting_lay(&q->waiting[i], b)) q->waiting[left++] = q->waiting[i];
     q->n = left;
     while (q->train.any && (q->train.next.time - 0.5 * q->train.law.longest) * per_second < b->end) {
-        struct impact now = impact_train_take(&q->train);
+        struct impact now = impact_series_take(&q->train);
         struct impact_waiting w = waiting_make(&now, per_second, b->first);
         if (!waiting_lay(&w, b)) queue_add(q, &w, a);
     }

@@ -600,7 +600,7 @@ bool path_cells_make(struct path_cells *w, struct stage_run *r, enum cells_kind 
     w->longest = w->halves ? fmin(longest, relief_finest(w->relief) / 2) : longest;
     if (!load_varies(r->contact)) {
         double n = rules_load(r->contact);
-        limiter_told(r, n, n);
+        limiter_warn(r, n, n);
     }
     w->straight = !w->curved && w->channels == 1;
     for (int k = 0; w->straight && k < LIMITER_POINTS; k++) {

@@ -22,7 +22,10 @@
    s^2 sqrt(s) is taken. */
 #include "force/pulse.h"
 
+#include <math.h>
+
 #include "num/real.h"
+#include "num/vecmath.h"
 #include "scene/scene.h"
 
 static void hertz_series(double term[PULSE_TERMS])
@@ -68,4 +71,29 @@ double pulse_share(const struct pulse_shape *p, double q)
 {
     if (q <= 0 || q >= 1) return q >= 1;
     return q <= 0.5 ? share_early(p, q) : 1 - share_early(p, 1 - q);
+}
+
+/* ------------------------------------------------------------------ raised cosines */
+
+/* The covered area of a raised cosine, phi = (1 + cos(2 pi q)) / 2 on -1/2 < q < 1/2, over the whole, 1/2:
+
+     share(q) = q + 1/2 + sin(2 pi q) / (2 pi). */
+
+double pulse_cosine(double q)
+{
+    if (q <= -0.5 || q >= 0.5) return q >= 0.5;
+    return 0.5 + (q + real_sinpi(2 * q) / (2 * REAL_PI));
+}
+
+void pulse_cosines(int n, double *q)
+{
+    double sine[PULSE_COSINES], unused[PULSE_COSINES];
+    if (n < 1) return;
+    for (int i = 0; i < n; i++) {
+        q[i] = q[i] < -0.5 ? -0.5 : q[i] < 0.5 ? q[i] : 0.5; /* where the sine is 0 exactly */
+        sine[i] = 2 * q[i];
+    }
+    vecmath_sincospi((size_t)n, sine, sine, unused);
+    for (int i = 0; i < n; i++)
+        q[i] = 0.5 + (q[i] + sine[i] / (2 * REAL_PI));
 }

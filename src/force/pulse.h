@@ -19,4 +19,15 @@ double pulse_lasts(const struct pulse_shape *p, double mass, double stiffness, d
    it. Rises; error below 4e-16; p(q) + p(1 - q) = 1. */
 double pulse_share(const struct pulse_shape *p, double q);
 
+/* The shape of an impact: a raised cosine (papers/002 equation 9). */
+
+/* Share, 0 to 1, of its area that it has covered at q = (t - middle) / duration: 0 up to -1/2, 1 from 1/2 on; absolute
+   error <= 4e-16. The area is amplitude duration / 2. */
+double pulse_cosine(double q);
+
+/* The same of q[n], in place, n <= PULSE_COSINES. Both are 0 and 1 exactly before and after the impact; between they
+ * may differ by rounding. */
+enum { PULSE_COSINES = 64 };
+void pulse_cosines(int n, double *q);
+
 #endif

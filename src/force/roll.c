@@ -1,10 +1,10 @@
 /* The force of a ball that rolls over a surface, papers/000 section 4.
 
      f      = scraping (f_h + f_v) + f_roll                     equation 19   contact.roll.scraping: how much it slips
-     f_roll = k rho^1.5 (1 + mu rho') for rho > 0, else 0       equation 15     lambda = mu k; force/roll_law.c
+     f_roll = k rho^1.5 (1 + mu rho') for rho > 0, else 0       equation 15     lambda = mu k; force/roll.c
      rho    = delta (N(t)/N)^(2/3) + r + y                      for eq. 16 m; delta that at rest
    (force/roll_stiffness.c) y'' + (2 zeta w0 + mu N/m) y' + w0^2 y = S''               y  m, how much deeper the ground
-   presses in (roll_follow.c) r'     = -2 pi 2 Hz (delta / 1.5 N) (f_roll - N(t)+)       r  m, holds the mean force at
+   presses in (roll.c) r'     = -2 pi 2 Hz (delta / 1.5 N) (f_roll - N(t)+)       r  m, holds the mean force at
    that of N(t)+
 
    S'' is the vertical acceleration of the limited trajectory S that the ball is to follow, d/dt (|v| S') of
@@ -22,28 +22,230 @@
    force is largest where the centre of mass is highest. By Newton's second law the normal force, N(t) = m (g + d2(-r
    cos theta)/dt2), is largest where it is lowest; and millimetres of rise stand against micrometres of S. So here the
    offset and the lobes of the rim (bulge, which is not in the paper) press the ball deeper and less deep as N(t)
-   does, quasi-statically: on level ground f_roll is N(t) (mu aside: a ball turns slowly; force/roll_told.c says where
+   does, quasi-statically: on level ground f_roll is N(t) (mu aside: a ball turns slowly; force/roll.c says where
    it does not). With penetration: paper, rho = R - r cos(x/R) + S + bulge as printed, x that of equation 18, S leaked
    (force/path_integral.c), k and lambda by hand, and N(t) without the lobes.
 
    Where N(t) < 0, as when an offset ball spins fast, it is clear of the surface: no force at all. Without a static
    normal force (contact.gravity: 0) there is no rest and no resonance, and f_roll is what of N(t) presses. */
+#include "force/roll.h"
+
 #include <math.h>
 #include <string.h>
 
-#include "force/path_integral.h"
-#include "force/roll_follow.h"
-#include "force/roll_law.h"
 #include "force/roll_stiffness.h"
-#include "force/roll_told.h"
 #include "force/scrape.h"
 #include "num/real.h"
 #include "num/vecmath.h"
 #include "scene/ball.h"
 #include "scene/rules.h"
+#include "surface/limiter.h"
 #include "surface/relief.h"
 #include "trajectory/load.h"
 #include "trajectory/trajectory.h"
+
+/* ------------------------------------------------------------------ the law */
+
+/* f_roll = k rho^1.5 (1 + mu rho') for rho > 0, else 0, and never below 0: papers/000 equation 15 with lambda = mu k.
+
+   Over a sub-interval dt from a to b, with rho' known at both ends, and rho in the mean (of what is smooth (a + b)/2 +
+   dt (rho'_a - rho'_b)/12, Euler and Maclaurin):
+
+     mean rho^1.5       of the straight line from a to b, raised by what the mean of rho lies above it
+     its late part      half of it and (b^1.5 - a^1.5) / 12
+     lambda rho^1.5 rho' is dQ/dt, Q = (2/5) lambda rho^2.5, mean Q = (Q_a + Q_b) / 2 + dt (Q'_a - Q'_b) / 12; early and
+   late parts as in force/scrape.c
+
+   The error is of order dt^4 where rho is smooth, of order dt^3 where rho'' jumps, as it does where the limiter
+   saturates, and dt^2.5 where rho passes through 0, as rho^1.5 has a continuous first derivative there. The paper says
+   nothing of rho < 0 (its power is then no number) and of rho' < -1/mu, where the force would pull: no force. */
+
+/* max(0, rho)^1.5 */
+static double roll_power_at(double rho) { return rho > 0 ? rho * sqrt(rho) : 0; }
+
+struct roll_parts roll_law_force(const struct roll_law *l, const struct roll_end *a, const struct roll_end *b,
+                                 double mean, double dt)
+{
+    double k = l->stiffness, lambda = k * l->mu, pa = roll_power_at(a->rho), pb = roll_power_at(b->rho),
+           bow = mean - 0.5 * (a->rho + b->rho);
+    double spring = 0.5 * k * roll_law_power(a->rho + bow, b->rho + bow), tilt = k * (pb - pa) / 12;
+    double qa = 0.4 * lambda * pa * a->rho, qb = 0.4 * lambda * pb * b->rho, half = 0.5 * (qb - qa) / dt,
+           bulge = lambda * (pa * a->rate - pb * b->rate) / 12;
+    if (dt + l->mu * (b->rho - a->rho) <= 0) return (struct roll_parts){0};
+    return (struct roll_parts){spring - tilt + half + bulge, spring + tilt + half - bulge};
+}
+
+double roll_law_contact(double a, double b)
+{
+    double most = a > b ? a : b, least = a > b ? b : a;
+    return least > 0 ? 1 : most > 0 ? most / (most - least) : 0;
+}
+
+/* ------------------------------------------------------------------ a mass on a spring */
+
+/* The step of y'' + c y' + w^2 y = a, a = start + (end - start) q over 0 <= q <= 1, q = t/dt, is exact: with p = w y,
+   v = y' and the integral I of p,
+
+     d(p, v, a dt, slope dt, I)/dq = M (p, v, a dt, slope dt, I)
+      dp = w dt v    dv = -w dt p - c dt v + a dt    d(a dt) = slope dt    dI = p
+
+   has the solution exp(M) after a whole step, whatever the poles are, real, double or complex. exp(M) is Taylor's
+   series of M / 2^n, |M| / 2^n < 1/2, squared n times (Moler and Van Loan, SIAM Review 45, 2003): the only operations
+   are + and *, the same bits everywhere. */
+
+enum { ORDER = 5, TERMS = 16 };
+
+typedef double matrix[ORDER][ORDER];
+
+static void multiply(matrix a, matrix b, matrix to)
+{
+    matrix product = {{0}};
+    for (int i = 0; i < ORDER; i++)
+        for (int k = 0; k < ORDER; k++)
+            for (int j = 0; j < ORDER; j++)
+                product[i][j] += a[i][k] * b[k][j];
+    memcpy(to, product, sizeof product);
+}
+
+static void exponential(matrix m)
+{
+    double norm = 0, scale = 1;
+    matrix power = {{0}}, sum = {{0}};
+    int squarings = 0;
+    for (int i = 0; i < ORDER; i++)
+        for (int j = 0; j < ORDER; j++)
+            norm = fmax(norm, fabs(m[i][j]));
+    for (; norm * ORDER * scale > 0.5; scale *= 0.5)
+        squarings++;
+    for (int i = 0; i < ORDER; i++) {
+        power[i][i] = sum[i][i] = 1;
+        for (int j = 0; j < ORDER; j++)
+            m[i][j] *= scale;
+    }
+    for (int n = 1; n <= TERMS; n++) {
+        multiply(power, m, power);
+        for (int i = 0; i < ORDER; i++)
+            for (int j = 0; j < ORDER; j++)
+                sum[i][j] += power[i][j] /= n;
+    }
+    memcpy(m, sum, sizeof sum);
+    for (; squarings > 0; squarings--)
+        multiply(m, m, m);
+}
+
+struct roll_follow roll_follow_make(double resonance, double damping, double dt)
+{
+    enum { P, V, A, SLOPE, I };
+    double w = resonance * dt;
+    struct roll_follow f = {.dt = dt};
+    matrix m = {[P] = {[V] = w}, [V] = {[P] = -w, [V] = -damping * dt, [A] = 1}, [A] = {[SLOPE] = 1}, [I] = {[P] = 1}};
+    exponential(m);
+    static const int rows[3] = {P, V, I};
+    for (int k = 0; k < 3; k++) {
+        double unit = rows[k] == V ? dt : 1 / resonance; /* y = p / w; dt y' = dt v */
+        const double *row = m[rows[k]];
+        f.step[k][0] = unit * row[P] * resonance;
+        f.step[k][1] = unit * row[V] / dt;
+        f.push[k][0] = unit * (row[A] - row[SLOPE]) * dt;
+        f.push[k][1] = unit * row[SLOPE] * dt;
+    }
+    return f;
+}
+
+double roll_follow_step(struct roll_follow *f, double start, double end)
+{
+    double to[3], y = f->y, rate = f->rate * f->dt;
+    for (int k = 0; k < 3; k++)
+        to[k] = f->step[k][0] * y + f->step[k][1] * rate + f->push[k][0] * start + f->push[k][1] * end;
+    f->y = to[0];
+    f->rate = to[1] / f->dt;
+    return to[2];
+}
+
+/* ------------------------------------------------------------------ warnings */
+
+/* A ball that follows its lobes does so quasi-statically: driven at w rad/s up and down by h, a mass m
+   on a contact that gives way by a spring s rises by h / (1 - w^2/w0^2), w0^2 = s/m, and presses by m w^2 times that. s
+   = d(k rho^1.5)/d(rho) = 1.5 N / rest where it lies at rest. At half of w0 the force is a third larger than what N(t)
+   says; well above w0 it is s h, that of a roughness, and what N(t) says is far too much. */
+
+#define DEEP 0.1    /* of the radius: a rest deeper than that is warned of */
+#define FAST 0.5    /* of w0 */
+#define SLIGHT 0.05 /* of N: how much it swings */
+
+static void warn_depth(struct stage_run *r, double rest)
+{
+    double radius = r->contact->ball.radius;
+    if (rest > DEEP * radius)
+        board_warn(r->board, arena_format(r->arena,
+                                          "contact '%s': at rest the ball lies %.3g m deep, more than a tenth of its "
+                                          "radius, %.3g m: so soft a contact "
+                                          "is no ball's; a greater contact.roll.stiffness (or kappa), or a smaller "
+                                          "static_penetration, makes it harder",
+                                          r->contact->name, rest, radius));
+}
+
+static void warn_lobes(struct stage_run *r, const struct roll_stiffness *rests)
+{
+    const struct contact *c = r->contact;
+    const struct ball *b = &c->ball;
+    double lobes = b->lobes * r->board->trajectory->top_speed / (b->radius - b->offset) / (2 * REAL_PI);
+    double own = rests->resonance / (2 * REAL_PI);
+    if (b->lobe_height > 0 && lobes > FAST * own)
+        board_warn(
+            r->board,
+            arena_format(
+                r->arena,
+                "contact '%s': %.3g lobes of the ball pass in a second, and it cannot follow them: on its contact it "
+                "swings by itself at %.3g Hz; the force "
+                "that they make is too large: take contact.model: roll_coupled, fewer ball.lobes, or a slower motion",
+                c->name, lobes, own));
+}
+
+/* Equation 7 goes by the extremes of N(t), however near to each other: as N(t) swings less and less, alpha does not
+   come near to that of a constant force. The paper has the extremes, and so it stays; force_range makes it continuous.
+ */
+static void warn_alpha(struct stage_run *r)
+{
+    const struct load_law *l = r->board->load;
+    const struct contact *c = r->contact;
+    if (r->board->limiter && r->board->limiter->varies && isnan(c->contact.limiter.force_range[0]) &&
+        l->most - l->least < SLIGHT * l->most)
+        board_warn(r->board, arena_format(r->arena,
+                                          "contact '%s': the normal force swings by %.2g %% only, from %.6g to %.6g N, "
+                                          "and contact.limiter goes from alpha_max to alpha_min "
+                                          "by it; give contact.limiter.force_range, for alpha to go by newtons",
+                                          c->name, 100 * (1 - l->least / l->most), l->least, l->most));
+}
+
+static void warn_weightless(struct stage_run *r)
+{
+    if (ball_gravity(r->contact) == 0)
+        board_warn(r->board,
+                   arena_format(r->arena,
+                                "contact '%s': nothing presses the ball down but its own turning: contact.gravity is "
+                                "0, and for about half of the time it is clear of "
+                                "the surface; once off it would stay off, which contact.model: roll_coupled follows",
+                                r->contact->name));
+}
+
+static void warn_roll(struct stage_run *r, const struct roll_stiffness *rests)
+{
+    const struct load_law *l = r->board->load;
+    if (!(rests->normal > 0) && !(l && l->most > 0)) {
+        board_warn(r->board,
+                   arena_format(r->arena,
+                                "contact '%s': nothing presses the ball down: it scrapes, but its rolling force is 0",
+                                r->contact->name));
+        return;
+    }
+    warn_depth(r, rests->rest);
+    if (rests->normal > 0) warn_lobes(r, rests);
+    warn_alpha(r);
+    warn_weightless(r);
+}
+
+/* ------------------------------------------------------------------ state */
 
 #define HOLDING 2.0 /* Hz, how fast the mean force is brought to that of N(t) */
 
@@ -114,7 +316,7 @@ static void roll_rests(struct stage_run *r, struct roll_state *s)
     double damping = added + s->law.mu * rests->normal / c->scraper.mass;
     if (rests->resonance > 0) s->follow = roll_follow_make(rests->resonance, damping, 1 / (b->rate * b->over));
     s->idle = !(rests->normal > 0) && !(b->load && b->load->most > 0);
-    roll_told(r, rests);
+    warn_roll(r, rests);
 }
 
 static void roll_reports(const struct roll_state *s, struct board *b)
@@ -272,7 +474,7 @@ static double roll_height(const struct roll_state *s, const struct board *b, lon
 }
 
 /* Report and ITEM_ROLL over the chunk's sub-intervals. */
-static void roll_tell(struct roll_state *s, struct board *b, const double *load, long first, int n)
+static void roll_report(struct roll_state *s, struct board *b, const double *load, long first, int n)
 {
     double dt = 1 / (b->rate * b->over), last = b->trajectory->duration / dt;
     for (int i = 0; i < n; i++) {
@@ -312,7 +514,7 @@ static void roll_chunk(struct roll_state *s, struct stage_run *r, long first, in
         roll_follows(s, v, dt, n);
     roll_turns(s, b, load, first, n);
     roll_add(s, load, dt, n);
-    roll_tell(s, b, load, first, n);
+    roll_report(s, b, load, first, n);
     s->last = s->rho[n];
     s->follows[0] = s->follows[n];
     s->rate[0] = s->rate[n];

@@ -24,7 +24,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "force/spread.h"
 #include "num/filter.h"
 #include "num/lanes.h"
 #include "num/vecmath.h"
@@ -34,7 +33,74 @@
 #include "surface/relief.h"
 #include "trajectory/load.h"
 
-enum { SMOOTH_NODE = SPREAD_SEGMENT, WIDE = SPREAD_WIDE };
+enum { SPREAD_SEGMENT = 64, SPREAD_WIDE = 4 * LANES };
+
+/* Convolutions with a kernel that stays the same, and with one that changes. x is read up to SPREAD_WIDE values
+   further; before and behind the taps that change lie SPREAD_WIDE zeros, and sum is read and written up to SPREAD_WIDE
+   values further, which stay as they are. */
+
+struct shares { /* of a segment's elements, for the kernels at its two ends */
+    double early[SPREAD_SEGMENT], late[SPREAD_SEGMENT];
+};
+
+/* y[i] = sum_j tap[j] x[i + j], SPREAD_WIDE outputs at a time: the additions of one wait for each other, those of four
+ * registers hardly. */
+LANES_CLONES
+static void spread_still(const struct filter *f, const double *x, double *y, long n)
+{
+    int taps = 2 * f->reach + 1;
+    for (long i = 0; i < n; i += SPREAD_WIDE) {
+        double sum[4][LANES] = {{0}};
+        int some = n - i < SPREAD_WIDE ? (int)(n - i) : SPREAD_WIDE;
+        for (int j = 0; j < taps; j++)
+#pragma omp simd
+            for (int l = 0; l < LANES; l++) {
+                const double *at = x + i + j + l;
+                double tap = f->tap[j];
+                sum[0][l] += tap * at[0];
+                sum[1][l] += tap * at[LANES];
+                sum[2][l] += tap * at[2 * LANES];
+                sum[3][l] += tap * at[3 * LANES];
+            }
+        memcpy(y + i, sum, (size_t)some * sizeof *y);
+    }
+}
+
+/* sum[t] += early[i] k0[t - i] + late[i] k1[t - i] for SPREAD_WIDE places t, and elements first <= i < last in turn. */
+LANES_CLONES
+static void spread_gather(const struct shares *x, const double *k0, const double *k1, const int range[2], double *sum)
+{
+    double s[4][LANES];
+    memcpy(s, sum, sizeof s);
+    for (int i = range[0]; i < range[1]; i++)
+#pragma omp simd
+        for (int l = 0; l < LANES; l++) {
+            const double *p = k0 - i + l, *q = k1 - i + l;
+            double a = x->early[i], b = x->late[i];
+            s[0][l] += a * p[0] + b * q[0];
+            s[1][l] += a * p[LANES] + b * q[LANES];
+            s[2][l] += a * p[2 * LANES] + b * q[2 * LANES];
+            s[3][l] += a * p[3 * LANES] + b * q[3 * LANES];
+        }
+    memcpy(sum, s, sizeof s);
+}
+
+/* sum[i + t] += a k0[t] + b k1[t] for every element i of a segment, a and b its shares for the two kernels; by places,
+   whose sums stay in registers, not by elements: half the time. The kernels have SPREAD_WIDE zeros on each side. */
+static void spread_segment(const double *x, double *const kernel[2], double *sum, int taps)
+{
+    struct shares shares;
+    for (int i = 0; i < SPREAD_SEGMENT; i++) {
+        double later = (double)i / SPREAD_SEGMENT;
+        shares.early[i] = (1 - later) * x[i];
+        shares.late[i] = later * x[i];
+    }
+    for (int t = 0; t < taps + SPREAD_SEGMENT - 1; t += SPREAD_WIDE) {
+        int range[2] = {t - taps + 1 > 0 ? t - taps + 1 : 0,
+                        t + SPREAD_WIDE < SPREAD_SEGMENT ? t + SPREAD_WIDE : SPREAD_SEGMENT};
+        spread_gather(&shares, kernel[0] + t, kernel[1] + t, range, sum + t);
+    }
+}
 
 struct smooth {
     enum item item;
@@ -42,7 +108,7 @@ struct smooth {
     int reach;              /* sub-samples to each side                          */
     double per_alpha;       /* sigma in sub-samples per metre of alpha           */
     struct smoothing still; /* the kernel when alpha does not vary               */
-    double *kernel[2];      /* at the nodes around the segment, 2 reach + 1 taps, between WIDE zeros */
+    double *kernel[2];      /* at the nodes around the segment, 2 reach + 1 taps, between SPREAD_WIDE zeros */
     double *raw;            /* unsmoothed values from sub-sample raw_first on    */
     double *sum;            /* smoothed so far, from sub-sample sum_first on     */
     long raw_first, raw_end, sum_first, node; /* node: sub-sample where the next segment begins */
@@ -126,14 +192,14 @@ static bool smooth_open_item(struct stage_run *r, enum item item, double ratio, 
         return smooth_too_wide(r, ratio * rules_sigma(&c->contact, widest), e);
     s->still.kernel = filter_gaussian(r->arena, s->per_alpha * widest);
     s->reach = s->still.kernel.reach;
-    r->ahead = (s->reach + (s->varies ? SMOOTH_NODE : 0)) / b->over + 2;
+    r->ahead = (s->reach + (s->varies ? SPREAD_SEGMENT : 0)) / b->over + 2;
     s->room = (size_t)((STAGE_BLOCK + 2 * r->ahead + 4) * b->over + 2 * s->reach);
-    s->raw = ARENA_TAKE(r->arena, double, s->room + WIDE);
-    s->sum = ARENA_TAKE(r->arena, double, s->room + SMOOTH_NODE + WIDE);
+    s->raw = ARENA_TAKE(r->arena, double, s->room + SPREAD_WIDE);
+    s->sum = ARENA_TAKE(r->arena, double, s->room + SPREAD_SEGMENT + SPREAD_WIDE);
     s->raw_first = s->sum_first = -s->reach;
     for (int k = 0; k < 2; k++)
-        s->kernel[k] = ARENA_TAKE(r->arena, double, 2 * s->reach + 1 + 2 * WIDE) + WIDE;
-    s->node = -SMOOTH_NODE;
+        s->kernel[k] = ARENA_TAKE(r->arena, double, 2 * s->reach + 1 + 2 * SPREAD_WIDE) + SPREAD_WIDE;
+    s->node = -SPREAD_SEGMENT;
     r->state = s;
     return true;
 }
@@ -201,7 +267,7 @@ static void smooth_kernel(const struct smooth *s, double alpha, double *k)
 static void smooth_segments(struct smooth *s, const struct board *b, long end)
 {
     while (s->node - s->reach < end) {
-        long next = s->node + SMOOTH_NODE;
+        long next = s->node + SPREAD_SEGMENT;
         double *swap = s->kernel[0];
         s->kernel[0] = s->kernel[1];
         s->kernel[1] = swap;
@@ -232,7 +298,7 @@ static void smooth_mirror(struct smooth *s)
 /* Hands over the finished sums of [first, end) and makes room behind them. */
 static void smooth_hand_over(struct smooth *s, double *y, long first, long end)
 {
-    size_t used = (size_t)(end - s->sum_first), whole = s->room + SMOOTH_NODE;
+    size_t used = (size_t)(end - s->sum_first), whole = s->room + SPREAD_SEGMENT;
     memcpy(y, s->sum + (first - s->sum_first), (size_t)(end - first) * sizeof *y);
     memmove(s->sum, s->sum + used, (whole - used) * sizeof *y);
     memset(s->sum + (whole - used), 0, used * sizeof *y);
@@ -267,10 +333,10 @@ static void smooth_skip(struct stage_run *r, long frame)
     struct smooth *s = r->state;
     long first = frame * r->board->over;
     memset(s->raw, 0, s->room * sizeof *s->raw);
-    memset(s->sum, 0, (s->room + SMOOTH_NODE) * sizeof *s->sum);
+    memset(s->sum, 0, (s->room + SPREAD_SEGMENT) * sizeof *s->sum);
     s->raw_first = s->sum_first = first - s->reach;
     s->raw_end = first;
-    s->node = first - SMOOTH_NODE;
+    s->node = first - SPREAD_SEGMENT;
     s->start = first;
 }
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "file/npy.h"
-#include "force/impact_train.h"
+#include "force/impact_series.h"
 #include "force/strike.h"
 #include "num/decimal.h"
 #include "scene/ball.h"
@@ -251,7 +251,7 @@ static bool load_find(struct force_table *t, const struct stage_run *r, struct e
 static bool impacts_find(struct force_table *t, const struct stage_run *r, struct err *e)
 {
     if (!t->wanted[IMPACTS]) return true;
-    if (r->contact->contact.model == CONTACT_IMPACTS) return impact_train_open(r, &t->series, e);
+    if (r->contact->contact.model == CONTACT_IMPACTS) return impact_series_train(r, &t->series, e);
     if (!strike_make(r->contact, r->board->trajectory->duration, &t->train, e)) return false;
     t->struck = strike_next(&t->train, &t->impact);
     return true;
@@ -292,7 +292,7 @@ static void row_impacts(struct force_table *t, double end)
 {
     t->value[IMPACTS] = 0;
     while (t->series.any && t->series.next.time < end)
-        t->value[IMPACTS] += impact_train_take(&t->series).time >= 0;
+        t->value[IMPACTS] += impact_series_take(&t->series).time >= 0;
     while (t->struck && t->impact.start < end) {
         t->value[IMPACTS]++;
         t->struck = strike_next(&t->train, &t->impact);

@@ -1,9 +1,9 @@
-/* The stage that writes the series of impacts of a contact: those that take place (force/impact_train.h), at the times
+/* The stage that writes the series of impacts of a contact: those that take place (force/impact_series.h), at the times
    at which they sound, so that with the contact's start to the nearest audio sample. Interval is that to the next one.
    No time depends on the sample rate but by that start. */
 #include "output/impact_rows.h"
 
-#include "force/impact_train.h"
+#include "force/impact_series.h"
 #include "scene/rules.h"
 #include "stage.h"
 
@@ -25,7 +25,7 @@ static bool rows_open(struct stage_run *r, struct err *e)
 {
     struct impact_train *t = ARENA_TAKE(r->arena, struct impact_train, 1);
     r->state = t;
-    return impact_train_open(r, t, e) &&
+    return impact_series_train(r, t, e) &&
            (fputs("time_s,amplitude_n,interval_s,duration_s\n", r->board->listing->stream) >= 0 ||
             err_set(e, ERR_IO, "the series of impacts cannot be written (is the disk full?)"));
 }
@@ -36,7 +36,7 @@ static bool rows_run(struct stage_run *r, long from, long to, struct err *e)
     double rate = r->board->rate, start = (double)rules_first_frame(r->contact, rate) / rate;
     (void)from;
     while (t->any && t->next.time < (double)to / rate) {
-        struct impact i = impact_train_take(t);
+        struct impact i = impact_series_take(t);
         if (!impact_rows_add(r->board->listing, (const double[4]){start + i.time, i.amplitude, i.interval, i.duration},
                              e))
             return false;

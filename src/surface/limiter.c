@@ -71,7 +71,7 @@ double limiter_constant(const struct contact *c)
     return alpha;
 }
 
-void limiter_told(struct stage_run *r, double least, double most)
+void limiter_warn(struct stage_run *r, double least, double most)
 {
     const double *range = r->contact->contact.limiter.force_range;
     if (r->contact->contact.limiter.curve == LIMITER_TANH && !isnan(range[0]) && (least < range[0] || most > range[1]))
@@ -370,7 +370,7 @@ static bool limiter_open(struct stage_run *r, struct err *e)
     (void)e;
     *l = limiter_make(given, r->board->load->least, r->board->load->most);
     r->board->limiter = l;
-    limiter_told(r, r->board->load->least, r->board->load->most);
+    limiter_warn(r, r->board->load->least, r->board->load->most);
     return true;
 }
 

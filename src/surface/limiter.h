@@ -53,6 +53,6 @@ void limiter_cells(const struct limiter_cells *l, bool limiter);
 
 struct stage_run;
 /* Warns where a normal force from `least` to `most` N bisected limiter.force_range. */
-void limiter_told(struct stage_run *r, double least, double most);
+void limiter_warn(struct stage_run *r, double least, double most);
 
 #endif

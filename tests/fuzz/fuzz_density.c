@@ -2,23 +2,22 @@
  * undo them, and finite moments. */
 #include <math.h>
 
-#include "force/impact_table.h"
+#include "force/impact_density.h"
 #include "fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     struct fuzz_file f = fuzz_open(data, size);
     struct arena *a = arena_open();
-    struct impact_table t = {0};
     struct err e = {0};
-    bool ok = impact_table_read(f.path, a, &t, &e);
-    fuzz_check(ok, &e);
-    if (ok && (t.n < 2 || !isfinite(t.mean) || !isfinite(t.variance) || t.variance < 0)) abort();
-    for (int i = 1; ok && i < 64; i++) {
-        double x = impact_table_quantile(&t, i / 64.0), below = impact_table_below(&t, x),
-               above = impact_table_above(&t, x);
-        if (!(x >= t.value[0] && x <= t.value[t.n - 1]) || !(below >= 0 && below <= 1 + 1e-9) ||
-            !(fabs(below + above - 1) < 1e-6) || !(impact_table_density(&t, x) >= 0))
+    const struct impact_density *d = impact_density_table(f.path, a, &e);
+    fuzz_check(d != NULL, &e);
+    if (d && (d->table.n < 2 || !isfinite(d->mean) || !isfinite(d->variance) || d->variance < 0)) abort();
+    for (int i = 1; d && i < 64; i++) {
+        double density, x = impact_density_quantile(d, i / 64.0), below = impact_density_beyond(d, false, x, &density),
+                        above = impact_density_beyond(d, true, x, &density);
+        if (!(x >= d->table.value[0] && x <= d->table.value[d->table.n - 1]) || !(below >= 0 && below <= 1 + 1e-9) ||
+            !(fabs(below + above - 1) < 1e-6) || !(density >= 0))
             abort();
     }
     arena_close(a);

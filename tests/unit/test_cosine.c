@@ -2,7 +2,7 @@
  */
 #include <gsl/gsl_integration.h>
 
-#include "force/cosine.h"
+#include "force/pulse.h"
 #include "unit.h"
 
 static double printed(double q, void *unused)
@@ -19,7 +19,7 @@ START_TEST(shares_of_the_printed_shape)
     for (int i = -50; i <= 50; i++) {
         double area, error;
         gsl_integration_qag(&f, -0.5, i / 100.0, 1e-14, 0, 100, GSL_INTEG_GAUSS61, room, &area, &error);
-        ck_assert_double_eq_tol(cosine_share(i / 100.0) * 0.5, area, 1e-14);
+        ck_assert_double_eq_tol(pulse_cosine(i / 100.0) * 0.5, area, 1e-14);
     }
     gsl_integration_workspace_free(room);
 }
@@ -29,30 +29,30 @@ START_TEST(shares_to_rounding)
 {
     double before = 0;
     for (int i = -60000; i <= 60000; i++) {
-        double q = i / 1e5, share = cosine_share(q);
+        double q = i / 1e5, share = pulse_cosine(q);
         long double pi = acosl(-1), want = q <= -0.5 ? 0 : q >= 0.5 ? 1 : 0.5L + q + sinl(2 * pi * q) / (2 * pi);
         ck_assert_double_le((double)fabsl(share - want), 4e-16);
         ck_assert(share >= before && share <= 1);
         before = share;
     }
-    ck_assert_double_eq(cosine_share(-0.5), 0);
-    ck_assert_double_eq(cosine_share(0.5), 1);
-    ck_assert_double_eq(cosine_share(0), 0.5);
-    ck_assert_double_eq(cosine_share(-1e300), 0);
-    ck_assert_double_eq(cosine_share(1e300), 1);
+    ck_assert_double_eq(pulse_cosine(-0.5), 0);
+    ck_assert_double_eq(pulse_cosine(0.5), 1);
+    ck_assert_double_eq(pulse_cosine(0), 0.5);
+    ck_assert_double_eq(pulse_cosine(-1e300), 0);
+    ck_assert_double_eq(pulse_cosine(1e300), 1);
 }
 END_TEST
 
 /* As one by one; 0 before and 1 after to the bit. */
 START_TEST(many_shares_at_once)
 {
-    double q[COSINE_MOST], share[COSINE_MOST];
-    for (int n = 1; n <= COSINE_MOST; n++) {
+    double q[PULSE_COSINES], share[PULSE_COSINES];
+    for (int n = 1; n <= PULSE_COSINES; n++) {
         for (int i = 0; i < n; i++)
             share[i] = q[i] = -0.8 + 1.6 * (i + 0.37) / n;
-        cosine_shares(n, share);
+        pulse_cosines(n, share);
         for (int i = 0; i < n; i++) {
-            ck_assert_double_eq_tol(share[i], cosine_share(q[i]), 4e-16);
+            ck_assert_double_eq_tol(share[i], pulse_cosine(q[i]), 4e-16);
             ck_assert(fabs(q[i]) < 0.5 || share[i] == (q[i] > 0));
         }
     }

@@ -3,7 +3,7 @@
 #include <gsl/gsl_integration.h>
 
 #include "contacts.h"
-#include "force/impact_train.h"
+#include "force/impact_series.h"
 #include "impacts.h"
 
 extern const struct stage impacts_stage;
@@ -45,10 +45,10 @@ static struct impact *drawn(struct shot *s, long *n)
     struct impact_train t;
     long room = 1000;
     struct impact *all = malloc((size_t)room * sizeof *all);
-    ck_assert_msg(impact_train_open(&s->run, &t, &s->e), "%s", s->e.text);
+    ck_assert_msg(impact_series_train(&s->run, &t, &s->e), "%s", s->e.text);
     for (*n = 0; t.any; ++*n) {
         if (*n == room) all = realloc(all, (size_t)(room *= 2) * sizeof *all);
-        all[*n] = impact_train_take(&t);
+        all[*n] = impact_series_take(&t);
     }
     return all;
 }
@@ -69,7 +69,7 @@ static double mean_of(struct impact *i, double low, double high, gsl_integration
     return to > from ? gsl_integration_glfixed(&f, from, to, g) / (high - low) : 0;
 }
 
-/* 40 points over a whole impact at most: exact to rounding. A share is good to 4e-16 (cosine.h), times impact and
+/* 40 points over a whole impact at most: exact to rounding. A share is good to 4e-16 (pulse.h), times impact and
    sub-interval: an impact of 20 ms over sub-intervals of 7 us makes that 1e-12 of its amplitude, which is below 3;
    times within 50 ms are good to 7e-18 s. */
 START_TEST(means_are_those_of_the_sum)

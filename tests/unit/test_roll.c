@@ -3,7 +3,7 @@
 #include <complex.h>
 #include <gsl/gsl_integration.h>
 
-#include "force/roll_law.h"
+#include "force/roll.h"
 #include "rig.h"
 #include "scene/ball.h"
 #include "surface/profile.h"

@@ -3,7 +3,7 @@
 #include <complex.h>
 #include <math.h>
 
-#include "force/roll_follow.h"
+#include "force/roll.h"
 #include "unit.h"
 
 /* Driven by A sin(w t) for so many s, and from 0.9 of it on against the closed form of what stays: greatest error

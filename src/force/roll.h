@@ -1,11 +1,11 @@
 /* The force of a ball that presses a spring-like surface, and its means over a time in which the penetration is known
    at both ends. */
-#ifndef FORCE_ROLL_LAW_H
-#define FORCE_ROLL_LAW_H
+#ifndef FORCE_ROLL_H
+#define FORCE_ROLL_H
 #include <math.h>
 #include <stdbool.h>
 
-#include "force/hertz_mean.h"
+#include "force/hertz.h"
 
 struct roll_law {
     double stiffness; /* N/m^1.5, k       */
@@ -13,7 +13,7 @@ struct roll_law {
 };
 
 /* m^1.5, mean of max(0, rho)^1.5 over a time in which rho goes in a straight line from a to b (m), p^2, q^2 = a, b:
-   by quotients that lose no digits (hertz_mean.h); where rho passes through 0, one of p, q is 0. */
+   by quotients that lose no digits (hertz.h); where rho passes through 0, one of p, q is 0. */
 static inline double roll_law_power(double a, double b)
 {
     double p = sqrt(a > 0 ? a : 0), q = sqrt(b > 0 ? b : 0), pp = p * p, qq = q * q;
@@ -36,5 +36,22 @@ struct roll_parts roll_law_force(const struct roll_law *l, const struct roll_end
 
 /* Share of that time in which rho is above 0. */
 double roll_law_contact(double a, double b);
+
+/* How far a mass on a damped spring lags behind the ground that it follows, from the ground's vertical acceleration
+   alone. */
+struct roll_follow {
+    double step[3][2]; /* of (y, dt y', mean y) by y and dt y' before              */
+    double push[3][2]; /* s^2, of the same by the acceleration at start and end    */
+    double dt;         /* s                                                        */
+    double y, rate;    /* m, m/s: how deep the ground presses in, and its rate now */
+};
+
+/* y'' + damping y' + resonance^2 y = acceleration, in steps of dt (s), from y = y' = 0 on. resonance rad/s, damping
+   1/s. */
+struct roll_follow roll_follow_make(double resonance, double damping, double dt);
+
+/* One step, in which the acceleration (m/s^2) goes in a straight line from `start` to `end`. Gives the mean of y over
+   it, m. */
+double roll_follow_step(struct roll_follow *f, double start, double end);
 
 #endif
