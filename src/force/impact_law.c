@@ -29,12 +29,13 @@
 
 /* Values of the prototypes, times in s, whatever the sample rate:
 
-             amplitude: mean, white process        interval: mean, white process      filters      zeta theta  m    nu
-   rub       0, normal, rub.deviation              0, always rub.interval             none         rub.duration 0      0
-   scratch   0, normal, scratch.deviation          0, exponential, scratch.interval   none         scratch.duration 0 0
-   roll      002's table I, normal                 002's table I, normal              table I      7.88e-4 s S (eq. 16)
-   0.29   0.3  3 V/S Hz (eq. 17) custom    as given                              as given                           as
-   given     as given                  as given
+            amplitude: mean, white process  interval: mean, white process     filters   zeta           theta  m
+   rub      0, normal, rub.deviation        0, always rub.interval            none      rub.duration       0  0
+   scratch  0, normal, scratch.deviation    0, exponential, scratch.interval  none      scratch.duration   0  0
+   roll     002's table I, normal           002's table I, normal             table I   7.88e-4 s S     0.29  0.3
+   custom   as given                        as given                          as given  as given              given
+
+   zeta of roll is equation 16, its nu 3 V/S (Hz, equation 17); custom's nu is as given.
 
    Table I holds its two columns, rho = 0 and 1; between them all is linear in rho, as 002 has it. What a scene gives
    itself of amplitude, interval, duration and modulation takes the place of roll's values.
@@ -46,8 +47,8 @@
    of roll's series (0.18 to 0.14).
 
    Amplitudes of rub and scratch that are normal about 0 and independent: the spectrum of the force is that of white
-   noise, deviation^2 / interval, times |Phi|^2, Phi the spectrum of one impact; no lines, and nothing of a sample rate.
- */
+   noise, deviation^2 / interval, times |Phi|^2, Phi the spectrum of one impact; no lines, and nothing of a
+   sample rate. */
 
 static const double table_1[2][IMPACT_SERIES][4] = {
     /* [rho][series]: deviation, a1, b1, mean; 1 and s */

@@ -15,8 +15,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "force/pulse.h"
 #include "force/impact_series.h"
+#include "force/pulse.h"
 
 struct impact_waiting {
     double from, after; /* number of the sub-interval in which it begins; when in it, 0 to 1 */

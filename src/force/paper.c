@@ -2,8 +2,8 @@
 
      S_xx = T(z_xx; alpha_x),  S_yy = T(z_yy; alpha_y)     equations 4, 5
      f_v  = m (S_xx v_x^2 + S_yy v_y^2)                    equation 2
-     f_h  = beta1 | v_x dz/dx + v_y dz/dy |^beta2          equation 3, with the slope of the surface z: only S'' is
-   defined by the paper
+     f_h  = beta1 | v_x dz/dx + v_y dz/dy |^beta2          equation 3, with the slope of the surface z:
+                                                           only S'' is defined by the paper
 
    Along a path a profile has one axis, the path itself: v_x is the velocity along it and the y terms are zero; with
    surface.along: x they are zero too. alpha_y = limiter.ratio_y alpha_x. The paper's smoothing acts on the limited

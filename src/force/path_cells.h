@@ -10,9 +10,9 @@
 enum { CELLS_CHUNK = 128, CELLS_CHANNELS = 2, CELLS_KNOTS = 16 };
 
 /* What is limited, one or two curvatures:
-     CELLS_ALONG  [0] along the path, e' H e; [1], where the path is curved, e' H n   (H the surface's second
-   derivatives) CELLS_AXES   [0] z_xx (along the path of a profile: z''); [1], in the plane, z_yy e is the unit vector
-   of increasing u, n = e turned by +90 degrees. */
+     CELLS_ALONG  [0] along the path, e' H e; [1], where the path is curved, e' H n
+     CELLS_AXES   [0] z_xx (along the path of a profile: z''); [1], in the plane, z_yy
+   H are the surface's second derivatives, e is the unit vector of increasing u, n = e turned by +90 degrees. */
 enum cells_kind { CELLS_ALONG, CELLS_AXES };
 
 struct cells {

@@ -1,12 +1,10 @@
 /* One limited trajectory S along the path, its slope and its height.
 
-     dS'/ds + S'/l = T(c) + kappa S_n       S' = dS/ds, slope of S along the path; s arc length      after papers/000
-   eq. 4, 5 dS_n/ds + S_n/l = T(d) - kappa S'      S_n, slope across the path (only where the path is curved) dS/ds +
-   S/l = S'                       S, height, m           (read by what rolls with penetration: paper)
+     dS'/ds + S'/l = T(c) + kappa S_n     slope along the path, after papers/000 eq. 4, 5
+     dS_n/ds + S_n/l = T(d) - kappa S'    slope across the path (only where the path is curved)
+     dS/ds + S/l = S'                     height, m (read by what rolls with penetration: paper)
 
-     c = e' H e, d = e' H n   second derivatives of z along the unit tangent e, and mixed with the normal n, 1/m; H the
-   surface's Hessian l     contact.leak, m    kappa    curvature of the path in the plane, 1/m    T    tanh(alpha c) /
-   alpha
+     kappa    1/m, curvature of the path in the plane; the other symbols: path_integral.h
 
    The paper defines only S'' (equations 4, 5) but uses S' in equation 3 and S in equation 16; the integral of the
    limited curvature drifts away as a random walk, hence the leak l, twice. Slope and height come from one trajectory:

@@ -2,18 +2,20 @@
    trajectory S and, where asked for, its height, from the cells of force/path_cells.h; and what of a force reaches each
    sub-interval. Code and equations share these symbols:
 
-     symbol   unit   in the code                what
-     u, e     m, -   cells.x y, ex ey           place on the path, unit tangent of increasing u; n = e turned by +90
-   degrees c, d     1/m    cells.curvature[0], [1]    e' H e, e' H n: second derivatives of z; H its Hessian eq. 4, 5
-     alpha    m      cells.alpha                limit of curvature (surface/limiter.h)                           eq. 6,
-   7 T        1/m    cells.limited, mean,       tanh(alpha c) / alpha: at points, its mean and first moment      eq. 4,
-   5 moment                     over a cell S'       -      slope, terms.start, end    dS/ds, of arc length s eq. 1 to 3
-     S_n      -      across                     slope across the path
-     S        m      height                     height
-     l        m      leak                       contact.leak
-     h, z     m, -   cells.length, terms.z      length of a cell; h / l
-     f_v, f_h N      force/scrape.c             vertical, horizontal force                                       eq. 1,
-   3 F_j      N      bspline.early, late        means of a force weighted by linear B-splines */
+     symbol    unit    in the code              what                                                      equation
+     u, e      m, -    cells.x y, ex ey         place on the path, unit tangent of increasing u
+     n         -                                e turned by +90 degrees
+     c, d      1/m     cells.curvature[0, 1]    e' H e, e' H n; H the surface's second derivatives        4, 5
+     alpha     m       cells.alpha              limit of curvature (surface/limiter.h)                    6, 7
+     T         1/m     cells.limited            tanh(alpha c) / alpha at points                           4, 5
+                       cells.mean, moment       its mean and first moment over a cell
+     S'        -       slope, terms.start, end  dS/ds, slope of S along the path; s arc length            1 to 3
+     S_n       -       across                   slope of S across the path
+     S         m       height                   height
+     l         m       leak                     contact.leak
+     h, z      m, -    cells.length, terms.z    length of a cell; h / l
+     f_v, f_h  N       force/scrape.c           vertical, horizontal force                                1, 3
+     F_j       N       bspline.early, late      means of a force weighted by linear B-splines */
 #ifndef FORCE_PATH_INTEGRAL_H
 #define FORCE_PATH_INTEGRAL_H
 #include "force/path_cells.h"
@@ -82,8 +84,8 @@ void path_integral_run(struct path_integral *s, const struct stage_run *r, long 
 
      F_j = 1/dt integral of f(t) max(0, 1 - |t - t_j| / dt) dt = early_j + late_(j-1)          t_j = j dt
 
-     early_i, late_i   N: over sub-interval i, (1/dt) integral of (1 - q) f dt and of q f dt, q = (t - t_i) / dt, from 0
-   to 1
+     early_i, late_i   N: over sub-interval i, (1/dt) integral of (1 - q) f dt and of q f dt,
+                       q = (t - t_i) / dt, from 0 to 1
 
    The B-splines add up to 1: what each sub-interval gives is early + late, its plain mean, so that momentum is kept. */
 

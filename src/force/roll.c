@@ -1,11 +1,10 @@
 /* The force of a ball that rolls over a surface, papers/000 section 4.
 
-     f      = scraping (f_h + f_v) + f_roll                     equation 19   contact.roll.scraping: how much it slips
-     f_roll = k rho^1.5 (1 + mu rho') for rho > 0, else 0       equation 15     lambda = mu k; force/roll.c
-     rho    = delta (N(t)/N)^(2/3) + r + y                      for eq. 16 m; delta that at rest
-   (force/roll_stiffness.c) y'' + (2 zeta w0 + mu N/m) y' + w0^2 y = S''               y  m, how much deeper the ground
-   presses in (roll.c) r'     = -2 pi 2 Hz (delta / 1.5 N) (f_roll - N(t)+)       r  m, holds the mean force at
-   that of N(t)+
+     f      = scraping (f_h + f_v) + f_roll                 equation 19; contact.roll.scraping: how much it slips
+     f_roll = k rho^1.5 (1 + mu rho') for rho > 0, else 0   equation 15; lambda = mu k
+     rho    = delta (N(t)/N)^(2/3) + r + y                  m, for eq. 16; delta at rest (force/roll_stiffness.c)
+     y'' + (2 zeta w0 + mu N/m) y' + w0^2 y = S''           y  m, how much deeper the ground presses in
+     r'     = -2 pi 2 Hz (delta / 1.5 N) (f_roll - N(t)+)   r  m, holds the mean force at that of N(t)+
 
    S'' is the vertical acceleration of the limited trajectory S that the ball is to follow, d/dt (|v| S') of
    force/scrape.c: S follows the ball's rolling curve (surface/tip.c), its curvature limited by an alpha that varies

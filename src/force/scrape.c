@@ -13,8 +13,8 @@
    What goes on the board are means weighted by linear B-splines (force/path_integral.h). With P = m |v| S', and since v
    dt = du, a sub-interval's parts of f_v are
 
-     early  (mean P - P(start)) / dt        late  (P(end) - mean P) / dt        mean P = m/dt times the integral of S'
-   ds over it
+     early  (mean P - P(start)) / dt        late  (P(end) - mean P) / dt
+     mean P = m/dt times the integral of S' ds over it
 
    exactly, whatever the surface does inside. Those of f_h are beta1 / dt |v|^(beta2 - 1) times the integrals of (1 - q)
    |S'|^beta2 ds and of q |S'|^beta2 ds at the mean speed, with q the share of the way. Where the speed changes from v0

@@ -1,10 +1,10 @@
-/* The envelope E at multiples of h = patch / 4, and from it, block by block, when
-   they are asked for:
+/* The envelope E at multiples of h = patch / 4, and from it, block by block, when they are asked for:
 
-     splines   coefficients c = G * B^-1 * E of a cubic spline, z = sum c_i B(x/h - i): the Gaussian G of standard
-   deviation 4 h, sampled, and the inverse of reading a spline at its knots (surface/profile.h), in one symmetric kernel
-   in each direction. It is cut at 28 points, 7 standard deviations: the Gaussian leaves nothing of the inverse's own
-   slow decay there. Its sum is made 1.
+     splines   coefficients c = G * B^-1 * E of a cubic spline, z = sum c_i B(x/h - i)
+
+   G is the Gaussian of standard deviation 4 h, sampled, B^-1 the inverse of reading a spline at its knots
+   (surface/profile.h), both in one symmetric kernel in each direction. It is cut at 28 points, 7 standard deviations:
+   the Gaussian leaves nothing of the inverse's own slow decay there. Its sum is made 1.
 
    All sums are finite and in one order wherever a block begins, so that the result is a function of the place alone, to
    the last bit.
@@ -29,8 +29,9 @@ enum { KERNEL = 28, INVERSE = 40, LINE = 1024, SQUARE = 16, EDGE = 3, WIDEST = L
 
 /* Two memories of blocks on lattices through 0, each made from the one before when it is asked for:
 
-     heights   z of the surface at multiples of d = h / finer, read every 2 d, and between by Taylor's formula. In one
-   coordinate rolling_envelope.c keeps them, at a pitch of their own envelope    E at multiples of h = patch / 4
+     heights    z of the surface at multiples of d = h / finer, read every 2 d, and between by Taylor's formula;
+                in one coordinate rolling_envelope.c keeps them, at a pitch of their own
+     envelope   E at multiples of h = patch / 4
 
    Errors. In one coordinate those of rolling_envelope.c. In the plane the ball touches between samples too: E is too
    low by at most d^2/8 (1/R + |z''|) at the places of contact (in each direction; Taylor's formula adds d^3/17 |z'''|).

@@ -103,8 +103,9 @@ static double tip_map_span(const struct height_map *m)
    that goes along an axis takes, every h = patch / 4,
 
      WIDE points of its envelope     POINT cycles of search each, and GATHER for each of the heights that a block of
-   CREST x CREST points looks at, over these a row of heights d apart        WIDE points' width, the reach on both
-   sides, and a block's own side; HEIGHT cycles each, the surface's and its coefficients' in it
+                                     CREST x CREST points looks at
+     a row of heights d apart        over WIDE points' width, the reach on both sides, and a block's own side;
+                                     HEIGHT cycles each, the surface's and its coefficients' in it
 
    and one that goes aslant |cos| + |sin| times as many blocks. Fitted to 15 lines over roughness of 0.1 to 10 um from 5
    to 100 um on, under balls of 0.5 mm to 2 cm with patches of 5 to 100 um, of 1.6e10 to 2.2e11 cycles a metre: within

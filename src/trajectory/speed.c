@@ -16,8 +16,9 @@
 /* Laws in closed form, over a stroke of length l in a time T, q = (t - t0) / T from 0 to 1:
 
      constant       p = q
-     harmonic       p = (1 - cos pi q) / 2                  simple harmonic motion from rest to rest, papers/000
-   section 2.3 minimum jerk   p = 10 q^3 - 15 q^4 + 6 q^5             T. Flash, N. Hogan, J. Neurosci. 5 (1985) 1688
+     harmonic       p = (1 - cos pi q) / 2                  simple harmonic motion from rest to rest, papers/000 section
+                                                            2.3
+     minimum jerk   p = 10 q^3 - 15 q^4 + 6 q^5             T. Flash, N. Hogan, J. Neurosci. 5 (1985) 1688
 
    u = u0 + l p. Strokes follow one another without a pause, each with its share of the duration by length, or go there
    and back: then 2 rate strokes a second between u = 0 and l. So the speeds of back_and_forth and of four_in_line with
@@ -311,7 +312,7 @@ void speed_two_thirds(struct speed *speed, const struct path *path, double strai
 
      d_i = 0 where the chords' slopes m_{i-1}, m_i differ in sign, else (w1 + w2) / (w1 / m_{i-1} + w2 / m_i),
      w1 = 2 h_i + h_{i-1}, w2 = h_i + 2 h_{i-1};   at the ends the parabola's slope, held to the chord's sign and three
-   times the chord's slope
+                                                   times the chord's slope
 
    so that v is C1, rises and falls only where the rows do, and never goes below 0. The distance is its exact integral,
    a quartic in each interval. The motion starts with the first row and ends with the last. */
