@@ -1,5 +1,5 @@
 /* Stretches on their DFT bins, and a mode's sound on them (modal_fit.h has the equations). */
-#include <stdlib.h>
+#include <gsl/gsl_movstat.h>
 #include <string.h>
 
 #include "analysis/modal_fit.h"
@@ -60,37 +60,19 @@ static void open_bins(const struct modal_fit *f, const struct modal_stretch *s, 
 
 /* ------------------------------------------------------------------ noise */
 
-static int rising(const void *x, const void *y)
-{
-    double a = *(const double *)x, b = *(const double *)y;
-    return (a > b) - (a < b);
-}
-
-/* The running median over `half` means to each side, of n means; sorted once, then by insertion. */
+/* The running median over `half` means to each side, of n >= 2 half + 1 means; windows at the ends are as wide as the
+ * others. */
 static void running_median(const double *x, long n, long half, double *to)
 {
-    struct arena *a = arena_open();
-    double *list = ARENA_TAKE(a, double, 2 * half + 2);
-    long from = 0, end = 0, held = 0;
-    for (long k = 0; k < n; k++) {
-        long first = k > half ? k - half : 0, last = k + half + 1 < n ? k + half + 1 : n;
-        if (first > n - 2 * half - 1)
-            first = n > 2 * half + 1 ? n - 2 * half - 1 : 0; /* windows at the ends are as wide as the others */
-        if (last < 2 * half + 1) last = n < 2 * half + 1 ? n : 2 * half + 1;
-        for (; from < first; from++) {
-            double *p = bsearch(&x[from], list, (size_t)held, sizeof *list, rising);
-            memmove(p, p + 1, (size_t)(list + held - p - 1) * sizeof *list);
-            held--;
-        }
-        for (; end < last; end++) {
-            long i = held++;
-            for (; i > 0 && list[i - 1] > x[end]; i--)
-                list[i] = list[i - 1];
-            list[i] = x[end];
-        }
-        to[k] = held % 2 ? list[held / 2] : 0.5 * (list[held / 2 - 1] + list[held / 2]);
+    gsl_movstat_workspace *w = gsl_movstat_alloc((size_t)(2 * half + 1));
+    gsl_vector_const_view from = gsl_vector_const_view_array(x, (size_t)n);
+    gsl_vector_view median = gsl_vector_view_array(to, (size_t)n);
+    gsl_movstat_median(GSL_MOVSTAT_END_TRUNCATE, &from.vector, &median.vector, w);
+    gsl_movstat_free(w);
+    for (long k = 0; k < half; k++) {
+        to[k] = to[half];
+        to[n - 1 - k] = to[n - 1 - half];
     }
-    arena_close(a);
 }
 
 /* Of |x|^2: medians of means of 8 bins (of chi squared of 16 degrees the median is 0.9586 of the mean), linear in

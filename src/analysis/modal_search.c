@@ -135,12 +135,6 @@ static void shift_matrix(const gsl_matrix_complex *v, int rows, int order, cplx 
     }
 }
 
-static int rising(const void *x, const void *y)
-{
-    double a = *(const double *)x, b = *(const double *)y;
-    return (a > b) - (a < b);
-}
-
 /* Poles of a band from all its stretches' envelopes; z per sample of the envelope. */
 static int esprit(cplx (*y)[SAMPLES], const int *n, int stretches, cplx *z)
 {
@@ -163,17 +157,13 @@ static int esprit(cplx (*y)[SAMPLES], const int *n, int stretches, cplx *z)
                     at->dat[1] += p.im;
                 }
     if (vectors >= rows / 2) {
-        double sorted[ROWS];
         for (int i = 0; i < rows; i++)
             for (int j = 0; j < i; j++)
                 gsl_matrix_complex_set(r, (size_t)j, (size_t)i,
                                        gsl_complex_conjugate(gsl_matrix_complex_get(r, (size_t)i, (size_t)j)));
         gsl_eigen_hermv(r, value, v, w);
         gsl_eigen_hermv_sort(value, v, GSL_EIGEN_SORT_VAL_DESC);
-        for (int i = 0; i < rows; i++)
-            sorted[i] = gsl_vector_get(value, (size_t)i);
-        qsort(sorted, (size_t)rows, sizeof *sorted, rising);
-        double median = fmax(sorted[rows / 2], 1e-13 * sorted[rows - 1]);
+        double median = fmax(gsl_vector_get(value, (size_t)(rows - 1 - rows / 2)), 1e-13 * gsl_vector_get(value, 0));
         while (order < ORDER && order < rows / 2 && gsl_vector_get(value, (size_t)order) > 3.0 * median)
             order++;
         cplx psi[ORDER * ORDER];

@@ -12,8 +12,8 @@
    all modes', the poles as they are. It is the loudest stretch that is looked at, from the hammer's end on. Two modes
    within two bins of each other (20 Hz) are one peak. */
 #include <gsl/gsl_multifit_nlinear.h>
+#include <gsl/gsl_sort.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "analysis/modal_fit.h"
@@ -49,12 +49,6 @@ static void frames_add(struct spectrogram *s, const double *h, struct arena *a)
     fft_close(fft);
 }
 
-static int rising(const void *x, const void *y)
-{
-    double a = *(const double *)x, b = *(const double *)y;
-    return (a > b) - (a < b);
-}
-
 /* The median of the last quarter's frames and 2 x 8 + 1 bins: between the peaks of what still rings. */
 static void noise_make(struct spectrogram *s, struct arena *a)
 {
@@ -65,7 +59,7 @@ static void noise_make(struct spectrogram *s, struct arena *a)
         for (long m = from; m < s->frames; m++)
             for (long i = k > 8 ? k - 8 : 0; i <= k + 8 && i < s->bins; i++)
                 list[n++] = s->power[m * s->bins + i];
-        qsort(list, (size_t)n, sizeof *list, rising);
+        gsl_sort(list, 1, (size_t)n);
         s->noise[k] = list[n / 2] / 0.69; /* median of an exponential distribution: log 2 of its mean */
     }
 }

@@ -1,6 +1,6 @@
 /* By how much an object's poles differ from strike to strike, as it rests anew each time: each mode's own variance, by
    moments, drawn towards the median of all modes; none, if all modes together do not show one. */
-#include <stdlib.h>
+#include <gsl/gsl_sort.h>
 
 #include "analysis/modal_fit.h"
 
@@ -12,12 +12,6 @@ struct moments {
     int n;                   /* strikes */
     double variance, excess; /* between strikes, noise off; scatter over what noise makes of it */
 };
-
-static int rising(const void *x, const void *y)
-{
-    double a = *(const double *)x, b = *(const double *)y;
-    return (a > b) - (a < b);
-}
 
 /* Strikes weigh as their own noise and the spread so far let them. With weights w of sum W the scatter about the mean
    is expected to be sum w (1 - w/W) (noise + variance), which gives the variance. */
@@ -64,8 +58,8 @@ void modal_spread(struct modal_fit *f)
             variance[count++] = m[i].variance;
             degrees += m[i].n - 1;
         }
-        qsort(excess, (size_t)count, sizeof *excess, rising);
-        qsort(variance, (size_t)count, sizeof *variance, rising);
+        gsl_sort(excess, 1, (size_t)count);
+        gsl_sort(variance, 1, (size_t)count);
         bool differ = count && excess[count / 2] > 1.0 + doubtful / sqrt(degrees);
         if (count) typical = differ ? fmax(variance[count / 2], 0.0) : 0.0;
         f->typical[q] = sqrt(typical);

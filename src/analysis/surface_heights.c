@@ -3,6 +3,7 @@
    has at its knots 2.45 times the second difference's noise. */
 #include "analysis/surface_heights.h"
 
+#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -72,12 +73,6 @@ void surface_heights(const struct heightfile *h, struct surface_heights *s)
 
 /* ------------------------------------------------------------------ steps */
 
-static int heights_order(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* The first million heights that are there, sorted. */
 static double *heights_sorted(const struct heightfile *h, struct arena *a, size_t *n)
 {
@@ -86,7 +81,7 @@ static double *heights_sorted(const struct heightfile *h, struct arena *a, size_
     *n = 0;
     for (size_t i = 0; i < all && *n < STEPS_MOST; i++)
         if (!isnan(h->z[i])) z[(*n)++] = h->z[i];
-    qsort(z, *n, sizeof *z, heights_order);
+    gsl_sort(z, 1, *n);
     return z;
 }
 
