@@ -18,7 +18,7 @@
 #include "num/lanes.h"
 #include "scene/rules.h"
 #include "surface/limiter.h"
-#include "surface/reading.h"
+#include "surface/relief.h"
 #include "trajectory/load.h"
 #include "trajectory/trajectory.h"
 
@@ -620,9 +620,9 @@ unsigned path_cells_asks(const struct contact *c)
 double path_cells_work(const struct contact *c, const struct scene *s)
 {
     const struct surface *u = &c->surface;
-    double finest = u->roughness.given                  ? reading_roughness(&u->roughness)
+    double finest = u->roughness.given                  ? relief_roughness_scale(&u->roughness)
                     : u->height_map && !isnan(u->pitch) ? u->pitch
-                                                        : READING_MAP_PITCH;
+                                                        : RELIEF_MAP_PITCH;
     bool halves = rules_along(c) == ALONG_PLANE;
     return (halves ? 2 : 1) * (s->accuracy.oversampling + rules_speed(&c->motion) / (s->output.sample_rate * finest));
 }

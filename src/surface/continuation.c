@@ -2,7 +2,7 @@
 
      P(k) = P_fit (k/k_fit)^exponent X(k)    from k_c/sqrt 2 up to 1/shortest           X: surface/spectrum.h
 
-   The map's own spectrum (surface/survey.h) has a knee, where its instrument begins to lose detail, and a band limit,
+   The map's own spectrum (surface/spectrum.h) has a knee, where its instrument begins to lose detail, and a band limit,
    where it has lost 30 dB more. The takeover k_c is the geometric mean of both, unless given. A power law is fitted to
    the map's two octaves below the knee (below k_c/sqrt 2 where k_c is given); it continues beyond, with its exponent
    unless that is given. X takes it in over an octave about k_c, in power; the map itself is left as it is, and loses
@@ -14,10 +14,9 @@
 #include "num/real.h"
 #include "scene/rules.h"
 #include "stage.h"
-#include "surface/blocks.h"
-#include "surface/reading.h"
 #include "surface/relief.h"
-#include "surface/survey.h"
+#include "surface/roughness.h"
+#include "surface/spectrum.h"
 #include "surface/tiles.h"
 
 struct takeover {
@@ -27,8 +26,8 @@ struct takeover {
 static struct takeover takeover_of(const struct continuation *c, const struct spectrum *measured)
 {
     if (!isnan(c->from)) return (struct takeover){1 / c->from, sqrt(0.5) / c->from};
-    double knee = survey_knee(measured);
-    return (struct takeover){sqrt(knee * survey_limit(measured)), knee};
+    double knee = spectrum_knee(measured);
+    return (struct takeover){sqrt(knee * spectrum_limit(measured)), knee};
 }
 
 bool continuation_spectrum(struct arena *a, const struct continuation *c, const struct height_map *map,
@@ -40,13 +39,13 @@ bool continuation_spectrum(struct arena *a, const struct continuation *c, const 
                        "give a larger map, or leave surface.continuation out",
                        map->columns);
     struct spectrum measured =
-        survey_spectrum(a, &(struct survey_grid){map->z, map->columns, map->rows, map->pitch[0]});
+        spectrum_measured(a, &(struct spectrum_rows){map->z, map->columns, map->rows, map->pitch[0]});
     if (measured.n < 3)
         return err_set(e, ERR_SCENE,
                        "surface.continuation: the map is flat: there is no spectrum to continue: give another map, or "
                        "leave surface.continuation out");
     struct takeover t = takeover_of(c, &measured);
-    double density, fitted = survey_fit(&measured, t.fit, &density),
+    double density, fitted = spectrum_fit(&measured, t.fit, &density),
                     exponent = isnan(c->exponent) ? fitted : c->exponent, top = 1 / c->shortest;
     if (isnan(fitted))
         return err_set(e, ERR_SCENE,
@@ -86,7 +85,7 @@ static double continuation_work(const struct contact *c, const struct scene *s)
 {
     double finest = c->surface.continuation.shortest / 4,
            cells = rules_speed(&c->motion) / (s->output.sample_rate * finest);
-    if (c->surface.along != ALONG_PLANE) return 8 * reading_points(s, finest);
+    if (c->surface.along != ALONG_PLANE) return 8 * relief_readings(s, finest);
     return isnan(c->scraper.radius) ? 800 * cells + 50 * s->accuracy.oversampling : 1;
 }
 
@@ -102,7 +101,7 @@ static bool continuation_open(struct stage_run *r, struct err *e)
     struct relief_part *part =
         relief->along == ALONG_PLANE
             ? tiles_part(r->arena, &s, &(struct tiles_grain){1, 0, rules_once(r->contact)}, stream, &lost, e)
-            : profile_part(r->arena, blocks_make(r->arena, &s, stream), "continuation", 0);
+            : profile_part(r->arena, roughness_blocks(r->arena, &s, stream), "continuation", 0);
     part->name = "continuation";
     relief_add(relief, part);
     r->state = part;

@@ -24,7 +24,7 @@
 #include "scene/rules.h"
 #include "stage.h"
 #include "surface/profile.h"
-#include "surface/reading.h"
+#include "surface/relief.h"
 #include "trajectory/trajectory.h"
 
 static void lines_draw(const struct fractal *f, struct noise stream, long n, double *re, double *im)
@@ -136,7 +136,7 @@ static bool fractal_wanted(const struct contact *c, const struct scene *s)
 
 static double fractal_work(const struct contact *c, const struct scene *s)
 {
-    return 8 * reading_points(s, c->surface.fractal.pitch);
+    return 8 * relief_readings(s, c->surface.fractal.pitch);
 }
 
 static bool fractal_fits(const struct stage_run *r, struct err *e)

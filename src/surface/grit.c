@@ -17,7 +17,7 @@
 
 #include "num/real.h"
 #include "stage.h"
-#include "surface/reading.h"
+#include "surface/relief.h"
 
 #define GRIT_MEAN_MOST 100.0 /* grains of a cell, in the mean */
 
@@ -183,7 +183,7 @@ static double grit_work(const struct contact *c, const struct scene *s)
 {
     const struct grit *g = &c->surface.grit;
     double reach = 0.5 * g->diameter * real_exp(2.5 * sigma_of(g));
-    return (40 + 4 * 9 * fmax(1, g->density * reach * reach)) * reading_points(s, 0.5 * g->diameter / 4);
+    return (40 + 4 * 9 * fmax(1, g->density * reach * reach)) * relief_readings(s, 0.5 * g->diameter / 4);
 }
 
 static bool grit_open(struct stage_run *r, struct err *e)

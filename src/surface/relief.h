@@ -9,6 +9,7 @@
    Parts lie in the surface's own coordinates, which begin at relief->origin of the scene (except along the path). */
 #ifndef SURFACE_RELIEF_H
 #define SURFACE_RELIEF_H
+#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -66,5 +67,22 @@ double relief_finest(const struct relief *);
 
 /* The smallest `kinks` there is; 0: none. */
 double relief_kinks(const struct relief *);
+
+/* ------------------------------------------------------------------ how often a surface is read, for predicted work */
+
+#define RELIEF_MAP_PITCH 5e-6 /* m, of a map whose file says it */
+
+/* m, the finest scale of roughness, as far as the scene tells: a quarter of its shortest wave. Roughness like a map has
+ * the map's waves, and so its pitch. */
+static inline double relief_roughness_scale(const struct roughness *r)
+{
+    return !r->like ? r->shortest / 4 : isnan(r->like_pitch) ? RELIEF_MAP_PITCH : r->like_pitch;
+}
+
+/* Points per audio sample: both ends and the middle of each sub-interval, and of each cell crossed at 0.2 m/s. */
+static inline double relief_readings(const struct scene *s, double finest)
+{
+    return 2 * (s->accuracy.oversampling + 0.2 / (s->output.sample_rate * finest));
+}
 
 #endif

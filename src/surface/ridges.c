@@ -18,7 +18,7 @@
 
 #include "num/real.h"
 #include "stage.h"
-#include "surface/reading.h"
+#include "surface/relief.h"
 
 enum { RIDGES_KEPT = 16 };
 
@@ -130,7 +130,7 @@ static bool ridges_wanted(const struct contact *c, const struct scene *s)
 
 static double ridges_work(const struct contact *c, const struct scene *s)
 {
-    return 90 * reading_points(s, c->surface.ridges.spacing / 8);
+    return 90 * relief_readings(s, c->surface.ridges.spacing / 8);
 }
 
 static bool ridges_open(struct stage_run *r, struct err *e)

@@ -4,38 +4,155 @@
                                               cycles/m
      rms^2 = integral of P dk
 
-   or like a measured map: the table of its density by thirds of an octave, up to its band limit (surface/survey.h), its
-   rms, skewness and kurtosis. Waves longer than the table's are given what is missing from the rms, spread evenly.
+   or like a measured map: the table of its density by thirds of an octave, up to its band limit (surface/spectrum.h),
+   its rms, skewness and kurtosis. Waves longer than the table's are given what is missing from the rms, spread evenly.
 
-   Along a line (path, x) it is made of blocks (surface/blocks.h), in the plane of tiles (surface/tiles.h); both are
+   Along a line (path, x) it is made of blocks, in the plane of tiles (surface/tiles.h); both are
    Gaussian. Another skewness or kurtosis is given to it by a smooth increasing function of the heights
    (surface/heights.h, which says what that does to the spectrum). */
 #include "surface/roughness.h"
 
+#include <math.h>
+#include <string.h>
+
 #include "file/heightfile.h"
+#include "num/fft.h"
 #include "num/real.h"
 #include "scene/rules.h"
 #include "stage.h"
-#include "surface/blocks.h"
 #include "surface/heights.h"
-#include "surface/patches.h"
-#include "surface/reading.h"
-#include "surface/survey.h"
-#include "surface/tile.h"
+#include "surface/relief.h"
+#include "surface/spectrum.h"
 #include "surface/tiles.h"
 
-double roughness_density(const struct roughness *r, double k)
+/* ------------------------------------------------------------------ along a line */
+
+/* Random profiles: the "depth maps synthesized from statistics" that papers/000 section 2.2 plans.
+
+   The heights are independent blocks of N samples at a pitch of 1/(4 k1), k1 the highest frequency of the density P:
+   each a random spectrum of P (Gaussian real and imaginary parts from the counter (block, line)) brought to space by an
+   inverse FFT; successive blocks overlap by half under the window w(i) = sin(pi/2 sin^2(pi (i + 1/2) / N)), whose
+   squares add to 1, so that the mean square height is the same everywhere. A block spans at least 8 times the longest
+   wavelength. Any place can be read without the places before it; nothing repeats (2^64 blocks). The window convolves
+   the spectrum with its own, 1.4 lines wide, which is the only departure from P in the mean. It begins and ends with a
+   slope of 0: a window with a corner (sin) puts a kink into the profile at every half block, and at exponent -8 400
+   times P into the last octave.
+
+   What is drawn are the spline's coefficients: line j is divided by the response (2 + cos(2 pi j / N)) / 3 of reading a
+   spline at its knots, so that the heights at the knots have P. */
+
+/* Blocks are cached as long as they fit into BLOCKS_BYTES: strokes back and forth read the same ones again, and making
+ * one costs what 20 000 frames of reading do. */
+enum { BLOCKS_LEAST = 4, BLOCKS_MOST = 64, BLOCKS_BYTES = 1 << 19 };
+
+struct block {
+    long index;
+    bool filled;
+    double *c; /* [n]; NULL: not asked for yet */
+};
+
+struct blocks {
+    long n;                  /* samples of a block, even */
+    double *window, *spread; /* [n], [n/2+1]: window; standard deviation of a line's real and imaginary part */
+    struct fft *fft;
+    struct noise stream;
+    struct block *blocks; /* [cached]: block b lies in slot b mod cached */
+    long cached;
+    struct arena *arena; /* for blocks */
+    double *re, *im, *normal;
+};
+
+/* Line j of 1/(n pitch) cycles/m carries what P holds within half a line of it, so that all lines together have rms^2:
+   line 0 in one number, the others in two, each of which has a quarter of the power in the sum (re + i im) e^(i..) +
+   conjugate. */
+static void blocks_spread(struct blocks *g, const struct spectrum *s, double pitch)
 {
-    double nodes[2] = {1 / r->longest, 1 / r->shortest}, p[2] = {1, real_pow(r->longest / r->shortest, r->exponent)};
-    struct spectrum s = {.n = 2, .k = nodes, .p = p, .flat = true};
-    spectrum_scale(&s, r->rms);
-    return spectrum_at(&s, k);
+    double dk = 1 / ((double)g->n * pitch);
+    for (long j = 0; j < g->n / 2; j++) {
+        double power = spectrum_power(s, ((double)j - 0.5) * dk, ((double)j + 0.5) * dk),
+               spline = (2 + real_cospi(2 * (double)j / (double)g->n)) / 3;
+        g->spread[j] = sqrt(power / (j == 0 ? 1 : 4)) / spline;
+    }
 }
 
-struct profile *roughness_make(struct arena *a, const struct roughness *r, struct noise stream)
+static void block_fill(struct blocks *g, struct block *b, long index)
 {
-    struct spectrum s = spectrum_power_law(a, r->exponent, r->longest, r->shortest, r->rms);
-    return blocks_make(a, &s, stream);
+    if (!b->c) b->c = ARENA_TAKE(g->arena, double, g->n);
+    noise_normal(g->stream, (uint64_t)index, (size_t)g->n, g->normal);
+    for (long j = 0; j < g->n / 2; j++) {
+        g->re[j] = g->normal[2 * j] * g->spread[j];
+        g->im[j] = g->normal[2 * j + 1] * g->spread[j];
+    }
+    g->im[0] = g->re[g->n / 2] = g->im[g->n / 2] = 0;
+    fft_inverse(g->fft, g->re, g->im, b->c);
+    for (long i = 0; i < g->n; i++)
+        b->c[i] *= g->window[i];
+    b->index = index;
+    b->filled = true;
+}
+
+static const double *block_at(struct blocks *g, long index)
+{
+    struct block *b = &g->blocks[((index % g->cached) + g->cached) % g->cached];
+    if (!b->filled || b->index != index) block_fill(g, b, index);
+    return b->c;
+}
+
+/* Coefficient i is the sum of blocks b = floor(i / half) and b - 1, block b beginning at b half. */
+static void blocks_read(struct profile *p, long first, long n, double *c)
+{
+    struct blocks *g = p->state;
+    long half = g->n / 2;
+    while (n > 0) {
+        long b = first >= 0 ? first / half : -((-first + half - 1) / half), from = first - b * half;
+        long some = half - from < n ? half - from : n;
+        const double *new = block_at(g, b) + from, *old = block_at(g, b - 1) + half + from;
+        for (long i = 0; i < some; i++)
+            c[i] = new[i] + old[i];
+        c += some;
+        first += some;
+        n -= some;
+    }
+}
+
+static void blocks_close(struct profile *p)
+{
+    struct blocks *g = p->state;
+    fft_close(g->fft);
+}
+
+static double blocks_window(double share)
+{
+    double s = real_sinpi(share);
+    return real_sinpi(s * s / 2);
+}
+
+struct profile *roughness_blocks(struct arena *a, const struct spectrum *s, struct noise stream)
+{
+    struct profile *p = ARENA_TAKE(a, struct profile, 1);
+    struct blocks *g = ARENA_TAKE(a, struct blocks, 1);
+    double pitch = 0.25 / spectrum_top(s), span = 8 / fmax(spectrum_bottom(s), s->k[0]) / pitch;
+    long n = (long)fft_good_size((size_t)(span < 4096 ? 4096 : span));
+    long cached = BLOCKS_BYTES / (n * (long)sizeof(double));
+    *g = (struct blocks){.n = n,
+                         .arena = a,
+                         .cached = cached < BLOCKS_LEAST  ? BLOCKS_LEAST
+                                   : cached > BLOCKS_MOST ? BLOCKS_MOST
+                                                          : cached,
+                         .stream = stream,
+                         .fft = fft_open((size_t)n),
+                         .window = ARENA_TAKE(a, double, n),
+                         .spread = ARENA_TAKE(a, double, n / 2 + 1),
+                         .re = ARENA_TAKE(a, double, n / 2 + 1),
+                         .im = ARENA_TAKE(a, double, n / 2 + 1),
+                         .normal = ARENA_TAKE(a, double, n)};
+    g->blocks = ARENA_TAKE(a, struct block, g->cached);
+    for (long i = 0; i < n; i++)
+        g->window[i] = blocks_window(((double)i + 0.5) / (double)n);
+    blocks_spread(g, s, pitch);
+    *p = (struct profile){
+        .pitch = pitch, .from = -HUGE_VAL, .to = HUGE_VAL, .read = blocks_read, .state = g, .close = blocks_close};
+    return p;
 }
 
 /* ------------------------------------------------------------------ like a map */
@@ -61,19 +178,19 @@ static void like_long_waves(struct spectrum *s, double rms)
 static bool like_spectrum(struct arena *a, const struct heightfile *h, struct roughness_plan *p, const char *file,
                           struct err *e)
 {
-    struct survey_grid g = {h->z, h->columns, h->rows, h->pitch_x};
+    struct spectrum_rows g = {h->z, h->columns, h->rows, h->pitch_x};
     if (h->columns < 64)
         return err_set(
             e, ERR_SCENE,
             "%s: %zu samples along a row are too few to take statistics from (at least 64): give a larger map", file,
             h->columns);
-    struct survey_moments m = survey_heights(&g);
+    struct spectrum_moments m = spectrum_moments(&g);
     if (!(m.rms > 0))
         return err_set(e, ERR_SCENE, "%s: is flat: there is no roughness to take statistics from: give another map",
                        file);
-    struct spectrum all = survey_spectrum(a, &g),
+    struct spectrum all = spectrum_measured(a, &g),
                     s = {.k = ARENA_TAKE(a, double, all.n + 1), .p = ARENA_TAKE(a, double, all.n + 1), .flat = true};
-    double limit = survey_limit(&all);
+    double limit = spectrum_limit(&all);
     for (; s.n < all.n && all.k[s.n] <= limit * (1 + 1e-9); s.n++) {
         s.k[s.n] = all.k[s.n];
         s.p[s.n] = all.p[s.n];
@@ -184,7 +301,7 @@ struct relief_part *roughness_part(struct arena *a, struct roughness_plan *p, co
     if (!gaussian) spectrum_scale(&p->spectrum, 1);
     struct relief_part *part = along == ALONG_PLANE
                                    ? gaussian_part(a, p, r, stream, e)
-                                   : profile_part(a, blocks_make(a, &p->spectrum, stream), "roughness", 0);
+                                   : profile_part(a, roughness_blocks(a, &p->spectrum, stream), "roughness", 0);
     if (!part) {
         err_at(e, "surface.roughness");
         return NULL;
@@ -211,7 +328,7 @@ double roughness_bytes(const struct contact *c)
 {
     int bands = c->surface.roughness.given ? (int)roughness_octaves(&c->surface.roughness) : 0;
     return bands > 0 && rules_along(c) == ALONG_PLANE
-               ? (double)(patches_bytes(bands, rules_once(c)) + (size_t)bands * TILE_SIDE * TILE_ROW * sizeof(double))
+               ? (double)(tiles_bytes(bands, rules_once(c)) + (size_t)bands * TILE_SIDE * TILE_ROW * sizeof(double))
                : 0;
 }
 
@@ -222,7 +339,7 @@ static double roughness_work(const struct contact *c, const struct scene *s)
 {
     const struct roughness *r = &c->surface.roughness;
     bool plane = rules_along(c) == ALONG_PLANE, shaped = r->like || r->skewness != 0 || r->kurtosis != 3;
-    double finest = reading_roughness(r), points = reading_points(s, finest),
+    double finest = relief_roughness_scale(r), points = relief_readings(s, finest),
            cells = rules_speed(&c->motion) / (s->output.sample_rate * finest);
     if (plane && !isnan(c->scraper.radius)) return 1;
     return (plane ? (rules_once(c) ? 900 : 700) * cells + 50 * s->accuracy.oversampling : 8 * points) +

@@ -34,11 +34,8 @@ struct relief_part *roughness_part(struct arena *a, struct roughness_plan *p, co
 /* What a contact's roughness holds at most, in bytes; 0: next to nothing, or it has none. */
 double roughness_bytes(const struct contact *c);
 
-/* A Gaussian profile of that recipe (longest, shortest, exponent, rms) and noise stream. Close it with its own close().
- */
-struct profile *roughness_make(struct arena *a, const struct roughness *recipe, struct noise stream);
-
-/* One-sided power spectral density (m^2 per cycle/m) that the profile has at k cycles/m, in the ensemble mean. */
-double roughness_density(const struct roughness *recipe, double k);
+/* An endless, aperiodic, Gaussian random profile with that spectrum and noise stream, computed where it is read. Close
+   it with its own close(). */
+struct profile *roughness_blocks(struct arena *a, const struct spectrum *s, struct noise stream);
 
 #endif

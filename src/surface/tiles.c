@@ -23,7 +23,7 @@
    lower octave land among the higher ones, where they add 3^(-8 - exponent) to the density in a fifth of each octave
    (0.2 % at -2.4, nothing to be heard above -6), and beyond 1/shortest, which is therefore not empty: measured between
    1.1 and 2.8/shortest, the density is at most 6e-5 of that at the edge at exponent 0, 1.2e-4 at -2.4, 1e-3 at -5 (a
-   profile, surface/blocks.h, has nothing there). The window's own leak is less, but for 4e-5 just above the edge; it
+   profile, surface/roughness.h, has nothing there). The window's own leak is less, but for 4e-5 just above the edge; it
    would be four times that with a corner at its ends.
 
    Bands are read as one: a spline of pitch 2 h is one of pitch h too, with the coefficients
@@ -32,7 +32,7 @@
                                                      1978, ch. XI)
 
    so that to the coefficients of each band those of all coarser ones are added, from the coarsest on, and only the
-   finest lattice is read, in patches that are kept (surface/patches.c). A coefficient is the same sum in the same order
+   finest lattice is read, in patches that are kept (surface/tiles.c). A coefficient is the same sum in the same order
    whatever patch it is part of, so that places can be read in any order.
 
    Measured of a scrape to and fro in instructions a sample (callgrind, AVX2; evidence/profile.md): patches of 8 x 8
@@ -40,12 +40,308 @@
    cells are read half of all its cycles, as each row of a square began again; kept, next to nothing. */
 #include "surface/tiles.h"
 
-#include "num/fft_plane.h"
+#include <math.h>
+#include <string.h>
+
 #include "num/lanes.h"
 #include "num/real.h"
 #include "surface/bicubic.h"
-#include "surface/patches.h"
-#include "surface/tile.h"
+#include "surface/block_cache.h"
+
+/* ------------------------------------------------------------------ tiles */
+
+enum {
+    N = TILE_SIDE,
+    HALF = N / 2,
+    SIDE = PATCH_SIDE,
+    UNDER = SIDE / 2 + 2,
+    LAID = 8,
+    OVER = 10,
+    KEPT_MANY = 4096,
+    KEPT_FEW = 256,
+    KEPT_LEAST = 32
+};
+
+int tiles_rings(const struct spectrum *s, double (*power)[TILE_LINES])
+{
+    double top = spectrum_top(s), bottom = spectrum_bottom(s), base = fmax(bottom, s->k[0]);
+    int bands = 0;
+    for (bool last = false; !last && bands < TILE_BANDS; bands++, top /= 2) {
+        double dk = top / TILE_LINES, above = 0;
+        last = top / 2 < base;
+        for (int r = TILE_LINES - 1; r >= (last && s->takeover <= 0 ? 0 : TILE_LINES / 2); r--) {
+            double beyond = r * dk >= spectrum_top(s) ? 0 : spectrum_beyond(s, r * dk);
+            above = r == TILE_LINES - 1 ? (bands ? spectrum_beyond(s, top) : 0) : above;
+            power[bands][r] = (beyond - above) * spectrum_takeover(s, (r + 0.5) * dk);
+            above = beyond;
+        }
+    }
+    return bands;
+}
+
+double tiles_mend(int bands, double (*power)[TILE_LINES])
+{
+    double all = 0, lost = 0;
+    for (int b = 0; b < bands; b++)
+        for (int r = 0; r < TILE_LINES; r++) {
+            all += power[b][r];
+            lost += fmin(power[b][r], 0);
+            power[b][r] = fmax(power[b][r], 0);
+        }
+    for (int b = 0; b < bands; b++)
+        for (int r = 0; r < TILE_LINES; r++)
+            power[b][r] *= all / (all - lost);
+    return -lost / (all - lost);
+}
+
+static int ring_of(int i, int j)
+{
+    return (int)sqrt(
+        (double)(i * i + j * j)); /* exact: the root of a whole number below 2^52 is not rounded up to one */
+}
+
+static int folded(int j) { return j < HALF ? j : N - j; }
+
+/* Modulus of a line of each ring, before the spline's response. */
+static void moduli(const double power[TILE_LINES], double modulus[TILE_LINES])
+{
+    int count[TILE_LINES] = {0};
+    for (int j = -TILE_LINES; j <= TILE_LINES; j++)
+        for (int i = -TILE_LINES; i <= TILE_LINES; i++)
+            if (ring_of(i, j) < TILE_LINES) count[ring_of(i, j)]++;
+    for (int r = 0; r < TILE_LINES; r++)
+        modulus[r] = sqrt(power[r] / count[r]);
+}
+
+/* Column 0 holds each line and its conjugate. */
+static void conjugate(double *re, double *im)
+{
+    for (int j = 1; j < HALF; j++) {
+        re[(N - j) * (HALF + 1)] = re[j * (HALF + 1)];
+        im[(N - j) * (HALF + 1)] = -im[j * (HALF + 1)];
+    }
+    im[0] = 0;
+}
+
+void tiles_tile(const double power[TILE_LINES], struct noise stream, struct fft_plane *fft, double *tile)
+{
+    double *re = fft_plane_re(fft), *im = fft_plane_im(fft), modulus[TILE_LINES], spline[TILE_LINES];
+    memset(re, 0, N * (HALF + 1) * sizeof *re);
+    memset(im, 0, N * (HALF + 1) * sizeof *im);
+    moduli(power, modulus);
+    for (int i = 0; i < TILE_LINES; i++) {
+        double sinc = i ? real_sinpi((double)i / N) / (REAL_PI * i / N) : 1;
+        spline[i] = 1 / (sinc * sinc * sinc * sinc);
+    }
+    for (int j = 0; j < N; j++)
+        for (int i = 0; i < TILE_LINES; i++) {
+            int r = ring_of(i, folded(j)), at = j * (HALF + 1) + i;
+            if (r >= TILE_LINES || modulus[r] <= 0) continue;
+            double turns = 2 * noise_uniform(stream, (uint64_t)at, UINT64_MAX / 2),
+                   size = modulus[r] * spline[i] * spline[folded(j)];
+            re[at] = size * (i || j ? real_cospi(turns) : turns < 1 ? 1 : -1);
+            im[at] = size * real_sinpi(turns);
+        }
+    conjugate(re, im);
+    const double *x = fft_plane_inverse(fft);
+    for (int j = 0; j < N; j++)
+        for (int i = 0; i < TILE_ROW; i++)
+            tile[j * TILE_ROW + i] = x[j * N + i % N];
+}
+
+/* ------------------------------------------------------------------ patches */
+
+/* Patches lie side by side, PATCH_CELLS apart, with an edge of PATCH_EDGE coefficients that the next ones hold too: so
+   a cell's 16 coefficients, and the 8 x 8 of a coarser patch that one of a finer band is refined from, are in one
+   patch: the finer patch (i, j) is a quarter of the coarser (floor(i/2), floor(j/2)), and with its edge is made of 8 x
+   8 coefficients of it. */
+
+struct laid { /* how a block reads the tile */
+    long bx, by;
+    int at_x, at_y;
+    double sign;
+    bool known;
+};
+
+struct term {                    /* what a block adds to a patch */
+    const double *across, *down; /* its windows */
+    const double *tile;          /* its first column */
+    long row;
+    double sign;
+};
+
+struct band {
+    const struct patches *whole;
+    const double *tile; /* [N][TILE_ROW]: surface/tiles.h */
+    struct noise stream;
+    struct laid laid[LAID * LAID];
+    struct block_cache *patches; /* [SIDE][SIDE], of this band and all coarser ones */
+    struct band *coarser;        /* NULL: none */
+};
+
+struct patches {
+    double window[N + 2 * SIDE]; /* 0 beyond a block's ends */
+    struct band bands[TILE_BANDS];
+};
+
+static const struct laid *laid_at(struct band *b, long bx, long by)
+{
+    struct laid *k = &b->laid[(by & (LAID - 1)) * LAID + (bx & (LAID - 1))];
+    if (!k->known || k->bx != bx || k->by != by) {
+        uint64_t bits[2];
+        noise_bits(b->stream, (uint64_t)by, (uint64_t)bx, bits);
+        *k = (struct laid){.bx = bx,
+                           .by = by,
+                           .known = true,
+                           .at_x = (int)(bits[0] % N),
+                           .at_y = (int)(bits[0] / N % N),
+                           .sign = bits[1] & 1 ? 1 : -1};
+    }
+    return k;
+}
+
+/* i / n rounded down; n: a power of two. */
+static long block_over(long i, long n) { return (i - (i & (n - 1))) / n; }
+
+/* Of block (bx, by), for the patch whose first coefficient is (x0, y0). */
+static struct term term_of(struct band *b, long bx, long by, long x0, long y0)
+{
+    const struct laid *k = laid_at(b, bx, by);
+    long left = x0 - bx * HALF, below = y0 - by * HALF; /* the patch's corner, in the block */
+    const double *window = b->whole->window + SIDE;
+    return (struct term){window + left, window + below, b->tile + ((k->at_x + left) & (N - 1)), k->at_y + below,
+                         k->sign};
+}
+
+/* Adds what two terms add; a product with a window's 0 changes no sum. */
+LANES_CLONES
+static void terms_two(const struct term *k, double *c)
+{
+    const double *w0 = k[0].across, *w1 = k[1].across;
+    for (long y = 0; y < SIDE; y++, c += SIDE) {
+        const double *t0 = k[0].tile + ((k[0].row + y) & (N - 1)) * TILE_ROW,
+                     *t1 = k[1].tile + ((k[1].row + y) & (N - 1)) * TILE_ROW;
+        double f0 = k[0].sign * k[0].down[y], f1 = k[1].sign * k[1].down[y];
+#pragma omp simd
+        for (long x = 0; x < SIDE; x++)
+            c[x] = (c[x] + f0 * (w0[x] * t0[x])) + f1 * (w1[x] * t1[x]);
+    }
+}
+
+LANES_CLONES
+static void terms_four(const struct term *k, double *c)
+{
+    const double *w0 = k[0].across, *w1 = k[1].across, *w2 = k[2].across, *w3 = k[3].across;
+    for (long y = 0; y < SIDE; y++, c += SIDE) {
+        const double *t0 = k[0].tile + ((k[0].row + y) & (N - 1)) * TILE_ROW,
+                     *t1 = k[1].tile + ((k[1].row + y) & (N - 1)) * TILE_ROW;
+        const double *t2 = k[2].tile + ((k[2].row + y) & (N - 1)) * TILE_ROW,
+                     *t3 = k[3].tile + ((k[3].row + y) & (N - 1)) * TILE_ROW;
+        double f0 = k[0].sign * k[0].down[y], f1 = k[1].sign * k[1].down[y], f2 = k[2].sign * k[2].down[y],
+               f3 = k[3].sign * k[3].down[y];
+#pragma omp simd
+        for (long x = 0; x < SIDE; x++)
+            c[x] =
+                (((c[x] + f0 * (w0[x] * t0[x])) + f1 * (w1[x] * t1[x])) + f2 * (w2[x] * t2[x])) + f3 * (w3[x] * t3[x]);
+    }
+}
+
+/* The sum of the blocks over the patch, always from the lowest row and the left on: 4 blocks, or 6 or 9 where one
+ * begins or ends in it. */
+static void own_sum(struct band *b, long x0, long y0, double *c)
+{
+    struct term terms[OVER];
+    int n = 0, at = 0;
+    for (long by = block_over(y0, HALF) - 1; by <= block_over(y0 + SIDE - 1, HALF); by++)
+        for (long bx = block_over(x0, HALF) - 1; bx <= block_over(x0 + SIDE - 1, HALF); bx++)
+            terms[n++] = term_of(b, bx, by, x0, y0);
+    if (n % 2) {
+        terms[n] = terms[n - 1];
+        terms[n++].sign = 0;
+    }
+    memset(c, 0, SIDE * SIDE * sizeof *c);
+    for (; n - at >= 4; at += 4)
+        terms_four(terms + at, c);
+    if (at < n) terms_two(terms + at, c);
+}
+
+/* Adds the coarser patch, of which `from` is the first coefficient that is needed. */
+LANES_CLONES
+static void refine(const double *from, double *c)
+{
+    double fine[SIDE][UNDER];
+    for (int m = 0; m < SIDE / 2; m++) {
+        const double *p = from + m * SIDE, *q = p + SIDE, *r = q + SIDE;
+#pragma omp simd
+        for (int x = 0; x < UNDER; x++) {
+            fine[2 * m][x] = 0.125 * (p[x] + r[x]) + 0.75 * q[x];
+            fine[2 * m + 1][x] = 0.5 * (q[x] + r[x]);
+        }
+    }
+    for (int y = 0; y < SIDE; y++, c += SIDE) {
+        const double *p = fine[y];
+#pragma omp simd
+        for (int m = 0; m < SIDE / 2; m++) {
+            c[2 * m] += 0.125 * (p[m] + p[m + 2]) + 0.75 * p[m + 1];
+            c[2 * m + 1] += 0.5 * (p[m + 1] + p[m + 2]);
+        }
+    }
+}
+
+static void patch_fill(void *self, long column, long row, double *c)
+{
+    struct band *b = self;
+    own_sum(b, column * PATCH_CELLS - PATCH_EDGE, row * PATCH_CELLS - PATCH_EDGE, c);
+    if (!b->coarser) return;
+    const double *coarse = block_cache_at(b->coarser->patches, block_over(column, 2), block_over(row, 2));
+    refine(coarse + (row & 1) * (PATCH_CELLS / 2 * SIDE) + (column & 1) * (PATCH_CELLS / 2), c);
+}
+
+const double *tiles_patch(struct patches *p, long column, long row)
+{
+    return block_cache_at(p->bands[0].patches, column, row);
+}
+
+size_t tiles_patches_made(const struct patches *p)
+{
+    size_t all = 0;
+    for (const struct band *b = p->bands; b; b = b->coarser)
+        all += block_cache_made(b->patches);
+    return all;
+}
+
+/* A path goes over half as many patches of each coarser band. */
+static size_t capacity_of(int band, bool once)
+{
+    size_t half = (once ? KEPT_FEW : KEPT_MANY) >> (band < 16 ? band : 16);
+    return half > KEPT_LEAST ? half : KEPT_LEAST;
+}
+
+size_t tiles_bytes(int bands, bool once)
+{
+    size_t all = sizeof(struct patches) + 64;
+    for (int b = 0; b < bands; b++)
+        all += block_cache_bytes(PATCH_NUMBERS, capacity_of(b, once));
+    return all;
+}
+
+struct patches *tiles_patches(struct arena *a, const struct patches_plan *plan)
+{
+    struct patches *p = ARENA_TAKE(a, struct patches, 1);
+    for (int i = 0; i < N; i++) {
+        double across = real_sinpi((i + 0.5) / N);
+        p->window[SIDE + i] = real_sinpi(across * across / 2);
+    }
+    for (int k = 0; k < plan->bands; k++) {
+        struct band *b = &p->bands[k];
+        *b = (struct band){.whole = p,
+                           .tile = plan->tiles[k],
+                           .stream = plan->streams[k],
+                           .coarser = k + 1 < plan->bands ? b + 1 : NULL};
+        b->patches = block_cache_make(a, PATCH_NUMBERS, capacity_of(k, plan->once), patch_fill, b);
+    }
+    return p;
+}
 
 enum { CHUNK = BICUBIC_POINTS };
 
@@ -123,7 +419,7 @@ static int tiles_put(struct tiles *t, struct bicubic *c, int i)
          y = cell_y & (PATCH_CELLS - 1);
     long column = (cell_x - x) / PATCH_CELLS, row = (cell_y - y) / PATCH_CELLS;
     if (!t->at_hand || column != t->column || row != t->row) {
-        t->at_hand = patches_at(t->patches, column, row);
+        t->at_hand = tiles_patch(t->patches, column, row);
         t->column = column;
         t->row = row;
     }
@@ -171,10 +467,10 @@ static struct patches *bands_make(struct arena *a, int bands, double (*power)[TI
         noise_bits(stream, (uint64_t)b, UINT64_MAX, key);
         streams[b] = (struct noise){key[0]};
         tiles[b] = ARENA_TAKE(a, double, TILE_SIDE *TILE_ROW);
-        tile_make(power[b], streams[b], fft, tiles[b]);
+        tiles_tile(power[b], streams[b], fft, tiles[b]);
     }
     fft_plane_close(fft);
-    return patches_make(a, &(struct patches_plan){bands, (const double *const *)tiles, streams, once});
+    return tiles_patches(a, &(struct patches_plan){bands, (const double *const *)tiles, streams, once});
 }
 
 struct relief_part *tiles_part(struct arena *a, const struct spectrum *s, const struct tiles_grain *g,
@@ -187,8 +483,8 @@ struct relief_part *tiles_part(struct arena *a, const struct spectrum *s, const 
     t->shrink = 1 / g->ratio;
     t->cos_d = t->round ? 1 : real_cos(g->direction);
     t->sin_d = t->round ? 0 : real_sin(g->direction);
-    int bands = tile_rings(s, power);
-    double moved = tile_mend(bands, power);
+    int bands = tiles_rings(s, power);
+    double moved = tiles_mend(bands, power);
     if (lost)
         *lost = moved;
     else if (moved > 1e-6) {

@@ -35,7 +35,6 @@
 #include "stage.h"
 #include "surface/contact_patch.h"
 #include "surface/height_map.h"
-#include "surface/reading.h"
 #include "surface/relief.h"
 #include "trajectory/trajectory.h"
 
@@ -126,8 +125,8 @@ enum {
 /* m, the surface's finest scale, as far as the scene tells. */
 static double likely_finest(const struct surface *s)
 {
-    double finest = s->height_map ? isnan(s->pitch) ? READING_MAP_PITCH : s->pitch : HUGE_VAL;
-    finest = fmin(finest, s->roughness.given ? reading_roughness(&s->roughness) : HUGE_VAL);
+    double finest = s->height_map ? isnan(s->pitch) ? RELIEF_MAP_PITCH : s->pitch : HUGE_VAL;
+    finest = fmin(finest, s->roughness.given ? relief_roughness_scale(&s->roughness) : HUGE_VAL);
     finest = fmin(finest, s->continuation.given ? s->continuation.shortest / 4 : HUGE_VAL);
     finest = fmin(finest, s->ridges.given ? s->ridges.spacing / 8 : HUGE_VAL);
     return fmin(finest, s->grit.given ? s->grit.diameter / 8 : HUGE_VAL);

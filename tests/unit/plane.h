@@ -3,7 +3,7 @@
 #ifndef PLANE_H
 #define PLANE_H
 #include "judge.h"
-#include "surface/map.h"
+#include "surface/height_map.h"
 
 /* ------------------------------------------------------------------ surfaces */
 
@@ -50,7 +50,7 @@ static inline struct relief_part *plane_wave_map(struct arena *a, const struct c
         for (int i = 0; i < PLANE_SIDE; i++)
             z[j * PLANE_SIDE + i] =
                 plane_wave.amplitude * cos(k * pitch * (i * cos(plane_wave.angle) + j * sin(plane_wave.angle)));
-    return map_part(a, map_spline(a, &(struct height_map){z, PLANE_SIDE, PLANE_SIDE, {pitch, pitch}}, OFF_MAP_MIRROR),
+    return height_map_part(a, height_map_spline(a, &(struct height_map){z, PLANE_SIDE, PLANE_SIDE, {pitch, pitch}}, OFF_MAP_MIRROR),
                     (double[]){0, 0}, "wave");
 }
 
@@ -69,7 +69,7 @@ static inline struct relief_part *plane_rough_map(struct arena *a, const struct 
                 z[j * COLUMNS + i] +=
                     0.2e-6 * cos(2 * M_PI * ((double)(kx * i) / COLUMNS + (double)(ky * j) / ROWS) + phase);
     }
-    return map_part(a, map_spline(a, &(struct height_map){z, COLUMNS, ROWS, {5e-6, 7e-6}}, OFF_MAP_WRAP),
+    return height_map_part(a, height_map_spline(a, &(struct height_map){z, COLUMNS, ROWS, {5e-6, 7e-6}}, OFF_MAP_WRAP),
                     (double[]){0, 0}, "rough");
 }
 

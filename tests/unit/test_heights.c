@@ -5,7 +5,7 @@
 
 #include "num/noise.h"
 #include "parts.h"
-#include "surface/blocks.h"
+#include "surface/roughness.h"
 #include "surface/tiles.h"
 
 struct power {
@@ -142,7 +142,7 @@ START_TEST(fields_have_them)
     struct err e = {0};
     struct spectrum s = spectrum_power_law(a, -2.4, 2e-3, 20e-6, 1);
     heights_make(-1, 5, &h, &e);
-    struct relief_part *line = profile_part(a, blocks_make(a, &s, noise_make(1, "line")), "line", 0);
+    struct relief_part *line = profile_part(a, roughness_blocks(a, &s, noise_make(1, "line")), "line", 0);
     struct relief_part *plane = tiles_part(a, &s, &(struct tiles_grain){1, 0, false}, noise_make(1, "plane"), NULL, &e);
     struct relief_part *shaped[2] = {heights_part(a, line, &h, 4e-6), heights_part(a, plane, &h, 4e-6)};
     for (int k = 0; k < 2; k++) {

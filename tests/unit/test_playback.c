@@ -2,7 +2,7 @@
    fine rule on the trajectory's own functions, and the momentum that a spline's heights hand over, however fast they
    are passed. */
 #include "rig.h"
-#include "surface/map.h"
+#include "surface/height_map.h"
 #include "surface/profile.h"
 #include "trajectory/trajectory.h"
 
@@ -167,7 +167,7 @@ static struct relief_part *map(struct arena *a, const struct contact *c)
     srand48(5);
     for (int i = 0; i < 40 * 50; i++)
         z[i] = 1e-6 * drand48();
-    return map_part(a, map_spline(a, &(struct height_map){z, 50, 40, {pitch[0], pitch[1]}}, OFF_MAP_WRAP), origin,
+    return height_map_part(a, height_map_spline(a, &(struct height_map){z, 50, 40, {pitch[0], pitch[1]}}, OFF_MAP_WRAP), origin,
                     "map");
 }
 

@@ -3,7 +3,7 @@
 
 #include "scene/rules.h"
 
-#include "surface/map.h"
+#include "surface/height_map.h"
 #include "surface/profile.h"
 #include "unit.h"
 
@@ -41,7 +41,7 @@ static struct relief_part *random_map(struct arena *a)
     double z[SIDE * SIDE];
     for (int i = 0; i < SIDE * SIDE; i++)
         z[i] = 1e-6 * (drand48() - 0.5);
-    return map_part(a, map_spline(a, &(struct height_map){z, SIDE, SIDE, {pitch[0], pitch[1]}}, OFF_MAP_WRAP), origin,
+    return height_map_part(a, height_map_spline(a, &(struct height_map){z, SIDE, SIDE, {pitch[0], pitch[1]}}, OFF_MAP_WRAP), origin,
                     "map");
 }
 

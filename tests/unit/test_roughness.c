@@ -26,6 +26,22 @@ static struct roughness with_exponent(double exponent)
     return r;
 }
 
+/* The Gaussian profile of a recipe's own figures. */
+static struct profile *roughness_make(struct arena *a, const struct roughness *r, struct noise stream)
+{
+    struct spectrum s = spectrum_power_law(a, r->exponent, r->longest, r->shortest, r->rms);
+    return roughness_blocks(a, &s, stream);
+}
+
+/* One-sided power spectral density (m^2 per cycle/m) that the profile has at k cycles/m, in the ensemble mean. */
+static double roughness_density(const struct roughness *r, double k)
+{
+    double nodes[2] = {1 / r->longest, 1 / r->shortest}, p[2] = {1, pow(r->longest / r->shortest, r->exponent)};
+    struct spectrum s = {.n = 2, .k = nodes, .p = p, .flat = true};
+    spectrum_scale(&s, r->rms);
+    return spectrum_at(&s, k);
+}
+
 struct density {
     const struct roughness *r;
     int power;

@@ -8,7 +8,6 @@
 
 #include "num/real.h"
 #include "parts.h"
-#include "surface/tile.h"
 
 enum { SEGMENT = 16384, SEGMENTS = 200 };
 
@@ -344,14 +343,14 @@ START_TEST(the_sum_of_its_bands)
     double(*power)[TILE_LINES] = (double(*)[TILE_LINES])ARENA_TAKE(a, double, TILE_BANDS *TILE_LINES),
     *tiles[TILE_BANDS];
     struct noise own[TILE_BANDS];
-    int bands = tile_rings(&s, power);
-    tile_mend(bands, power);
+    int bands = tiles_rings(&s, power);
+    tiles_mend(bands, power);
     for (int b = 0; b < bands; b++) {
         uint64_t key[2];
         noise_bits(noise_make(7, "bands"), (uint64_t)b, UINT64_MAX, key);
         own[b] = (struct noise){key[0]};
         tiles[b] = ARENA_TAKE(a, double, TILE_SIDE *TILE_ROW);
-        tile_make(power[b], own[b], fft, tiles[b]);
+        tiles_tile(power[b], own[b], fft, tiles[b]);
     }
     ck_assert_int_ge(bands, 6);
     srand48(3);

@@ -1,6 +1,6 @@
-/* map: coefficients against the interpolation equations, all six values against a slow direct sum of B-spline
+/* height_map_spline: coefficients against the interpolation equations, all six values against a slow direct sum of B-spline
    polynomials and against finite differences, continuity across cells and seams, orientation, orders of convergence. */
-#include "surface/map.h"
+#include "surface/height_map.h"
 
 #include "samples.h"
 
@@ -25,8 +25,9 @@ static void random_heights(long seed)
 
 static struct relief_part *made(struct arena *a, int off_map)
 {
-    return map_part(a, map_spline(a, &(struct height_map){&z[0][0], COLUMNS, ROWS, {pitch[0], pitch[1]}}, off_map),
-                    origin, "map");
+    return height_map_part(
+        a, height_map_spline(a, &(struct height_map){&z[0][0], COLUMNS, ROWS, {pitch[0], pitch[1]}}, off_map), origin,
+        "map");
 }
 
 static struct six read_at(struct relief_part *part, double x, double y)
@@ -228,9 +229,9 @@ static struct six errors_of(int n)
     for (int j = 0; j < n; j++)
         for (int i = 0; i < n; i++)
             wave[j * n + i] = cos(k * (i + j) / n);
-    struct relief_part *part =
-        map_part(a, map_spline(a, &(struct height_map){wave, (size_t)n, (size_t)n, {1.0 / n, 1.0 / n}}, OFF_MAP_WRAP),
-                 (double[]){0, 0}, "wave");
+    struct relief_part *part = height_map_part(
+        a, height_map_spline(a, &(struct height_map){wave, (size_t)n, (size_t)n, {1.0 / n, 1.0 / n}}, OFF_MAP_WRAP),
+        (double[]){0, 0}, "wave");
     for (int i = 0; i < 3000; i++) {
         double x = drand48(), y = drand48(), c = cos(k * (x + y)), s = -k * sin(k * (x + y)), cc = -k * k * c,
                want[6] = {c, s, s, cc, cc, cc};
@@ -261,5 +262,5 @@ START_TEST(orders_of_convergence)
 }
 END_TEST
 
-UNIT("map", values_are_sums_of_splines, samples_are_met, single_directions, derivatives_are_differences,
+UNIT("height_map_spline", values_are_sums_of_splines, samples_are_met, single_directions, derivatives_are_differences,
      continuous_to_the_second_derivative, symmetries_of_the_continuation, orders_of_convergence)

@@ -1,10 +1,9 @@
-/* survey, roughness like a map, continuation: on fields whose statistics are known. */
-#include "surface/survey.h"
+/* The spectrum of a measured map, roughness like a map, continuation: on fields whose statistics are known. */
+#include "surface/spectrum.h"
 
 #include "file/heightfile.h"
 #include "num/noise.h"
 #include "parts.h"
-#include "surface/blocks.h"
 #include "surface/continuation.h"
 #include "surface/heights.h"
 #include "surface/roughness.h"
@@ -24,7 +23,7 @@ static double *sampled(struct arena *a, struct relief_part *p, size_t n, double 
 
 static struct relief_part *line(struct arena *a, const struct spectrum *s, const char *name)
 {
-    return profile_part(a, blocks_make(a, s, noise_make(3, name)), "line", 0);
+    return profile_part(a, roughness_blocks(a, s, noise_make(3, name)), "line", 0);
 }
 
 /* Between 4 times the roll-off and the cut-off: a third of an octave of n lines and 15 segments has the relative
@@ -41,7 +40,7 @@ START_TEST(spectrum_of_a_known_one)
             z[i] +=
                 1e-3 +
                 1e-6 * i; /* which levelling takes out; in the lowest nodes it would be seen through the Hann window */
-        struct spectrum m = survey_spectrum(a, &(struct survey_grid){z, N, 1, 5e-6});
+        struct spectrum m = spectrum_measured(a, &(struct spectrum_rows){z, N, 1, 5e-6});
         int looked = 0;
         for (int i = 0; i < m.n && m.k[i] < 500;
              i++) /* flat, from 3 lines and 15 segments each: 4.5 deviations are 0.95 */
@@ -55,11 +54,11 @@ START_TEST(spectrum_of_a_known_one)
             looked++;
         }
         ck_assert_int_ge(looked, 9);
-        double density, fitted = survey_fit(&m, 4.5e4, &density);
+        double density, fitted = spectrum_fit(&m, 4.5e4, &density);
         ck_assert_double_eq_tol(fitted, exponents[e], 0.2);
         ck_assert_double_eq_tol(density / spectrum_at(&s, 4.5e4), 1, 0.25);
-        ck_assert_double_eq_tol(survey_knee(&m) / 5e4, 0.87, 0.13); /* the cut-off, by a third of an octave */
-        ck_assert_double_eq_tol(survey_limit(&m) / 5e4, 1.1, 0.2);
+        ck_assert_double_eq_tol(spectrum_knee(&m) / 5e4, 0.87, 0.13); /* the cut-off, by a third of an octave */
+        ck_assert_double_eq_tol(spectrum_limit(&m) / 5e4, 1.1, 0.2);
         p->close(p);
         arena_close(a);
     }
@@ -74,7 +73,7 @@ START_TEST(moments_of_known_heights)
     for (int j = 0; j < R; j++)
         for (int i = 0; i < C; i++) /* -1 or 1 in turn along both: kurtosis 1; with one in four at 3: skewed */
             z[j * C + i] = 2e-6 * ((i + j) % 4 == 0 ? 3 : -1) + 5e-3 + 1e-5 * i - 2e-5 * j;
-    struct survey_moments m = survey_heights(&(struct survey_grid){z, C, R, 1e-6});
+    struct spectrum_moments m = spectrum_moments(&(struct spectrum_rows){z, C, R, 1e-6});
     ck_assert_double_eq_tol(m.rms / (2e-6 * sqrt(3)), 1, 1e-3);
     ck_assert_double_eq_tol(m.skewness, 2 / sqrt(3), 1e-2);
     ck_assert_double_eq_tol(m.kurtosis, 7.0 / 3, 1e-2);
@@ -97,9 +96,9 @@ START_TEST(like_a_file)
     struct heightfile_written written;
     f.z = sampled(a, p, N, 5e-6);
     ck_assert_msg(heightfile_write("like.gsf", &f, HEIGHTFILE_GSF, &written, &e), "%s", e.text);
-    struct survey_grid g = {f.z, N, 1, 5e-6};
-    struct survey_moments want = survey_heights(&g);
-    struct spectrum before = survey_spectrum(a, &g);
+    struct spectrum_rows g = {f.z, N, 1, 5e-6};
+    struct spectrum_moments want = spectrum_moments(&g);
+    struct spectrum before = spectrum_measured(a, &g);
     for (int along = ALONG_PATH; along <= ALONG_PLANE; along += ALONG_PLANE - ALONG_PATH) {
         struct roughness r = {.given = true, .like = "like.gsf", .like_pitch = NAN, .grain = 1};
         struct roughness_plan plan;
@@ -108,8 +107,8 @@ START_TEST(like_a_file)
         struct relief_part *made = roughness_part(a, &plan, &r, along, noise_make(5, "like"), &e);
         ck_assert_msg(made != NULL, "%s", e.text);
         g.z = sampled(a, made, N, 5e-6);
-        struct survey_moments got = survey_heights(&g);
-        struct spectrum after = survey_spectrum(a, &g);
+        struct spectrum_moments got = spectrum_moments(&g);
+        struct spectrum after = spectrum_measured(a, &g);
         ck_assert_double_eq_tol(got.rms / want.rms, 1, 0.06);
         ck_assert_double_eq_tol(got.skewness, want.skewness, 0.25);
         ck_assert_double_eq_tol(got.kurtosis, want.kurtosis, 0.6);
@@ -148,7 +147,7 @@ START_TEST(continuation_carries_on)
     struct relief_points at = {4 * N, x, NULL};
     coarse->add(coarse, &at, &(struct relief_values){.z = sum});
     fine->add(fine, &at, &(struct relief_values){.z = sum});
-    struct spectrum both = survey_spectrum(a, &(struct survey_grid){sum, 4 * N, 1, 0.625e-6}),
+    struct spectrum both = spectrum_measured(a, &(struct spectrum_rows){sum, 4 * N, 1, 0.625e-6}),
                     whole = spectrum_power_law(a, -2.4, 1e-3, 5e-6, 4e-6);
     double level = spectrum_at(&s, 5e3) / spectrum_at(&whole, 5e3);
     for (int i = 0; i < both.n; i++)
@@ -166,8 +165,8 @@ START_TEST(continuation_carries_on)
      * left for X to rise in */
     want.exponent = NAN;
     ck_assert(continuation_spectrum(a, &want, &map, &c, &e));
-    struct spectrum measured = survey_spectrum(a, &(struct survey_grid){z, N, 1, 2.5e-6});
-    double density, fitted = survey_fit(&measured, 20e3 * sqrt(0.5), &density);
+    struct spectrum measured = spectrum_measured(a, &(struct spectrum_rows){z, N, 1, 2.5e-6});
+    double density, fitted = spectrum_fit(&measured, 20e3 * sqrt(0.5), &density);
     ck_assert_double_eq_tol(c.p[0] / density, 1, 1e-9);
     ck_assert_double_eq_tol(log(c.p[1] / c.p[0]) / log(c.k[1] / c.k[0]), fitted, 1e-9);
     coarse->close(coarse);
@@ -198,5 +197,5 @@ START_TEST(what_cannot_be_continued)
 }
 END_TEST
 
-UNIT("survey", spectrum_of_a_known_one, moments_of_known_heights, like_a_file, continuation_carries_on,
+UNIT("spectrum_measured", spectrum_of_a_known_one, moments_of_known_heights, like_a_file, continuation_carries_on,
      what_cannot_be_continued)
