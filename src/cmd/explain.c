@@ -2,6 +2,7 @@
  * what there is none of: unit, range, default ("" would be a text), condition, words. */
 #include <ctype.h>
 #include <jansson.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -9,66 +10,409 @@
 #include "base/text.h"
 #include "base/wrap.h"
 #include "cmd/cmd.h"
-#include "cmd/schema.h"
+#include "cmd/report.h"
 #include "output/force_table.h"
 #include "scene/keys_man.h"
 #include "scene/keys_reference.h"
 #include "scene/keys_text.h"
 #include "scene/scene_write.h"
+#include "scene/units_table.h"
 
-static json_t *text_or_null(const char *s) { return s && *s ? json_string(s) : json_null(); }
+/* ------------------------------------------------------------------ JSON Schemas (draft 2020-12), for editors
 
-static json_t *words(const struct choice *c)
+   They know each key, its type, units, words and, of bare numbers, its range. They do not know which keys go together:
+   `rasp check` does. Every key may be null, which stands for "not given". */
+
+static const char number_pattern[] = "[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?";
+
+/* Takes the object, returns it. */
+static json_t *described(json_t *o, const char *description)
 {
-    if (!c) return json_null();
-    json_t *all = json_array();
-    for (; c->word; c++)
-        json_array_append_new(all, json_pack("{s:s, s:s}", "word", c->word, "meaning", c->meaning));
-    return all;
-}
-
-static json_t *key(const struct key *k)
-{
-    struct arena *a = arena_open();
-    bool range = keys_text_range(k, a);
-    json_t *o =
-        json_pack("{s:s, s:s, s:s, s:o, s:o, s:o, s:b, s:o, s:o, s:o}", "path", k->path, "meaning", k->meaning, "type",
-                  k->type == KEY_CHOICE ? "word" : keys_text_type(k), "unit",
-                  text_or_null(keys_text_unit(k->dimension)), "low", range ? json_real(k->low) : json_null(), "high",
-                  range ? json_real(k->high) : json_null(), "must_be_given", !k->standard, "default",
-                  text_or_null(k->standard), "only", text_or_null(keys_text_applies(k, a)), "words", words(k->choices));
-    arena_close(a);
+    if (description) json_object_set_new(o, "description", json_string(description));
     return o;
 }
 
-static json_t *knob(const struct key_knob *k)
+/* Of a type or null: "array", "object"; "text": whatever is a text in YAML, be it a number. */
+static json_t *plain(const char *type, const char *description)
 {
-    json_t *presets = json_object();
-    for (int i = 0; keys_presets[i]; i++)
-        json_object_set_new(presets, keys_presets[i], json_real(k->preset[i]));
-    return json_pack("{s:o, s:s, s:s, s:f, s:f, s:o}", "path", json_sprintf("accuracy.%s", k->name), "meaning",
-                     k->meaning, "type", k->whole ? "whole number" : "number", "low", k->low, "high", k->high,
-                     "presets", presets);
+    json_t *types = strcmp(type, "text") ? json_pack("[s, s]", type, "null")
+                                         : json_pack("[s, s, s, s]", "string", "number", "boolean", "null");
+    return described(json_pack("{s:o}", "type", types), description);
 }
 
-/* Is it the path itself, or in its map? */
-static bool within(const char *path, const char *map)
+/* Takes items. */
+static json_t *list(json_t *items, int least, int most, const char *description)
 {
-    size_t n = strlen(map);
-    return !n || (!strncmp(path, map, n) && (!path[n] || path[n] == '.'));
+    json_t *o = plain("array", description);
+    json_object_update_new(o, json_pack("{s:o, s:i, s:i}", "items", items, "minItems", least, "maxItems", most));
+    return o;
 }
 
-/* The keys and knobs at a path or in a map of that path, in the order of the tables; "": all. */
-static json_t *explain_json(const char *path)
+/* A map that has these keys only; takes properties. */
+static json_t *map(json_t *properties, const char *description)
 {
-    const char *name = strncmp(path, "accuracy.", 9) ? path : path + 9;
-    bool all = !*path || !strcmp(path, "accuracy");
-    json_t *rows = json_array();
-    for (const struct key *k = keys_table; k->path; k++)
-        if (within(k->path, path)) json_array_append_new(rows, key(k));
+    json_t *o = plain("object", description);
+    json_object_update_new(o, json_pack("{s:o, s:b}", "properties", properties, "additionalProperties", 0));
+    return o;
+}
+
+/* {"enum": [WORD, ..., null]} */
+static json_t *one_of(const char *const *words)
+{
+    json_t *all = json_array();
+    for (; *words; words++)
+        json_array_append_new(all, json_string(*words));
+    json_array_append_new(all, json_null());
+    return json_pack("{s:o}", "enum", all);
+}
+
+/* {"$ref": "#/$defs/NAME"} */
+static json_t *ref(const char *name) { return json_pack("{s:o}", "$ref", json_sprintf("#/$defs/%s", name)); }
+
+/* A number as JSON writes it: 44100, not 44100.0. */
+static json_t *number(double x) { return x == floor(x) && fabs(x) < 1e15 ? json_integer((json_int_t)x) : json_real(x); }
+
+/* A bare number or one with a unit; low = high: any, or, not 0, that one. `word` may stand in its place; NULL: none. */
+static json_t *quantity(enum key_dimension dimension, double low, double high, bool whole, const char *word,
+                        struct arena *a)
+{
+    const char *units = units_table_pattern(dimension, a);
+    const char *text = arena_format(a, "%s%s", number_pattern, *units ? arena_format(a, "([ \\t]*(%s))?", units) : "");
+    text = word ? arena_format(a, "^(%s|%s)$", word, text) : arena_format(a, "^%s$", text);
+    json_t *o =
+        json_pack("{s:[s, s, s], s:s}", "type", whole ? "integer" : "number", "string", "null", "pattern", text);
+    if (low < high || low != 0)
+        json_object_update_new(
+            o, json_pack("{s:o, s:o}", "minimum", number(low), "maximum", number(low < high ? high : low)));
+    return o;
+}
+
+static json_t *of_dimension(const struct key *k, struct arena *a)
+{
+    return quantity(k->dimension, k->low, k->high, k->type == KEY_COUNT || k->type == KEY_WHOLE,
+                    k->type == KEY_TIME_OR_AUTO ? "auto" : NULL, a);
+}
+
+static json_t *columns(void)
+{
+    json_t *all = json_array();
+    for (const struct table_column *t = force_table_columns; t->name; t++)
+        json_array_append_new(all, json_string(t->name));
+    return json_pack("{s:o}", "enum", all);
+}
+
+static json_t *typed(const struct key *k, struct arena *a)
+{
+    switch (k->type) {
+    case KEY_NUMBER:
+    case KEY_WHOLE:
+    case KEY_COUNT:
+    case KEY_TIME_OR_AUTO:
+        return of_dimension(k, a);
+    case KEY_SEED:
+        return json_pack("{s:[s, s, s], s:s, s:i}", "type", "integer", "string", "null", "pattern",
+                         "^(0|[1-9][0-9]{0,19})$", "minimum", 0);
+    case KEY_TEXT:
+    case KEY_FILE:
+        return plain("text", NULL);
+    case KEY_POINT:
+    case KEY_RANGE:
+        return list(of_dimension(k, a), 2, 2, NULL);
+    case KEY_POINTS:
+        return list(list(of_dimension(k, a), 2, 2, NULL), 2, 10000, NULL);
+    case KEY_PLACES:
+        return list(list(of_dimension(k, a), 3, 3, NULL), 1, 64, NULL);
+    case KEY_LIST:
+        return list(strcmp(k->path, "output.diagnostics.columns") ? json_pack("{s:s}", "type", "string") : columns(), 1,
+                    1000, NULL);
+    case KEY_CHOICE: {
+        const char *words[64] = {NULL};
+        for (int i = 0; i < 63 && k->choices[i].word; i++)
+            words[i] = k->choices[i].word;
+        return one_of(words);
+    }
+    }
+    return json_object();
+}
+
+/* The meaning, the type where it is a quantity, range, default, when it applies, and what the words mean. */
+static const char *description(const struct key *k, struct arena *a)
+{
+    const char *range = keys_text_range(k, a), *when = keys_text_applies(k, a),
+               *all = arena_format(a, "%c%s.", toupper((unsigned char)k->meaning[0]), k->meaning + 1);
+    if (!k->choices) all = arena_format(a, "%s Type: %s.", all, keys_text_type(k));
+    if (range) all = arena_format(a, "%s Range: %s.", all, range);
+    if (!k->standard || *k->standard)
+        all = arena_format(a, "%s Default: %s.", all, k->standard ? k->standard : "none, it must be given");
+    if (when) all = arena_format(a, "%s Only %s.", all, when);
+    for (const struct choice *c = k->choices; c && c->word; c++)
+        all = arena_format(a, "%s\n- %s: %s", all, c->word, c->meaning);
+    return all;
+}
+
+/* The value of one key, with what `rasp explain` says of it. */
+static json_t *key_value(const struct key *k, struct arena *a)
+{
+    json_t *o = described(typed(k, a), description(k, a));
+    double x;
+    if (k->standard && *k->standard && k->standard[0] != '[')
+        json_object_set_new(o, "default", text_double(k->standard, &x) ? number(x) : json_string(k->standard));
+    return o;
+}
+
+/* The schema of scenes. Dotted paths become maps in maps; those at the top stand in $defs, as one
+   contact's keys may stand at the top level or in an entry of contacts. */
+
+static const char *frame_meaning(const char *path)
+{
+    for (const struct keys_text_frame *p = keys_text_frames; p->path; p++)
+        if (!strcmp(p->path, path)) return p->meaning;
+    return NULL;
+}
+
+static const char *section_meaning(const char *path)
+{
+    for (const struct key_section *s = keys_sections; s->path; s++)
+        if (!strcmp(s->path, path)) return s->meaning;
+    return NULL;
+}
+
+/* The properties of the map `path`, under those of the top; maps are made as they are needed. */
+static json_t *properties_at(json_t *top, const char *path, struct arena *a)
+{
+    if (!*path) return top;
+    const char *dot = strrchr(path, '.'), *name = dot ? dot + 1 : path;
+    json_t *outer = properties_at(top, arena_format(a, "%.*s", dot ? (int)(dot - path) : 0, path), a);
+    if (!json_object_get(outer, name)) json_object_set_new(outer, name, map(json_object(), section_meaning(path)));
+    return json_object_get(json_object_get(outer, name), "properties");
+}
+
+static json_t *accuracy(struct arena *a)
+{
+    json_t *knobs =
+        json_pack("{s:o, s:o}", "preset", described(one_of(keys_presets), frame_meaning("accuracy.preset")), "error",
+                  described(quantity(KEY_DECIBEL, -240, 0, false, NULL, a), frame_meaning("accuracy.error")));
     for (const struct key_knob *k = keys_knobs; k->name; k++)
-        if (all || !strcmp(k->name, name)) json_array_append_new(rows, knob(k));
-    return rows;
+        json_object_set_new(knobs, k->name,
+                            described(quantity(KEY_NONE, k->low, k->high, k->whole, NULL, a), k->meaning));
+    return json_pack("{s:[o, o], s:s}", "anyOf", one_of(keys_presets), map(knobs, NULL), "description",
+                     frame_meaning("accuracy"));
+}
+
+/* "$defs" of both: the scene's top-level maps by name, and accuracy. */
+static json_t *schema_maps(struct arena *a)
+{
+    json_t *top = json_object();
+    for (const struct key *k = keys_table; k->path; k++) {
+        const char *dot = strrchr(k->path, '.');
+        if (dot)
+            json_object_set_new(properties_at(top, arena_format(a, "%.*s", (int)(dot - k->path), k->path), a), dot + 1,
+                                key_value(k, a));
+    }
+    json_object_set_new(top, "accuracy", accuracy(a));
+    return top;
+}
+
+/* Into properties: the keys of a contact, or of the scene; maps as references. */
+static void add_keys(json_t *properties, enum key_struct of, struct arena *a)
+{
+    for (const struct key *k = keys_table; k->path; k++) {
+        size_t n = strcspn(k->path, ".");
+        const char *name = arena_format(a, "%.*s", (int)n, k->path);
+        if (k->of != of || json_object_get(properties, name)) continue;
+        json_object_set_new(properties, name, k->path[n] ? ref(name) : key_value(k, a));
+    }
+}
+
+static json_t *inputs(void)
+{
+    json_t *entry = map(json_pack("{s:o, s:{s:s, s:s}}", "file", plain("text", NULL), "sha256", "type", "string",
+                                  "pattern", "^[0-9a-f]{64}$"),
+                        NULL);
+    json_object_set_new(entry, "required", json_pack("[s]", "file"));
+    return list(entry, 0, 1000000, frame_meaning("inputs"));
+}
+
+static json_t *schema_scene(struct arena *a)
+{
+    json_t *contact = json_object(), *all = json_object();
+    add_keys(contact, KEY_CONTACT, a);
+    add_keys(all, KEY_SCENE, a);
+    add_keys(all, KEY_CONTACT, a);
+    json_object_set_new(all, "accuracy", ref("accuracy"));
+    json_object_set_new(all, "contacts", list(map(contact, NULL), 1, 1000, frame_meaning("contacts")));
+    json_object_set_new(all, "include", list(plain("text", NULL), 0, 200, frame_meaning("include")));
+    json_object_set_new(all, "inputs", inputs());
+    return json_pack("{s:s, s:s, s:s, s:s, s:o, s:b, s:o}", "$schema", "https://json-schema.org/draft/2020-12/schema",
+                     "title", "a scene of rasp", "description",
+                     "What touches what, how it moves and how it rings; see rasp-scene(5). Which keys go "
+                     "together, rasp check knows.",
+                     "type", "object", "properties", all, "additionalProperties", 0, "$defs", schema_maps(a));
+}
+
+/* The schema of designs: see man rasp-design(5). */
+
+/* Where a dotted path stands in $defs. */
+static json_t *ref_of(const char *path, struct arena *a)
+{
+    const char *to = strncmp(path, "accuracy.", 9) ? "" : "accuracy/anyOf/1/properties/", *rest = *to ? path + 9 : path;
+    for (const char *dot = strchr(rest, '.'); dot; rest = dot + 1, dot = strchr(rest, '.'))
+        to = arena_format(a, "%s%.*s/properties/", to, (int)(dot - rest), rest);
+    return ref(arena_format(a, "%s%s", to, rest));
+}
+
+/* What may be laid over a scene: dotted keys, maps of keys, and the same of a contact by its name. */
+static json_t *settings(struct arena *a)
+{
+    json_t *all = json_object();
+    for (const char **names = keys_text_names(a); *names; names++)
+        json_object_set_new(all, *names,
+                            keys_find(*names) && !strchr(*names, '.') ? key_value(keys_find(*names), a)
+                                                                      : ref_of(*names, a));
+    for (const char *const *own = (const char *const[]){"rasp", "seed", "include", "inputs", "contacts", NULL}; *own;
+         own++)
+        json_object_del(all, *own);
+    json_t *o =
+        map(all,
+            "keys laid over the scene: dotted (motion.rate: 2 Hz), or as maps; files as seen from the design's folder");
+    json_object_set_new(o, "patternProperties", json_pack("{s:b}", "^contacts(\\.|$)", 1));
+    return o;
+}
+
+/* A word, a key of scenes, or what contacts have. */
+static json_t *factor_names(struct arena *a)
+{
+    json_t *keys = json_array();
+    for (const char **names = keys_text_names(a); *names; names++)
+        if (strchr(*names, '.')) json_array_append_new(keys, json_string(*names));
+    return json_pack("{s:[{s:s}, {s:o}]}", "anyOf", "pattern", "^([A-Za-z][A-Za-z0-9_-]*|contacts\\..*)$", "enum",
+                     keys);
+}
+
+static json_t *factors(struct arena *a)
+{
+    json_t *level =
+        map(json_pack("{s:o, s:o, s:b, s:o, s:o, s:{s:[s], s:s}}", "label",
+                      plain("text", "what it is called in names and lists"), "text",
+                      plain("text", "what it is called in the text of a trial"), "value", 1, "set", ref("set"), "base",
+                      plain("text", "a scene that takes the place of the design's"), "of", "enum", "recordings",
+                      "description", "only recordings have it: no cell is crossed with it"),
+            NULL);
+    json_object_set_new(level, "required", json_pack("[s]", "label"));
+    json_t *levels = list(json_pack("{s:[{s:[s, s, s]}, o]}", "anyOf", "type", "string", "number", "boolean", level), 1,
+                          1000000, NULL);
+    json_t *o = plain(
+        "object",
+        "factors, crossed, the first slowest: a dotted key with values, or a word with levels {label, set, base}");
+    json_object_set_new(o, "additionalProperties", levels);
+    json_object_set_new(o, "propertyNames", factor_names(a));
+    return o;
+}
+
+/* Maps whose keys are factors: what `own` says, else a label of the factor, as `label` has it. */
+static json_t *cells(json_t *own, json_t *label, const char *description)
+{
+    json_t *entry = plain("object", NULL);
+    if (json_object_get(own, "file")) json_object_set_new(entry, "required", json_pack("[s]", "file"));
+    json_object_set_new(entry, "properties", own);
+    json_object_set_new(entry, "additionalProperties", label);
+    return list(entry, 0, 1000000, description);
+}
+
+static json_t *level(struct arena *a)
+{
+    json_t *rules = json_object();
+    for (const char *const *name = (const char *const[]){"peak", "rms", "lufs", "full_scale", "dbfs_at_1_pa", NULL};
+         *name; name++)
+        json_object_set_new(rules, *name, key_value(keys_find(arena_format(a, "output.level.%s", *name)), a));
+    json_t *one = map(rules, NULL);
+    json_object_update_new(one, json_pack("{s:i, s:i}", "minProperties", 1, "maxProperties", 1));
+    json_t *rule = map(json_pack("{s:O, s:o}", "common", one, "each", one), NULL);
+    json_object_set_new(rule, "maxProperties", json_integer(1));
+    return json_pack("{s:[{s:[s, n]}, o], s:s}", "anyOf", "enum", "scene", rule, "description",
+                     "one gain for the whole set, as in {common: {peak: -3 dB}}, the default; a gain for each "
+                     "stimulus, as in {each: {lufs: -23}}: all equally loud; or as each scene says (scene)");
+}
+
+static json_t *schema_design(struct arena *a)
+{
+    json_t *seed = described(key_value(keys_find("seed"), a),
+                             "seed of the set: a stimulus's own is made of it and of its replicate, so that cells "
+                             "differ in nothing else; default: 1");
+    json_object_set_new(seed, "default", json_integer(1));
+    json_t *all = json_pack(
+        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "rasp-design",
+        described(quantity(KEY_NONE, 1, 1, true, NULL, a), "version of the format of designs; this is version 1"),
+        "title", plain("text", "what the set is, for people"), "text",
+        plain("text", "what a trial says, {FACTOR} standing for a level's text"), "base",
+        plain("text", "the scene that all stimuli build on, as seen from the design's folder"), "seed", seed, "set",
+        ref("set"), "factors", factors(a));
+    json_object_set_new(
+        all, "exclude",
+        cells(json_object(),
+              json_pack("{s:[o, o]}", "anyOf", plain("text", NULL), list(plain("text", NULL), 0, 1000000, NULL)),
+              "cells that are left out: those that match all pairs of FACTOR: LABEL, or one of its LABELS"));
+    json_object_set_new(
+        all, "cells", cells(json_object(), plain("text", NULL), "the cells, listed, in place of crossing the factors"));
+    json_object_set_new(all, "recordings",
+                        cells(json_pack("{s:o, s:o}", "file", plain("text", "a WAV"), "name", plain("text", NULL)),
+                              plain("text", NULL), "supplied sounds as cells of their own"));
+    json_object_set_new(all, "order",
+                        json_pack("{s:[{s:[s, n]}, o], s:s}", "anyOf", "enum", "design",
+                                  map(json_pack("{s:o}", "seed", key_value(keys_find("seed"), a)), NULL), "description",
+                                  "as written (design, the default), or shuffled by {seed: NUMBER}"));
+    json_object_set_new(all, "replicates",
+                        described(quantity(KEY_NONE, 1, 1000000, true, NULL, a),
+                                  "takes of each cell, which differ in their noise; default: 1"));
+    json_object_set_new(all, "independent",
+                        list(plain("text", NULL), 0, 1000, "factors whose levels have noise of their own"));
+    json_object_set_new(
+        all, "name", plain("text", "names of files: {FACTOR}, {replicate}, {order}, {cell} between other characters"));
+    json_object_set_new(all, "level", level(a));
+    json_object_set_new(
+        all, "length",
+        described(
+            quantity(KEY_TIME, 0, 0, false, "longest|own", a),
+            "how long each sound is: as the longest of the set (longest, the default), as by itself (own), or a time"));
+    json_t *defs = schema_maps(a);
+    json_object_set_new(defs, "set", settings(a));
+    return json_pack("{s:s, s:s, s:s, s:s, s:o, s:b, s:[s], s:o}", "$schema",
+                     "https://json-schema.org/draft/2020-12/schema", "title", "a design of rasp", "description",
+                     "Which stimuli a set has; see rasp-design(5). What goes together, rasp batch --dry-run knows.",
+                     "type", "object", "properties", all, "additionalProperties", 0, "required", "rasp-design", "$defs",
+                     defs);
+}
+/* ------------------------------------------------------------------ keys */
+
+static void report_key(struct report *r, const struct key *k)
+{
+    struct arena *a = arena_open();
+    bool range = keys_text_range(k, a);
+    report_object(r, NULL);
+    report_set(r, "path:s meaning:s type:s unit:e low:n high:n must_be_given:b default:e only:e words:0", k->path,
+               k->meaning, k->type == KEY_CHOICE ? "word" : keys_text_type(k), keys_text_unit(k->dimension),
+               range ? k->low : NAN, range ? k->high : NAN, !k->standard, k->standard, keys_text_applies(k, a));
+    if (k->choices) report_list(r, "words");
+    for (const struct choice *c = k->choices; c && c->word; c++) {
+        report_object(r, NULL);
+        report_set(r, "word:s meaning:s", c->word, c->meaning);
+        report_end(r);
+    }
+    if (k->choices) report_end(r);
+    report_end(r);
+    arena_close(a);
+}
+
+static void report_knob(struct report *r, const struct key_knob *k, struct arena *a)
+{
+    report_object(r, NULL);
+    report_set(r, "path:s meaning:s type:s low:n high:n", arena_format(a, "accuracy.%s", k->name), k->meaning,
+               k->whole ? "whole number" : "number", k->low, k->high);
+    report_object(r, "presets");
+    for (int i = 0; keys_presets[i]; i++)
+        report_set(r, arena_format(a, "%s:n", keys_presets[i]), k->preset[i]);
+    report_end(r);
+    report_end(r);
 }
 
 static bool is_scene_file(const char *word)
@@ -82,25 +426,10 @@ static bool is_scene_file(const char *word)
 static const struct key_knob *find_knob(const char *path)
 {
     const char *name = strncmp(path, "accuracy.", 9) ? path : path + 9;
-    for (const struct key_knob *k = keys_knobs; k->name; k++)
-        if (!strcmp(k->name, name)) return k;
-    return NULL;
-}
-
-static bool is_name(const char *path, const char **names)
-{
-    for (; *names; names++)
-        if (!strcmp(*names, path)) return true;
-    return false;
-}
-
-static void list_columns(void)
-{
-    fputs("  columns\n", stdout);
-    for (const struct table_column *t = force_table_columns; t->name; t++) {
-        int n = printf("    %-22s ", t->name);
-        wrap_print(stdout, t->meaning, n, "                           ");
-    }
+    const struct key_knob *k = keys_knobs;
+    while (k->name && strcmp(k->name, name) != 0)
+        k++;
+    return k->name ? k : NULL;
 }
 
 /* True when there was something of that name to explain. */
@@ -108,17 +437,22 @@ static bool explain_path(const char *path, const char **names, struct arena *a)
 {
     const struct key *k = keys_find(path);
     const struct key_knob *knob = find_knob(path);
-    if (k) {
+    while (*names && strcmp(*names, path) != 0)
+        names++;
+    if (k)
         keys_text_print_key(stdout, k, a);
-        if (!strcmp(path, "output.diagnostics.columns")) list_columns();
-    } else if (knob)
+    else if (knob)
         keys_text_print_knob(stdout, knob, a);
     else if (!strcmp(path, "accuracy"))
         keys_text_print_accuracy(stdout, a);
-    else if (is_name(path, names))
+    else if (*names)
         keys_text_print_map(stdout, path, a);
     else
         return false;
+    bool columns = !strcmp(path, "output.diagnostics.columns");
+    if (columns) fputs("  columns\n", stdout);
+    for (const struct table_column *t = force_table_columns; columns && t->name; t++)
+        wrap_print(stdout, t->meaning, printf("    %-22s ", t->name), "                           ");
     return true;
 }
 
@@ -145,58 +479,38 @@ static const char *design_text(json_t *key)
     return text ? text : "";
 }
 
-/* Every key of designs and what it is for. */
-static void list_designs(json_t *schema)
-{
-    const char *name;
-    json_t *unused;
-    json_object_foreach(json_object_get(schema, "properties"), name, unused)
-    {
-        int n = printf("%s: ", name);
-        wrap_print(stdout, design_text(design_key(schema, name)), n, "  ");
-    }
-    printf("\ndesigns: man rasp-design(5), rasp batch --help\n");
-}
-
 static bool names_designs(const char *word) { return !strcmp(word, "design") || !strcmp(word, "designs"); }
 
-/* A key of designs, which are explained elsewhere; of scenes there may be one of that name in some section, too. False:
- * there is none. */
-static bool explain_design(const char *word, const char **names, struct arena *a)
+/* Every key of designs and what it is for; or one, which is explained elsewhere: of scenes there may be one of that
+   name in some section, too. False: there is none. */
+static bool explain_design(json_t *schema, const char *word, const char **names, struct arena *a)
 {
-    json_t *schema = schema_design(a), *key = design_key(schema, word);
-    const char *text = design_text(key), *scenes = endings(word, names, a);
-    bool all = names_designs(word);
-    if (all)
-        list_designs(schema);
-    else if (key) {
+    json_t *key = design_key(schema, word), *unused;
+    const char *text = design_text(key), *scenes = endings(word, names, a), *name;
+    if (names_designs(word)) {
+        json_object_foreach(json_object_get(schema, "properties"), name, unused)
+            wrap_print(stdout, design_text(design_key(schema, name)), printf("%s: ", name), "  ");
+        printf("\ndesigns: man rasp-design(5), rasp batch --help\n");
+    } else if (key) {
         printf("%s\n  a key of designs", word);
-        int n = 18 + (*text ? printf(": ") : 0);
-        wrap_print(stdout, text, n, "  ");
+        wrap_print(stdout, text, 18 + (*text ? printf(": ") : 0), "  ");
         printf("%s  designs: man rasp-design(5)%s%s\n", *text ? "" : "\n", scenes ? "; of scenes there is " : "",
                scenes ? scenes : "");
     }
-    json_decref(schema);
-    return key || all;
+    return key || names_designs(word);
 }
 
-static const char *nearest_of_designs(const char *word, struct arena *a)
+static void unknown(json_t *schema, const char *word, const char **names, struct arena *a, struct err *e)
 {
-    json_t *schema = schema_design(a), *keys = json_object_get(schema, "properties"), *unused;
-    const char **names = ARENA_TAKE(a, const char *, json_object_size(keys) + 2), *name;
+    json_t *keys = json_object_get(schema, "properties"), *unused;
+    const char **designs = ARENA_TAKE(a, const char *, json_object_size(keys) + 2), *name,
+               *meant = endings(word, names, a);
     int n = 0;
-    names[n++] = "design";
-    json_object_foreach(keys, name, unused) names[n++] = arena_text(a, name);
-    const char *nearest = text_nearest(word, names);
-    json_decref(schema);
-    return !nearest || nearest == names[0] ? nearest : arena_format(a, "%s of designs", nearest);
-}
-
-static void unknown(const char *word, const char **names, struct arena *a, struct err *e)
-{
-    const char *meant = endings(word, names, a);
-    meant = meant ? meant : text_nearest(word, names);
-    meant = meant ? meant : nearest_of_designs(word, a);
+    designs[n++] = "design";
+    json_object_foreach(keys, name, unused) designs[n++] = name;
+    if (!meant) meant = text_nearest(word, names);
+    if (!meant && (meant = text_nearest(word, designs)) && meant != designs[0])
+        meant = arena_format(a, "%s of designs", meant);
     if (meant)
         err_set(e, ERR_USAGE, "no key, section or scene file '%s'; did you mean %s?", word, meant);
     else
@@ -214,71 +528,69 @@ static void print_man(const char *part, struct arena *a, struct err *e)
         err_set(e, ERR_USAGE, "--man: '%s' is neither keys nor columns", part);
 }
 
-static void print_json(json_t *o)
+static void print_schema(const char *of, struct arena *a, struct err *e)
 {
+    bool scene = !strcmp(of, "scene");
+    if (!scene && strcmp(of, "design") != 0) {
+        err_set(e, ERR_USAGE, "--schema: '%s' is neither scene nor design", of);
+        return;
+    }
+    json_t *o = scene ? schema_scene(a) : schema_design(a);
     json_dumpf(o, stdout, JSON_INDENT(2));
     putchar('\n');
     json_decref(o);
 }
 
-static void print_schema(const char *of, struct arena *a, struct err *e)
-{
-    if (!strcmp(of, "scene"))
-        print_json(schema_scene(a));
-    else if (!strcmp(of, "design"))
-        print_json(schema_design(a));
-    else
-        err_set(e, ERR_USAGE, "--schema: '%s' is neither scene nor design", of);
-}
-
-static void explain_rows(const char *word, const char **names, struct arena *a, struct err *e)
+/* The keys and knobs at a path or in a map of that path, in the order of the tables; NULL: all. */
+static void explain_json(json_t *schema, const char *word, const char **names, struct arena *a, struct err *e)
 {
     const char *path = word ? keys_text_plain(word) : "";
-    json_t *rows = explain_json(path);
-    if (json_array_size(rows) > 0) {
-        print_json(rows);
+    size_t n = strlen(path);
+    const struct key_knob *knob = find_knob(path);
+    bool all = !n || !strcmp(path, "accuracy");
+    struct report r = report_open_list(stdout, true);
+    for (const struct key *k = keys_table; k->path; k++)
+        if (!n || (!strncmp(k->path, path, n) && (!k->path[n] || k->path[n] == '.'))) report_key(&r, k);
+    for (const struct key_knob *k = keys_knobs; k->name; k++)
+        if (all || k == knob) report_knob(&r, k, a);
+    if (json_array_size(r.at[0]) > 0) {
+        report_close(&r, 0, e);
         return;
     }
-    json_decref(rows);
-    json_t *schema = schema_design(a);
-    bool of_designs = design_key(schema, word) != NULL;
-    json_decref(schema);
+    json_decref(r.at[0]);
     if (names_designs(word))
         err_set(e, ERR_USAGE, "designs' keys are in rasp explain --schema=design; --json is for scenes");
-    else if (of_designs)
+    else if (design_key(schema, word))
         err_set(e, ERR_USAGE, "%s is a key of designs, which rasp explain --schema=design has; --json is for scenes",
                 word);
     else if (is_scene_file(word))
         err_set(e, ERR_USAGE, "--json is for keys and sections; an effective scene is YAML");
     else
-        unknown(word, names, a, e);
+        unknown(schema, word, names, a, e);
 }
 
 static int explain_run(struct cmd_call *c, struct err *e)
 {
     const char *word = c->args.n_operands ? c->args.operands[0] : NULL;
     const char **names = keys_text_names(c->arena);
+    json_t *schema = schema_design(c->arena), *key = word ? design_key(schema, word) : NULL;
     if (args_given(&c->args, "man"))
         print_man(args_value(&c->args, "man"), c->arena, e);
     else if (args_given(&c->args, "schema"))
         print_schema(args_value(&c->args, "schema"), c->arena, e);
     else if (args_given(&c->args, "json"))
-        explain_rows(word, names, c->arena, e);
+        explain_json(schema, word, names, c->arena, e);
     else if (!word)
         keys_reference_print(stdout, c->arena);
     else if (explain_path(keys_text_plain(word), names, c->arena)) {
-        /* Of scenes and of designs, each with a meaning of its own. */
-        json_t *schema = schema_design(c->arena), *key = design_key(schema, word);
-        if (key) {
-            int n = printf("  designs   have one, too: ");
-            wrap_print(stdout, design_text(key), n, "            ");
-        }
-        json_decref(schema);
+        if (key) /* of scenes and of designs, each with a meaning of its own */
+            wrap_print(stdout, design_text(key), printf("  designs   have one, too: "), "            ");
     } else if (is_scene_file(word)) {
         struct scene s;
         if (cmd_read_scene(c, word, &s, e)) fputs(scene_write(&s, NULL, c->arena), stdout);
-    } else if (!explain_design(word, names, c->arena))
-        unknown(word, names, c->arena, e);
+    } else if (!explain_design(schema, word, names, c->arena))
+        unknown(schema, word, names, c->arena, e);
+    json_decref(schema);
     return 0;
 }
 

@@ -30,8 +30,6 @@ static const char *item_name(int i) { return plan_item((enum item)i); }
 
 static const char *knob_name(int i) { return keys_knobs[i].name; }
 
-static const char *text_or_null(const char *s) { return s && *s ? s : NULL; }
-
 static void set_stage(struct report *r, const struct plan *p, const struct plan_row *row)
 {
     bool runs = row->verdict == PLAN_RUNS;
@@ -39,8 +37,8 @@ static void set_stage(struct report *r, const struct plan *p, const struct plan_
                       : row->verdict == PLAN_UNWANTED ? row->stage->idle
                                                       : "nothing that is asked for needs it";
     report_object(r, NULL);
-    report_set(r, "name:s runs:b why_not:s does:s equations:s", row->stage->name, runs, text_or_null(why),
-               row->stage->does, text_or_null(row->stage->paper));
+    report_set(r, "name:s runs:b why_not:e does:s equations:e", row->stage->name, runs, why, row->stage->does,
+               row->stage->paper);
     set_names(r, "reads", runs ? row->reads & p->alive : 0, ITEM_COUNT, item_name);
     set_names(r, "gives", runs ? row->stage->gives & p->alive : 0, ITEM_COUNT, item_name);
     report_set(r, "cycles_per_sample:n", runs ? row->work : NAN);
@@ -70,7 +68,7 @@ static bool plan_one(struct cmd_call *c, const char *file, struct report *r, str
     for (int i = 0; warnings[i]; i++)
         tell_warning(c, file, warnings[i]);
     report_object(r, NULL);
-    report_set(r, "file:s accuracy:s", text_or_null(s.file), text_or_null(promise.text));
+    report_set(r, "file:e accuracy:e", s.file, promise.text);
     report_list(r, "contacts");
     for (int i = 0; i < s.n_contacts; i++) {
         const struct plan *p = &plans[i];
@@ -78,11 +76,11 @@ static bool plan_one(struct cmd_call *c, const char *file, struct report *r, str
         for (int k = 0; k < p->n; k++)
             whole += p->rows[k].verdict == PLAN_RUNS ? p->rows[k].work : 0;
         report_object(r, NULL);
-        report_set(r, "name:s", text_or_null(p->contact->name));
+        report_set(r, "name:e", p->contact->name);
         set_names(r, "targets", p->targets, ITEM_COUNT, item_name);
         report_set(r, "cycles_per_sample:n", whole);
         set_names(r, "knobs", plan_knobs(p), KNOBS, knob_name);
-        report_set(r, "ablation:s", text_or_null(ablation_text(p->contact, c->arena)));
+        report_set(r, "ablation:e", ablation_text(p->contact, c->arena));
         report_list(r, "stages");
         for (int k = 0; k < p->n; k++)
             set_stage(r, p, &p->rows[k]);

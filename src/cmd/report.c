@@ -22,7 +22,9 @@ struct report report_open_list(FILE *out, bool json)
 bool report_close(struct report *r, int digits, struct err *e)
 {
     if (!r->json) return true;
-    bool ok = json_dumpf(r->at[0], r->out, JSON_INDENT(2) | JSON_REAL_PRECISION((size_t)digits)) == 0;
+    bool ok =
+        json_dumpf(r->at[0], r->out,
+                   JSON_INDENT(2) | JSON_REAL_PRECISION((size_t)digits) | (r->ascii ? JSON_ENSURE_ASCII : 0)) == 0;
     fputc('\n', r->out);
     json_decref(r->at[0]);
     return ok || err_set(e, ERR_IO, "the report cannot be written as JSON");
@@ -30,7 +32,7 @@ bool report_close(struct report *r, int digits, struct err *e)
 
 /* ------------------------------------------------------------------ JSON */
 
-static void add(struct report *r, const char *key, json_t *value)
+void report_value(struct report *r, const char *key, json_t *value)
 {
     json_t *to = r->at[r->depth];
     if (json_is_array(to))
@@ -46,6 +48,10 @@ static json_t *value_of(char type, va_list *list)
         return json_value_number(va_arg(*list, double));
     case 's':
         return json_value_text(va_arg(*list, const char *));
+    case 'e': {
+        const char *text = va_arg(*list, const char *);
+        return text && *text ? json_value_text(text) : json_null();
+    }
     case 'b':
         return json_boolean(va_arg(*list, int));
     case 'i':
@@ -86,7 +92,7 @@ void report_set(struct report *r, const char *members, ...)
         char key[KEY];
         size_t n = strcspn(p, ":");
         snprintf(key, sizeof key, "%.*s", (int)n, p);
-        add(r, key, value_of(p[n + 1], &list));
+        report_value(r, key, value_of(p[n + 1], &list));
         p += n + 2;
     }
     va_end(list);
@@ -94,7 +100,7 @@ void report_set(struct report *r, const char *members, ...)
 
 static void enter(struct report *r, const char *key, json_t *value)
 {
-    add(r, key, value);
+    report_value(r, key, value);
     r->at[++r->depth] = value;
 }
 
@@ -150,7 +156,7 @@ void report_figure(struct report *r, const char *key, double x, const char *labe
     va_list list;
     va_start(list, format);
     if (r->json)
-        add(r, key, json_value_number(x));
+        report_value(r, key, json_value_number(x));
     else
         row(r, label, format, list);
     va_end(list);

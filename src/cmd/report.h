@@ -15,7 +15,7 @@ enum { REPORT_DEPTH = 8 };
 
 struct report {
     FILE *out;
-    bool json;
+    bool json, ascii;         /* ascii: other characters of JSON as \\u.... */
     json_t *at[REPORT_DEPTH]; /* objects and lists that are open, the outermost first */
     int depth;
 };
@@ -29,10 +29,13 @@ struct report report_open_list(FILE *out, bool json);
 bool report_close(struct report *r, int digits, struct err *e);
 
 /* Members of the object that is open: words "KEY:TYPE" with blanks between, a value for each. n: double, null where it
-   is not finite; s: text, null for NULL and for what is not UTF-8; b, i: int; l: long; c: long, null below 0; z:
-   size_t; a: const double *, int; t: const char *const *, int; o: json_t *, which JSON takes and text leaves; 0: null,
-   without a value. A later member of the same key takes the place of the first. */
+   is not finite; s: text, null for NULL and for what is not UTF-8; e: the same, null for "" too; b, i: int; l: long; c:
+   long, null below 0; z: size_t; a: const double *, int; t: const char *const *, int; o: json_t *, which JSON takes and
+   text leaves; 0: null, without a value. A later member of the same key takes the place of the first. */
 void report_set(struct report *r, const char *members, ...);
+
+/* A member of the object that is open, which JSON takes; of JSON alone. */
+void report_value(struct report *r, const char *key, json_t *value);
 
 /* A member of the object that is open (a later one of a list: key NULL), open until report_end. */
 void report_object(struct report *r, const char *key);
