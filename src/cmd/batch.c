@@ -11,6 +11,7 @@
 #include "base/hash.h"
 #include "batch/progress.h"
 #include "cmd/cmd.h"
+#include "cmd/report.h"
 #include "cmd/tell.h"
 #include "file/json_value.h"
 #include "scene/keys_yaml.h"
@@ -106,16 +107,6 @@ void batch_tell_warnings(struct cmd_call *c, const struct set_plan *p)
         tell_stimulus_warning(c, p->warnings[k].name, p->warnings[k].text);
 }
 
-static void tell_warnings(struct cmd_call *c, const char *folder, const char *name)
-{
-    struct arena *a = arena_open();
-    struct record r;
-    if (record_read(folder, name, a, &r))
-        for (int k = 0; r.warnings[k]; k++)
-            tell_stimulus_warning(c, name, r.warnings[k]);
-    arena_close(a);
-}
-
 /* Failures of single stimuli, each error once, and warnings of those that were rendered now. */
 static void tell_stimuli(struct cmd_call *c, const struct batch_ask *ask, const struct batch_report *r)
 {
@@ -125,7 +116,12 @@ static void tell_stimuli(struct cmd_call *c, const struct batch_ask *ask, const 
         const struct tables_row *o = &r->rows[i];
         const char *name = r->design.stimuli[i].name;
         struct err told = {0};
-        if (o->there && o->made) tell_warnings(c, ask->folder, name);
+        struct arena *a = arena_open();
+        struct record record;
+        if (o->there && o->made && record_read(ask->folder, name, a, &record))
+            for (int k = 0; record.warnings[k]; k++)
+                tell_stimulus_warning(c, name, record.warnings[k]);
+        arena_close(a);
         if (!o->kind) continue;
         err_set(&told, o->kind, "%s", o->text);
         if (++failed <= TOLD)
@@ -155,99 +151,94 @@ static void tell_stale(struct cmd_call *c, const char *folder, const struct fold
 
 /* ------------------------------------------------------------------ what was done */
 
-static bool print_json(json_t *j, struct err *e)
+/* One of those that a dry run lists. */
+static void report_stimulus(struct report *r, const struct batch_report *b, int i)
 {
-    bool ok = j && json_dumpf(j, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(17) | JSON_ENSURE_ASCII) == 0;
-    putchar('\n');
-    json_decref(j);
-    return ok || err_set(e, ERR_IO, "the report cannot be written as JSON");
-}
-
-/* What a dry run lists. */
-static json_t *stimulus_json(const struct batch_report *r, int i)
-{
-    const struct design *d = &r->design;
+    const struct design *d = &b->design;
     const struct design_stimulus *s = &d->stimuli[i];
     char seed[24];
-    json_t *factors = json_object();
     snprintf(seed, sizeof seed, "%" PRIu64, s->seed); /* as text: many readers of JSON have no 64 bits */
+    report_object(r, NULL);
+    report_set(r, "row:i name:s", i + 1, s->name);
+    report_object(r, "factors");
     for (int f = 0; f < d->n_factors; f++)
-        json_object_set_new(factors, d->factors[f].name,
-                            s->level[f] < 0 ? json_null() : json_string(design_label(d, i, f)));
-    json_t *j = json_pack("{s:i, s:s, s:o, s:o, s:o, s:o, s:f}", "row", i + 1, "name", s->name, "factors", factors,
-                          "replicate", s->recording ? json_null() : json_integer(s->replicate), "seed",
-                          s->recording ? json_null() : json_string(seed), "recording",
-                          s->recording ? json_value_shown(s->recording) : json_null(), "length_s", r->set.lengths[i]);
-    if (r->states) json_object_set_new(j, "state", json_string(stimulus_states[r->states[i]]));
-    return j;
+        report_value(r, d->factors[f].name, s->level[f] < 0 ? json_null() : json_string(design_label(d, i, f)));
+    report_end(r);
+    report_set(r, "replicate:c seed:s", s->recording ? -1L : (long)s->replicate, s->recording ? NULL : seed);
+    report_value(r, "recording", s->recording ? json_value_shown(s->recording) : json_null());
+    report_set(r, "length_s:n", b->set.lengths[i]);
+    if (b->states) report_set(r, "state:s", stimulus_states[b->states[i]]);
+    report_end(r);
 }
 
-static json_t *list_json(const struct batch_report *r)
+static bool report_json(const struct batch_ask *ask, const struct batch_report *b, struct err *e)
 {
-    json_t *all = json_array();
-    for (int i = 0; i < r->set.n; i++)
-        if (!r->mine || r->mine[i]) json_array_append_new(all, stimulus_json(r, i));
-    return all;
-}
-
-static json_t *failed_json(const struct batch_report *r)
-{
-    json_t *failed = json_array();
-    for (int i = 0; i < r->set.n; i++)
-        if (r->rows[i].kind)
-            json_array_append_new(failed, json_pack("{s:s, s:i, s:o}", "stimulus", r->design.stimuli[i].name, "code",
-                                                    (int)r->rows[i].kind, "error", json_value_shown(r->rows[i].text)));
-    return failed;
-}
-
-static json_t *report_json(const struct batch_ask *ask, const struct batch_report *r)
-{
-    json_t *stale = json_array();
-    for (int i = 0; i < r->stale.n_files; i++)
-        json_array_append_new(stale, json_value_shown(r->stale.files[i]));
-    json_t *j = json_pack(
-        "{s:s?, s:s, s:i, s:i, s:i, s:o, s:o, s:o, s:[i, i], s:i, s:i, s:i, s:o, s:i, s:f, s:I, s:f, s:f}", "title",
-        r->design.title, "design_sha256", r->set.sha256, "stimuli", r->set.n, "ok", r->rendered + r->kept - r->waiting,
-        "waiting", r->waiting, "full_scale", json_value_number(r->full_scale), "failed", failed_json(r), "folder",
-        json_value_text(ask->folder), "shard", ask->shard.i, ask->shard.n, "mine", r->n_mine, "rendered", r->rendered,
-        "kept", r->kept, "left_over", stale, "pruned", r->stale.removed, "sound_s", r->plan.seconds, "wav_bytes",
-        (json_int_t)r->plan.bytes, "predicted_cpu_s", r->plan.cycles / 3e9, "wall_s", r->seconds);
-    if (r->missing) json_object_set_new(j, "missing_shards", json_string(r->missing));
-    if (ask->dry) json_object_set_new(j, "list", list_json(r));
-    return j;
-}
-
-static void print_silence(const struct batch_report *r)
-{
-    if (!r->plan.n_sounds)
-        printf("no stimulus makes a sound, only tables: what is touched or what scrapes needs a response, as in set: "
-               "{surface.response: table.csv}\n");
-}
-
-static const char **states_of(const struct batch_report *r, struct arena *a)
-{
-    const char **all = r->states ? ARENA_TAKE(a, const char *, r->set.n) : NULL;
-    for (int i = 0; all && i < r->set.n; i++)
-        all[i] = stimulus_states[r->states[i]];
-    return all;
+    struct report r = report_open(stdout, true);
+    r.ascii = true;
+    report_set(&r, "title:s design_sha256:s stimuli:i ok:i waiting:i full_scale:n", b->design.title, b->set.sha256,
+               b->set.n, b->rendered + b->kept - b->waiting, b->waiting, b->full_scale);
+    report_list(&r, "failed");
+    for (int i = 0; i < b->set.n; i++) {
+        if (!b->rows[i].kind) continue;
+        report_object(&r, NULL);
+        report_set(&r, "stimulus:s code:i", b->design.stimuli[i].name, (int)b->rows[i].kind);
+        report_value(&r, "error", json_value_shown(b->rows[i].text));
+        report_end(&r);
+    }
+    report_end(&r);
+    report_set(&r, "folder:s", ask->folder);
+    report_list(&r, "shard");
+    report_set(&r, ":i :i", ask->shard.i, ask->shard.n);
+    report_end(&r);
+    report_set(&r, "mine:i rendered:i kept:i", b->n_mine, b->rendered, b->kept);
+    report_list(&r, "left_over");
+    for (int i = 0; i < b->stale.n_files; i++)
+        report_value(&r, NULL, json_value_shown(b->stale.files[i]));
+    report_end(&r);
+    report_set(&r, "pruned:i sound_s:n wav_bytes:l predicted_cpu_s:n wall_s:n", b->stale.removed, b->plan.seconds,
+               (long)b->plan.bytes, b->plan.cycles / 3e9, b->seconds);
+    if (b->missing) report_set(&r, "missing_shards:s", b->missing);
+    if (ask->dry) {
+        report_list(&r, "list");
+        for (int i = 0; i < b->set.n; i++)
+            if (!b->mine || b->mine[i]) report_stimulus(&r, b, i);
+        report_end(&r);
+    }
+    return report_close(&r, 17, e);
 }
 
 static void print_report(const struct batch_ask *ask, const struct batch_report *r, struct arena *a)
 {
     char took[24];
-    progress_time(r->seconds, took);
-    if (ask->shard.n > 1) {
+    progress_time(ask->dry ? r->plan.cycles / 3e9 : r->seconds, took);
+    if (ask->dry) {
+        const char **states = r->states ? ARENA_TAKE(a, const char *, r->set.n) : NULL,
+                   *lengths = set_lengths_text(&r->set, &r->plan, a);
+        for (int i = 0; states && i < r->set.n; i++)
+            states[i] = stimulus_states[r->states[i]];
+        design_print(&r->design, r->mine, states, stdout);
+        printf("%d stimuli, %.4g s of sound, %.3g MB of WAVs; predicted CPU time %s (a core of 3 GHz)\n", r->set.n,
+               r->plan.seconds, r->plan.bytes / 1e6, took);
+        if (r->plan.raw_bytes > 0)
+            printf("%.3g MB more while the common level is not known\n", r->plan.raw_bytes / 1e6);
+        if (lengths) printf("%s\n", lengths);
+    } else if (ask->shard.n > 1) {
         printf("%s: shard %d/%d: %d stimuli rendered, %d there already, %d failed, in %s; when all are there: the same "
                "command without --shard\n",
                ask->folder, ask->shard.i, ask->shard.n, r->rendered, r->kept, r->failed, took);
         return;
+    } else {
+        printf("%s: %d stimuli rendered, %d there already, %d %s, in %s", ask->folder, r->rendered, r->kept, r->failed,
+               ask->no_render ? "missing" : "failed", took);
+        if (r->stale.removed)
+            printf("; %d file%s left over removed", r->stale.removed, r->stale.removed == 1 ? "" : "s");
+        if (!isnan(r->full_scale)) printf("; full_scale %s", keys_yaml_number(r->full_scale, a));
+        printf("\n");
     }
-    printf("%s: %d stimuli rendered, %d there already, %d %s, in %s", ask->folder, r->rendered, r->kept, r->failed,
-           ask->no_render ? "missing" : "failed", took);
-    if (r->stale.removed) printf("; %d file%s left over removed", r->stale.removed, r->stale.removed == 1 ? "" : "s");
-    if (!isnan(r->full_scale)) printf("; full_scale %s", keys_yaml_number(r->full_scale, a));
-    printf("\n");
-    print_silence(r);
+    if (!r->plan.n_sounds)
+        printf("no stimulus makes a sound, only tables: what is touched or what scrapes needs a response, as in set: "
+               "{surface.response: table.csv}\n");
+    if (ask->shard.n > 1) printf("shard %d/%d: %d of them\n", ask->shard.i, ask->shard.n, r->n_mine);
 }
 
 /* ------------------------------------------------------------------ command */
@@ -258,15 +249,6 @@ bool batch_threads(const struct cmd_call *c, int *threads, struct err *e)
     if (!args_whole(&c->args, "jobs", (const long[2]){1, 256}, &n, e)) return false;
     *threads = (int)n;
     return true;
-}
-
-static bool read_numbers(const struct cmd_call *c, struct batch_ask *ask, struct err *e)
-{
-    long missing = 0;
-    bool ok = batch_threads(c, &ask->threads, e) &&
-              args_whole(&c->args, "missing", (const long[2]){1, SET_SHARDS}, &missing, e);
-    ask->missing = (int)missing;
-    return ok;
 }
 
 static bool read_ask(struct cmd_call *c, struct batch_ask *ask, struct err *e)
@@ -292,7 +274,11 @@ static bool read_ask(struct cmd_call *c, struct batch_ask *ask, struct err *e)
                        "--prune: a shard does not know what is left over: run rasp batch --prune without --shard");
     if (ask->no_render && (shard || ask->force))
         return err_set(e, ERR_USAGE, "--no-render: goes with neither --shard nor --force, which render");
-    if ((shard && !set_shard_read(shard, &ask->shard, e)) || !read_numbers(c, ask, e)) return false;
+    long missing = 0;
+    if ((shard && !set_shard_read(shard, &ask->shard, e)) || !batch_threads(c, &ask->threads, e) ||
+        !args_whole(&c->args, "missing", (const long[2]){1, SET_SHARDS}, &missing, e))
+        return false;
+    ask->missing = (int)missing;
     if (ask->missing && ask->dry) return err_set(e, ERR_USAGE, "--missing: writes nothing anyway: leave --dry-run out");
     ask->program = program_of(c->arena, e);
     return ask->program != NULL;
@@ -302,7 +288,6 @@ static int batch_command_run(struct cmd_call *c, struct err *e)
 {
     struct batch_ask ask;
     struct batch_report r;
-    bool json = args_given(&c->args, "json");
     if (!read_ask(c, &ask, e)) return (int)e->kind;
     tell_group(c);
     bool ok = batch_run(&ask, c->arena, &r, e);
@@ -314,22 +299,11 @@ static int batch_command_run(struct cmd_call *c, struct err *e)
     tell_stale(c, ask.folder, &r.stale);
     batch_close(&r);
     if (!r.rows) return (int)e->kind;
-    if (json)
-        print_json(report_json(&ask, &r), e);
+    if (args_given(&c->args, "json"))
+        report_json(&ask, &r, e);
     else if (ok && ask.missing)
         puts(r.missing);
-    else if (ok && ask.dry) {
-        char cpu[24];
-        design_print(&r.design, r.mine, states_of((&r), c->arena), stdout);
-        progress_time(r.plan.cycles / 3e9, cpu);
-        printf("%d stimuli, %.4g s of sound, %.3g MB of WAVs; predicted CPU time %s (a core of 3 GHz)\n", r.set.n,
-               r.plan.seconds, r.plan.bytes / 1e6, cpu);
-        if (r.plan.raw_bytes > 0) printf("%.3g MB more while the common level is not known\n", r.plan.raw_bytes / 1e6);
-        const char *lengths = set_lengths_text(&r.set, &r.plan, c->arena);
-        if (lengths) printf("%s\n", lengths);
-        print_silence((&r));
-        if (ask.shard.n > 1) printf("shard %d/%d: %d of them\n", ask.shard.i, ask.shard.n, r.n_mine);
-    } else if ((ok || r.failed) && !ask.quiet)
+    else if ((ok && ask.dry) || (!ask.dry && (ok || r.failed) && !ask.quiet))
         print_report(&ask, &r, c->arena);
     return (int)e->kind;
 }
@@ -380,4 +354,39 @@ const struct command batch_command = {
                 "for i in 1 2 3; do rasp batch scenes/designs/materials_by_rate.yaml -o parts --shard $i/3; done && "
                 "rasp batch scenes/designs/materials_by_rate.yaml -o parts\n",
     .run = batch_command_run,
+};
+
+/* rasp merge: how the shards of a set are joined. There is nothing to merge: the records of copied stimuli are as good
+ * as those that were made here. */
+
+static const struct args_option merge_options[] = {
+    /* of earlier versions, so that a script is told what to do now */
+    {"jobs", 'j', "N", false, "taken, without effect"},
+    {"json", 0, NULL, false, "taken, without effect"},
+    {"quiet", 'q', NULL, false, "taken, without effect"},
+    {0},
+};
+
+static int merge_run(struct cmd_call *c, struct err *e)
+{
+    const char *folder = c->args.n_operands ? c->args.operands[0] : "FOLDER";
+    return err_set(e, ERR_USAGE,
+                   "shards need no merging: copy what they made into one folder, with its hidden folder .rasp (rsync "
+                   "-a, cp -r), and run the same command once more without --shard: rasp batch DESIGN -o %s",
+                   folder);
+}
+
+const struct command batch_merge_command = {
+    .name = "merge",
+    .summary = "says how the shards of a set are joined",
+    .does =
+        "The shards of rasp batch --shard need no merging. What they made on other machines is copied into one folder, "
+        "with its hidden folder .rasp; the same rasp batch command, without --shard, then sets the level and writes "
+        "the tables. With --no-render it renders nothing, and names what is missing. The exit code is 64.",
+    .operands = "[FOLDER]",
+    .most = 1,
+    .options = merge_options,
+    .examples = "for i in 1 2; do rasp batch scenes/designs/materials_by_rate.yaml -o parts --shard $i/2 -q; done && "
+                "rasp batch scenes/designs/materials_by_rate.yaml -o parts\n",
+    .run = merge_run,
 };

@@ -8,7 +8,7 @@
 #include "base/wrap.h"
 
 const struct command *const commands_table[] = {
-    &render_command,  &plan_command,    &batch_command,      &merge_command,
+    &render_command,  &plan_command,    &batch_command,      &batch_merge_command,
     &new_command,     &explain_command, &check_command,      &compare_command,
     &golden_command,  &plot_command,    &accuracy_command,   &analyse_command,
     &surface_command, &modes_command,   &completion_command, NULL};
