@@ -400,19 +400,14 @@ static bool find_options(struct cmd_call *c, struct analysis *a, struct err *e)
     struct analyse_given *g = &a->given;
     static const char *const words[] = {"auto", "gaussian", "table", NULL};
     static const double positive[2] = {1e-300, 1e300}, rates[2] = {1, 1e9}, share[2] = {0, 1}, quiet[2] = {1e-6, 0.1};
-    const char *distribution = args_value(&c->args, "distribution");
     *g = (struct analyse_given){.scale = NAN,
                                 .rate = NAN,
                                 .channel = 1,
                                 .column = args_value(&c->args, "column"),
                                 .options = impact_find_options};
     g->options.both = args_given(&c->args, "signed");
-    for (a->distribution = 0;
-         distribution && words[a->distribution] && strcmp(words[a->distribution], distribution) != 0;)
-        a->distribution++;
-    if (!words[a->distribution])
-        return err_set(e, ERR_USAGE, "--distribution: '%s' is not auto, gaussian or table", distribution);
-    return args_number(&c->args, "scale", positive, &g->scale, e) &&
+    return cmd_word(c, "distribution", words, &a->distribution, e) &&
+           args_number(&c->args, "scale", positive, &g->scale, e) &&
            args_number(&c->args, "rate", rates, &g->rate, e) &&
            args_whole(&c->args, "channel", (const long[2]){1, 1024}, &g->channel, e) &&
            args_number(&c->args, "threshold", share, &g->options.threshold, e) &&
@@ -499,16 +494,8 @@ static bool analyse_all(struct cmd_call *c, struct analysis *a, struct err *e)
     return true;
 }
 
-static bool plot_format(struct cmd_call *c, bool *svg, struct err *e)
-{
-    const char *format = args_value(&c->args, "format");
-    *svg = format && strcmp(format, "svg") == 0;
-    return !format || *svg || strcmp(format, "png") == 0 ||
-           err_set(e, ERR_USAGE, "--format: '%s' is neither png nor svg", format);
-}
-
 /* All that is written is complete before any of it gets its name. */
-static bool analyse_write(struct cmd_call *c, struct analysis *a, bool svg, struct err *e)
+static bool analyse_write(struct cmd_call *c, struct analysis *a, int svg, struct err *e)
 {
     struct analyse_files *all = ARENA_TAKE(a->arena, struct analyse_files, 1);
     const char *output = args_value(&c->args, "output"), *plot = args_value(&c->args, "plot");
@@ -535,10 +522,13 @@ static int analyse_run(struct cmd_call *c, struct err *e)
 {
     struct analysis *a = ARENA_TAKE(c->arena, struct analysis, 1);
     const char *output = args_value(&c->args, "output");
-    bool json = args_given(&c->args, "json"), svg;
+    static const char *const formats[] = {"png", "svg", NULL};
+    bool json = args_given(&c->args, "json");
+    int svg = 0;
     a->arena = c->arena;
     a->force = args_given(&c->args, "force");
-    if (!plot_format(c, &svg, e) || (output && !analyse_report_free(a, output, e)) || !analyse_all(c, a, e))
+    if (!cmd_word(c, "format", formats, &svg, e) || (output && !analyse_report_free(a, output, e)) ||
+        !analyse_all(c, a, e))
         return (int)e->kind;
     analyse_write(c, a, svg, e);
     analyse_report(a, json, e);

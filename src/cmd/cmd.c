@@ -20,6 +20,7 @@
 #include "cmd/tell.h"
 #include "file/yaml.h"
 #include "scene/scene_read.h"
+#include "scene/units.h"
 
 /* The action of that name. ERR_USAGE */
 static const struct action *find(const char *command, const struct action *table, struct cmd_call *c, struct err *e)
@@ -64,6 +65,37 @@ int cmd_actions(const char *command, const struct action *table, struct cmd_call
     }
     return action->run(&inner, e);
 }
+
+/* ------------------------------------------------------------------ values of options */
+
+bool cmd_word(const struct cmd_call *c, const char *name, const char *const *words, int *value, struct err *e)
+{
+    const char *text = args_value(&c->args, name), *all = "";
+    bool two = !words[2];
+    for (int i = 0; text && words[i]; i++) {
+        if (!strcmp(text, words[i])) {
+            *value = i;
+            return true;
+        }
+        all = arena_format(c->arena, "%s%s%s", all,
+                           i == 0         ? ""
+                           : words[i + 1] ? ", "
+                           : two          ? " nor "
+                                          : " or ",
+                           words[i]);
+    }
+    return !text || err_set(e, ERR_USAGE, "--%s: '%s' is %s %s", name, text, two ? "neither" : "not", all);
+}
+
+bool cmd_quantity(const struct cmd_call *c, const char *name, enum key_dimension d, double *value, struct err *e)
+{
+    const char *text = args_value(&c->args, name);
+    struct units_fault fault = {NULL, NULL};
+    return !text || units_read(text, d, value, c->arena, &fault) ||
+           err_set(e, ERR_USAGE, "--%s: '%s' %s", name, text, fault.text);
+}
+
+/* ------------------------------------------------------------------ recipes and scenes */
 
 bool cmd_recipe_is_scene(struct cmd_call *c, const char *file, bool *is, struct err *e)
 {

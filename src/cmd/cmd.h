@@ -8,6 +8,7 @@
 #include "base/arena.h"
 #include "base/args.h"
 #include "base/err.h"
+#include "scene/keys.h"
 #include "scene/scene.h"
 #include <stdbool.h>
 #include <stdio.h>
@@ -81,6 +82,12 @@ bool cmd_recipe_read(struct cmd_call *c, const char *file, const char *rest, str
 
 /* Is it a scene, rather than a recipe? ERR_INPUT */
 bool cmd_recipe_is_scene(struct cmd_call *c, const char *file, bool *is, struct err *e);
+
+/* --NAME as one of the words, which end with NULL: *value is its place. ERR_USAGE */
+bool cmd_word(const struct cmd_call *c, const char *name, const char *const *words, int *value, struct err *e);
+
+/* --NAME with a unit, or bare in SI units. ERR_USAGE. Of both *value is left alone when the option is not given. */
+bool cmd_quantity(const struct cmd_call *c, const char *name, enum key_dimension d, double *value, struct err *e);
 
 /* A recipe's remark, `title` or `source`, as one line; NULL: it has none. The file has been read before. */
 const char *cmd_recipe_remark(struct cmd_call *c, const char *file, const char *key);

@@ -517,30 +517,6 @@ static void unknown(json_t *schema, const char *word, const char **names, struct
         err_set(e, ERR_USAGE, "no key, section or scene file '%s'; rasp explain shows every key", word);
 }
 
-static void print_man(const char *part, struct arena *a, struct err *e)
-{
-    if (!strcmp(part, "keys"))
-        keys_man_print(stdout, a);
-    else if (!strcmp(part, "columns"))
-        for (const struct table_column *t = force_table_columns; t->name; t++)
-            printf(".It Ic %s\n%c%s.\n", t->name, toupper((unsigned char)t->meaning[0]), t->meaning + 1);
-    else
-        err_set(e, ERR_USAGE, "--man: '%s' is neither keys nor columns", part);
-}
-
-static void print_schema(const char *of, struct arena *a, struct err *e)
-{
-    bool scene = !strcmp(of, "scene");
-    if (!scene && strcmp(of, "design") != 0) {
-        err_set(e, ERR_USAGE, "--schema: '%s' is neither scene nor design", of);
-        return;
-    }
-    json_t *o = scene ? schema_scene(a) : schema_design(a);
-    json_dumpf(o, stdout, JSON_INDENT(2));
-    putchar('\n');
-    json_decref(o);
-}
-
 /* The keys and knobs at a path or in a map of that path, in the order of the tables; NULL: all. */
 static void explain_json(json_t *schema, const char *word, const char **names, struct arena *a, struct err *e)
 {
@@ -574,11 +550,18 @@ static int explain_run(struct cmd_call *c, struct err *e)
     const char *word = c->args.n_operands ? c->args.operands[0] : NULL;
     const char **names = keys_text_names(c->arena);
     json_t *schema = schema_design(c->arena), *key = word ? design_key(schema, word) : NULL;
-    if (args_given(&c->args, "man"))
-        print_man(args_value(&c->args, "man"), c->arena, e);
-    else if (args_given(&c->args, "schema"))
-        print_schema(args_value(&c->args, "schema"), c->arena, e);
-    else if (args_given(&c->args, "json"))
+    static const char *const parts[] = {"keys", "columns", NULL}, *const schemas[] = {"scene", "design", NULL};
+    int part = 0, of = 0;
+    if (args_given(&c->args, "man")) {
+        if (cmd_word(c, "man", parts, &part, e) && part == 0) keys_man_print(stdout, c->arena);
+        for (const struct table_column *t = force_table_columns; part == 1 && t->name; t++)
+            printf(".It Ic %s\n%c%s.\n", t->name, toupper((unsigned char)t->meaning[0]), t->meaning + 1);
+    } else if (args_given(&c->args, "schema")) {
+        if (cmd_word(c, "schema", schemas, &of, e)) {
+            struct report r = {.out = stdout, .json = true, .at = {of ? json_incref(schema) : schema_scene(c->arena)}};
+            report_close(&r, 0, e);
+        }
+    } else if (args_given(&c->args, "json"))
         explain_json(schema, word, names, c->arena, e);
     else if (!word)
         keys_reference_print(stdout, c->arena);

@@ -19,20 +19,17 @@
 #include "output/mark.h"
 #include "response/mode_table.h"
 #include "response/object_kinds.h"
+#include "response/space.h"
 #include "scene/ball.h"
 #include "scene/keys.h"
 #include "scene/material.h"
 #include "scene/units.h"
 
-/* The output is not the file that is read, under whatever name (same device and inode; NULL: none is read). ERR_CREATE
- */
 bool modes_output_spares(const char *output, const char *input, struct err *e)
 {
     return cmd_spares(output, "the table", input, "-o OTHER.csv", e);
 }
 
-/* Can it be created? Nothing is left. ERR_CREATE: a device, pipe or folder, write-protected, its folder is not there.
- */
 bool modes_output_possible(const char *output, struct err *e)
 {
     struct outfile o;
@@ -44,6 +41,18 @@ bool modes_output_possible(const char *output, struct err *e)
 /* What an object is, as comment lines of a mode table. */
 
 static const char *word(const char *key, int value) { return keys_find(key)->choices[value].word; }
+
+void modes_damping_write(FILE *f, const double damping[3], const struct material *m, bool own, bool own_damping)
+{
+    static const char mixed[] = "the object's own figures, else ";
+    fprintf(f, "# damping: decay = (alpha + beta w^2 + loss w)/2, alpha %.9g 1/s, beta %.9g s, loss factor %.9g\n",
+            damping[0], damping[1], damping[2]);
+    if (m)
+        fprintf(f, "# source: %s%s\n# source_of_damping: %s%s\n", own ? mixed : "", m->source, own_damping ? mixed : "",
+                m->damping_source);
+    else
+        fputs("# source: the object's own figures\n", f);
+}
 
 static void length(FILE *f, const char *name, double value)
 {
@@ -84,46 +93,47 @@ static void material(FILE *f, const struct object_body *b)
         figure(f, "shear modulus", b->shear, "Pa");
     }
     figure(f, "Poisson's ratio", sheet ? b->poisson : NAN, "");
-    fprintf(f, "\n# damping: decay = (alpha + beta w^2 + loss w)/2, alpha %.9g 1/s, beta %.9g s, loss factor %.9g\n",
-            b->alpha, b->beta, b->loss);
-    if (m)
-        fprintf(f, "# source: %s%s\n# source_of_damping: %s%s\n",
-                !(isnan(g->youngs_modulus) && isnan(g->youngs_modulus_across) && isnan(g->shear_modulus) &&
-                  isnan(g->poisson) && isnan(g->density))
-                    ? "the object's own figures, else "
-                    : "",
-                m->source,
-                !(isnan(g->alpha) && isnan(g->beta) && isnan(g->loss)) ? "the object's own figures, else " : "",
-                m->damping_source);
-    else
-        fputs("# source: the object's own figures\n", f);
+    fputc('\n', f);
+    modes_damping_write(f, (const double[3]){b->alpha, b->beta, b->loss}, m,
+                        !(isnan(g->youngs_modulus) && isnan(g->youngs_modulus_across) && isnan(g->shear_modulus) &&
+                          isnan(g->poisson) && isnan(g->density)),
+                        !(isnan(g->alpha) && isnan(g->beta) && isnan(g->loss)));
 }
 
 /* What `rasp modes` looks at: a body of a scene or recipe, its object, and places on that. */
+
+/* What a body of the operand rings with: the operand is a scene, or a recipe of surface keys. */
+struct body {
+    struct scene scene;
+    const struct response *response;
+    const char *key;            /* "surface", "scraper" or "ball" */
+    const char *title, *remark; /* the recipe's title and source, the scene's title; NULL: none */
+};
 
 /* Of a scene that names a recipe of an object nothing else matters. */
 static const char rest[] = "scraper: {mass: 1 g}\nmotion: {path: still, duration: 1 s}\n"
                            "contact: {model: strike, strike: {pulse: half_sine, speed: 1 m/s, stiffness: "
                            "1e6}}\noutput: {diagnostics: {rate: 1 kHz}}\n";
 
-bool modes_body_read(struct cmd_call *c, const char *file, struct modes_body *b, struct err *e)
+static bool body_read(struct cmd_call *c, const char *file, struct body *b, struct err *e)
 {
-    const char *word = args_value(&c->args, "body");
-    bool scene, tool = word && (!strcmp(word, "scraper") || !strcmp(word, "ball"));
-    b->key = tool ? word : "surface";
-    if (word && !tool && strcmp(word, "surface") != 0)
-        return err_set(e, ERR_USAGE, "--body: '%s' is not surface, scraper or ball", word);
+    static const char *const words[] = {"surface", "scraper", "ball", NULL};
+    int word = 0;
+    bool scene;
+    if (!cmd_word(c, "body", words, &word, e)) return false;
+    bool tool = word > 0;
+    b->key = words[word];
     if (!cmd_recipe_is_scene(c, file, &scene, e)) return false;
     if (tool && !scene)
         return err_set(e, ERR_USAGE,
                        "--body %s: %s is a recipe, which describes a surface; it needs a scene (with the key rasp: 1)",
-                       word, file);
+                       b->key, file);
     if (!cmd_recipe_read(c, file, rest, &b->scene, e)) return false;
     if (b->scene.n_contacts > 1)
         return err_set(e, ERR_SCENE, "%s: has %d contacts; rasp modes takes a recipe, or a scene of one contact", file,
                        b->scene.n_contacts);
-    if (tool && strcmp(word, ball_tool(b->scene.contacts)) != 0)
-        return err_set(e, ERR_USAGE, "--body %s: what touches the surface of %s is a %s", word, file,
+    if (tool && strcmp(b->key, ball_tool(b->scene.contacts)) != 0)
+        return err_set(e, ERR_USAGE, "--body %s: what touches the surface of %s is a %s", b->key, file,
                        ball_tool(b->scene.contacts));
     b->title = scene ? b->scene.title : cmd_recipe_remark(c, file, "title");
     b->remark = scene ? NULL : cmd_recipe_remark(c, file, "source");
@@ -131,16 +141,14 @@ bool modes_body_read(struct cmd_call *c, const char *file, struct modes_body *b,
     return true;
 }
 
-bool modes_body_object(struct cmd_call *c, const struct modes_body *b, struct object *o, const char **note,
-                       struct err *e)
+/* The object of closed form that it is, with all modes below --top. *note: how far its theory reaches, NULL: nothing to
+ * say. ERR_SCENE: it is none. */
+static bool body_object(struct cmd_call *c, const struct body *b, struct object *o, const char **note, struct err *e)
 {
-    const char *text = args_value(&c->args, "top");
-    struct units_fault fault = {NULL, NULL};
     struct object_ask ask = {.key = arena_format(c->arena, "%s.object", b->key), .top = 20000, .most = 10000};
-    if (text && !units_read(text, KEY_FREQUENCY, &ask.top, c->arena, &fault))
-        return err_set(e, ERR_USAGE, "--top: '%s' %s", text, fault.text);
+    if (!cmd_quantity(c, "top", KEY_FREQUENCY, &ask.top, e)) return false;
     if (!(ask.top > 0 && ask.top <= 1e7))
-        return err_set(e, ERR_USAGE, "--top: %s is not above 0 and at most 10 MHz", text);
+        return err_set(e, ERR_USAGE, "--top: %s is not above 0 and at most 10 MHz", args_value(&c->args, "top"));
     if (!b->response->object.given)
         return err_set(e, ERR_SCENE, "%s: there is no %s: it describes no object of simple shape", c->args.operands[0],
                        ask.key);
@@ -158,13 +166,13 @@ struct footing {
 
 static double off(const void *self, double x, double y)
 {
-    const struct footing *g = (const struct footing *)self;
+    const struct footing *g = self;
     return g->object->shapes(g->object, x, y, g->phi);
 }
 
-/* What is slender has its places on a line; of a shell any place is like the other. */
-bool modes_body_places(struct cmd_call *c, const struct modes_body *b, const struct object *o, struct modes_fit *fit,
-                       struct modes_places *p, struct err *e)
+/* fit: as in struct modes_ground. What is slender has its places on a line; of a shell any place is like the other. */
+static bool body_places(struct cmd_call *c, const struct body *b, const struct object *o, struct modes_fit *fit,
+                        struct modes_places *p, struct err *e)
 {
     struct footing g = {o, ARENA_TAKE(c->arena, double, o->n)};
     struct modes_ground ground = {.self = &g,
@@ -194,7 +202,7 @@ bool modes_body_places(struct cmd_call *c, const struct modes_body *b, const str
 
 struct job {
     struct cmd_call *c;
-    struct modes_body body;
+    struct body body;
     struct object object;
     struct modes modes;
     struct modes_fit fit;
@@ -207,14 +215,6 @@ struct job {
     const char *note;
     int quantity, *order; /* order: of the modes, by frequency */
 };
-
-static bool read_output(struct job *j, struct err *e)
-{
-    const char *file = args_value(&j->c->args, "output");
-    if (!file) return err_set(e, ERR_USAGE, "-o FILE.csv is needed: the mode table to write");
-    return modes_output_spares(file, j->c->args.operands[0], e) &&
-           mark_absent(file, args_given(&j->c->args, "force"), e);
-}
 
 static bool read_load(struct job *j, struct err *e)
 {
@@ -244,7 +244,7 @@ static void load(const struct job *j, double x, double y, const struct modes_poi
 /* What a table holds at a place in the object's coordinates. */
 static double gains_at(const void *self, double x, double y, const struct modes_point *p)
 {
-    const struct job *j = (const struct job *)self;
+    const struct job *j = self;
     const struct modes *m = &j->modes;
     const double *origin = j->body.response->object.origin;
     double off = modes_at(m, &(struct modes_where){.x = x + origin[0], .y = y + origin[1]}, p);
@@ -263,9 +263,8 @@ static bool make(struct job *j, struct err *e)
     for (const char *const *s = (const char *const *)j->body.scene.sources; s && *s; s++) /* what a scene includes */
         if (!modes_output_spares(args_value(&j->c->args, "output"), *s, e)) return false;
     j->heard_elsewhere = args_given(&j->c->args, "listen");
-    if (!args_whole(&j->c->args, "modes", counts, &most, e) ||
-        !modes_lengths(j->c, &(struct modes_lengths){"listen", "X,Y", 2}, j->listen, e) ||
-        !modes_body_object(j->c, &j->body, &j->object, &j->note, e))
+    if (!args_whole(&j->c->args, "modes", counts, &most, e) || !modes_lengths(j->c, "listen", "X,Y", 2, j->listen, e) ||
+        !body_object(j->c, &j->body, &j->object, &j->note, e))
         return false;
     double off =
         j->heard_elsewhere ? o->shapes(o, j->listen[0], j->listen[1], ARENA_TAKE(j->c->arena, double, o->n)) : 0.0;
@@ -277,7 +276,7 @@ static bool make(struct job *j, struct err *e)
     j->phi = ARENA_TAKE(j->c->arena, double, j->modes.n);
     j->fit =
         (struct modes_fit){.self = j, .at = gains_at, .n = j->modes.n, .shared = j->load == 0.0, .arena = j->c->arena};
-    if (!modes_body_places(j->c, &j->body, o, &j->fit, &j->places, e)) return false;
+    if (!body_places(j->c, &j->body, o, &j->fit, &j->places, e)) return false;
     j->error = modes_places_error(&j->fit, &j->places);
     return true;
 }
@@ -296,7 +295,7 @@ static void comments(FILE *f, const struct job *j)
     if (j->body.title) fprintf(f, "# title: %s\n", text_shown(j->c->arena, j->body.title));
     if (j->body.remark) fprintf(f, "# remark: %s\n", text_shown(j->c->arena, j->body.remark));
     /* "# key: value" lines that say what the object is: object, material, damping, holds. */
-    const struct object_inside *in = object_inside((&j->object));
+    const struct object_inside *in = object_inside(&j->object);
     object(f, in->body->given);
     material(f, in->body);
     fprintf(f, "# holds: %s: no shear, no rotation of sections, no radiation\n", in->kind->theory);
@@ -309,24 +308,15 @@ static void comments(FILE *f, const struct job *j)
     if (j->note) fprintf(f, "# note: %s\n", j->note);
 }
 
-static void report(const struct job *j, const char *file)
-{
-    const struct modes *m = &j->modes;
-    printf("%s: %d mode%s from %.6g to %.6g Hz at %d place%s", text_shown(j->c->arena, file), m->n,
-           m->n == 1 ? "" : "s", m->frequency[j->order[0]], m->frequency[j->order[m->n - 1]], j->places.n,
-           j->places.n == 1 ? "" : "s");
-    if (j->places.left_out) printf(" (%d of the grid lie beside the object)", j->places.left_out);
-    modes_places_report(j->error, j->c->arena);
-    putchar('\n');
-}
-
 static int modes_object_run(struct cmd_call *c, struct err *e)
 {
     struct job j = {.c = c};
     struct outfile o;
     const char *file = args_value(&c->args, "output");
-    if (!read_output(&j, e) || !modes_quantity(c, &j.quantity, e) || !read_load(&j, e) ||
-        !modes_body_read(c, c->args.operands[0], &j.body, e) || !make(&j, e))
+    if (!file) return err_set(e, ERR_USAGE, "-o FILE.csv is needed: the mode table to write"), (int)e->kind;
+    if (!modes_output_spares(file, c->args.operands[0], e) || !mark_absent(file, args_given(&c->args, "force"), e) ||
+        !modes_quantity(c, &j.quantity, e) || !read_load(&j, e) || !body_read(c, c->args.operands[0], &j.body, e) ||
+        !make(&j, e))
         return (int)e->kind;
     /* Modes by rising frequency; those of one frequency as they come. */
     const double *f = j.modes.frequency;
@@ -341,17 +331,155 @@ static int modes_object_run(struct cmd_call *c, struct err *e)
     const struct modes *m = &j.modes;
     const double *origin = j.body.response->object.origin;
     struct modes_point p = modes_point_make(j.c->arena, m->n);
-    comments(o.stream, (&j));
+    comments(o.stream, &j);
     mode_table_write_header(o.stream);
     for (int i = 0; i < j.places.n; i++) {
         struct mode_table_place place = {12, i + 1, j.places.xy[i][0] + origin[0], j.places.xy[i][1] + origin[1]};
-        gains_at((&j), j.places.xy[i][0], j.places.xy[i][1], &p);
+        gains_at(&j, j.places.xy[i][0], j.places.xy[i][1], &p);
         mode_table_write_place(o.stream, &place, m->n, j.order, &p, j.quantity);
     }
     if (!outfile_commit(&o, e)) return (int)e->kind;
-    if (!args_given(&c->args, "quiet")) report(&j, file);
-    if (j.note && !args_given(&c->args, "quiet")) tell_remark(c, "modes", j.note);
+    if (!args_given(&c->args, "quiet")) {
+        modes_places_report(file, &j.places, "object", j.error, m->n,
+                            (const double[2]){f[j.order[0]], f[j.order[m->n - 1]]}, c->arena);
+        putchar('\n');
+        if (j.note) tell_remark(c, "modes", j.note);
+    }
     modes_places_warn(c, j.error, &j.places);
+    return 0;
+}
+
+/* rasp modes list FILE: the strongest modes of a mode table, or of what a recipe or scene has, one a line.
+
+   Strength is energy summed over the places, sum gain^2/(4 decay) (as where a render keeps the strongest); shown are
+   the mode's pole and gain where its gain is largest. */
+
+struct line {
+    double energy, frequency, decay, gain, x, y;
+};
+
+struct list {
+    struct cmd_call *c;
+    struct line *line;
+    int n, places, quantity;
+    bool moves; /* places mean something */
+};
+
+static void start(struct list *l, int n, int quantity)
+{
+    l->n = n;
+    l->quantity = quantity;
+    l->line = ARENA_TAKE(l->c->arena, struct line, n);
+    for (int i = 0; i < n; i++)
+        l->line[i].gain = -1.0;
+}
+
+static void count(struct line *at, const struct line *one)
+{
+    double energy = at->energy + (one->gain != 0.0 ? one->gain * one->gain / (4.0 * one->decay) : 0.0);
+    if (one->gain > at->gain) *at = *one;
+    at->energy = energy;
+}
+
+static bool from_table(struct list *l, const char *file, struct err *e)
+{
+    struct mode_table t;
+    if (!mode_table_read(file, l->c->arena, &t, e)) return false;
+    start(l, (int)t.modes, t.quantity);
+    l->places = (int)t.places;
+    l->moves = t.places > 1;
+    for (size_t k = 0; k < t.first[t.places]; k++) {
+        const struct mode_entry *v = &t.entry[k];
+        for (int i = 0; i < v->n; i++) /* a mode of several slopes counts with each */
+            count(&l->line[v->mode], &(struct line){0, v->frequency, v->slope[i].decay, fabs(v->slope[i].gain),
+                                                    t.xy[2 * v->place], t.xy[2 * v->place + 1]});
+    }
+    if (t.note) tell_remark(l->c, "modes", t.note);
+    return true;
+}
+
+/* At one place and share of the way. */
+static void count_modes(struct list *l, const struct modes *m, const struct modes_where *where)
+{
+    struct modes_point p = modes_point_make(l->c->arena, m->n);
+    modes_at(m, where, &p);
+    for (int i = 0; i < m->n; i++)
+        count(&l->line[i],
+              &(struct line){0, m->shared ? m->frequency[i] : p.frequency[i], m->shared ? m->decay[i] : p.decay[i],
+                             sqrt(p.re[i] * p.re[i] + p.im[i] * p.im[i]), where->x, where->y});
+}
+
+static bool from_object(struct list *l, const struct body *b, struct err *e)
+{
+    struct object o;
+    struct modes m;
+    struct modes_places places;
+    const double *origin = b->response->object.origin;
+    const char *note;
+    if (!body_object(l->c, b, &o, &note, e) || !body_places(l->c, b, &o, NULL, &places, e)) return false;
+    if (note) tell_remark(l->c, "modes", note);
+    object_modes(&o, origin, NULL, o.n, l->c->arena, &m);
+    start(l, m.n, m.quantity);
+    l->places = places.n;
+    l->moves = places.n > 1;
+    for (int i = 0; i < places.n; i++)
+        count_modes(l, &m, &(struct modes_where){.x = places.xy[i][0] + origin[0], .y = places.xy[i][1] + origin[1]});
+    return true;
+}
+
+static bool from_space(struct list *l, const struct body *b, struct err *e)
+{
+    struct modes m;
+    struct modes_ask ask = {.strongest = b->response->modes,
+                            .band = {b->response->band[0], b->response->band[1]},
+                            .rate = b->scene.output.sample_rate};
+    if (!space_modes(&b->response->space, &ask, l->c->arena, &m, e)) return false;
+    start(l, m.n, m.quantity);
+    l->places = 1;
+    count_modes(l, &m, &(struct modes_where){0});
+    return true;
+}
+
+static bool gather(struct list *l, struct err *e)
+{
+    const char *file = l->c->args.operands[0];
+    struct body b;
+    if (text_ends(file, ".csv")) return from_table(l, file, e);
+    if (!body_read(l->c, file, &b, e)) return false;
+    if (b.response->object.given) return from_object(l, &b, e);
+    if (b.response->space.given) return from_space(l, &b, e);
+    if (b.response->file && text_ends(b.response->file, ".csv")) return from_table(l, b.response->file, e);
+    return err_set(e, ERR_SCENE,
+                   b.response->file ? "%s: %s.response is recorded (%s), and has no modes"
+                                    : "%s: its %s has no response%s",
+                   file, b.key, b.response->file ? b.response->file : "");
+}
+
+static int strongest_first(const void *a, const void *b)
+{
+    const struct line *p = a, *q = b;
+    if (p->energy != q->energy) return p->energy > q->energy ? -1 : 1;
+    return (p->frequency > q->frequency) - (p->frequency < q->frequency);
+}
+
+static int modes_list_run(struct cmd_call *c, struct err *e)
+{
+    static const long counts[2] = {1, 100000};
+    struct list l = {.c = c};
+    long shown = 20;
+    if (!args_whole(&c->args, "modes", counts, &shown, e) || !gather(&l, e)) return (int)e->kind;
+    qsort(l.line, (size_t)l.n, sizeof *l.line, strongest_first);
+    printf("%d mode%s at %d place%s", l.n, l.n == 1 ? "" : "s", l.places, l.places == 1 ? "" : "s");
+    if (shown < l.n) printf("; the %ld strongest", shown);
+    printf("\n%14s %12s %14s%s\n", "frequency_hz", "t60_s", "largest_gain",
+           l.moves ? "          x_m          y_m" : "");
+    for (int i = 0; i < l.n && i < shown; i++) {
+        const struct line *v = &l.line[i];
+        printf("%14.6g %12.4g %14.5g", v->frequency, 3.0 * real_log(10.0) / v->decay, v->gain);
+        if (l.moves) printf(" %12.6g %12.6g", v->x, v->y);
+        putchar('\n');
+    }
+    printf("gains in %s/(N s)\n", modes_quantity_unit(l.quantity));
     return 0;
 }
 
@@ -392,20 +520,19 @@ static int modes_elsewhere_run(struct cmd_call *c, struct err *e)
 
 /* rasp modes ACTION: how objects ring, apart from any contact. */
 
-bool modes_lengths(struct cmd_call *c, const struct modes_lengths *want, double *x, struct err *e)
+bool modes_lengths(struct cmd_call *c, const char *name, const char *form, int count, double *x, struct err *e)
 {
-    const char *text = args_value(&c->args, want->name);
+    const char *text = args_value(&c->args, name);
     int n = 0;
-    for (char *p = text ? arena_text(c->arena, text) : NULL, *next; p; p = next) {
+    for (char *p = text ? arena_text(c->arena, text) : NULL, *next; p; p = next, n++) {
         struct units_fault fault = {NULL, NULL};
         next = strchr(p, ',');
         if (next) *next++ = '\0';
-        if (n < want->count && !units_read(p, KEY_LENGTH, &x[n], c->arena, &fault))
-            return err_set(e, ERR_USAGE, "--%s: '%s': '%s' %s", want->name, text, p, fault.text);
-        n++;
+        if (n < count && !units_read(p, KEY_LENGTH, &x[n], c->arena, &fault))
+            return err_set(e, ERR_USAGE, "--%s: '%s': '%s' %s", name, text, p, fault.text);
     }
-    return !text || n == want->count ||
-           err_set(e, ERR_USAGE, "--%s: '%s' is not of the form %s, each a length", want->name, text, want->form);
+    return !text || n == count ||
+           err_set(e, ERR_USAGE, "--%s: '%s' is not of the form %s, each a length", name, text, form);
 }
 
 bool modes_quantity(struct cmd_call *c, int *quantity, struct err *e)

@@ -4,35 +4,16 @@
 #include <stdio.h>
 
 #include "cmd/cmd.h"
-#include "cmd/modes.h"
 #include "response/object.h"
+#include "scene/material.h"
 
-/* --NAME as `count` lengths with commas between, each with a unit or bare in metres; x is left alone when the option is
- * not given. ERR_USAGE */
-struct modes_lengths {
-    const char *name, *form; /* "X,Y" */
-    int count;
-};
-bool modes_lengths(struct cmd_call *c, const struct modes_lengths *want, double *x, struct err *e);
+/* --NAME as `count` lengths with commas between, each with a unit or bare in metres, of the form "X,Y"; x is left alone
+   when the option is not given. ERR_USAGE */
+bool modes_lengths(struct cmd_call *c, const char *name, const char *form, int count, double *x, struct err *e);
 
 /* --quantity, else velocity. ERR_USAGE */
 bool modes_quantity(struct cmd_call *c, int *quantity, struct err *e);
 const char *modes_per_impulse(int quantity); /* its unit: "(m/s)/(N s)" */
-
-/* What a body of the operand rings with: the operand is a scene, or a recipe of surface keys. *key: "surface",
- * "scraper" or "ball". */
-struct modes_body {
-    struct scene scene;
-    const struct response *response;
-    const char *key;
-    const char *title, *remark; /* the recipe's title and source, the scene's title; NULL: none */
-};
-bool modes_body_read(struct cmd_call *c, const char *file, struct modes_body *b, struct err *e);
-
-/* The object of closed form that it is, with all modes below --top. *note: how far its theory reaches, NULL: nothing to
- * say. ERR_SCENE: it is none. */
-bool modes_body_object(struct cmd_call *c, const struct modes_body *b, struct object *o, const char **note,
-                       struct err *e);
 
 /* --line or --circle with --places, --grid, --at, else what suits the shape: places in the object's coordinates.
  * ERR_USAGE, ERR_SCENE: off the object. */
@@ -60,15 +41,13 @@ struct modes_ground {
 bool modes_places(struct cmd_call *c, const struct modes_ground *g, struct modes_places *p, struct err *e);
 /* No two are at one point, to a nanometre: a scene takes no table of such. *bad: the second of two. ERR_SCENE */
 bool modes_places_apart(const struct modes_places *p, struct arena *a, int *bad, struct err *e);
-/* fit: as in struct modes_ground. */
-bool modes_body_places(struct cmd_call *c, const struct modes_body *b, const struct object *o, struct modes_fit *fit,
-                       struct modes_places *p, struct err *e);
+/* The lines of the table's head that tell damping and sources of a material; NULL: all figures are given. */
+void modes_damping_write(FILE *f, const double damping[3], const struct material *m, bool own, bool own_damping);
 
 /* The actions; exit codes as a command's run. compute needs CHOLMOD and LAPACK: rasp starts rasp-modes for it. */
 int modes_dispatch(struct cmd_call *c, int (*compute)(struct cmd_call *c, struct err *e), struct err *e);
 int modes_compute_run(struct cmd_call *c, struct err *e);
 int modes_extract_run(struct cmd_call *c, struct err *e);
-int modes_list_run(struct cmd_call *c, struct err *e);
 
 /* Gains and poles of the object as a table would hold them, at any place in its own coordinates; how far off (m) that
  * is, beyond 1e-9 there is nothing. */
@@ -83,21 +62,21 @@ struct modes_fit {
     struct arena *arena;
 };
 
+/* "FILE: 5 modes from 100 to 200 Hz at 3 places (...)", of a grid with what lies beside `what`; the line goes on. */
+void modes_places_report(const char *file, const struct modes_places *p, const char *what, double db, int n,
+                         const double range[2], struct arena *a);
+
 /* Relative rms over places of the differences of all modes' gains, in dB: see modes_places.c. NAN: there is one place
  * alone, or all gains are 0. */
 double modes_places_error(struct modes_fit *f, const struct modes_places *p);
 
-/* The line of the table's head, and what the report goes on with; nothing of NAN. Above the goal where the numbers of
+/* The line of the table's head; nothing of NAN. Above the goal where the numbers of
  * places were chosen: a warning (not with --quiet). */
 void modes_places_write(FILE *f, double db, const struct modes_places *p, struct arena *a);
-void modes_places_report(double db, struct arena *a);
 void modes_places_warn(struct cmd_call *c, double db, const struct modes_places *p);
 
-/* The least numbers of places, near enough, that keep MODES_FIT_GOAL; set_out lays them out. */
+/* Of the choice of numbers of places (see modes_places.c). */
 #define MODES_FIT_GOAL -40.0
-enum { MODES_FIT_PLACES = 4096, MODES_FIT_ROWS = 500000 };
-typedef void modes_fit_lay(const void *self, const int n[2], struct arena *a, struct modes_places *p);
-
 /* The output is not the file that is read, under whatever name (same device and inode; NULL: none is read). ERR_CREATE
  */
 bool modes_output_spares(const char *output, const char *input, struct err *e);

@@ -20,8 +20,6 @@
 #include "output/mark.h"
 #include "response/mode_table.h"
 
-static void rows(FILE *f, const struct compute *k);
-
 #define POINT_OFF                                                                                                      \
     0.01 /* of the solid's size: a point of --points may lie so far off its surface, as it may lie off the flat faces  \
             of a mesh */
@@ -29,15 +27,14 @@ static void rows(FILE *f, const struct compute *k);
 static double off(const void *self, double x, double y)
 {
     struct boundary_point p;
-    return boundary_map_point((const struct boundary_map *)self, x, y, &p) ? 0.0 : (double)INFINITY;
+    return boundary_map_point(self, x, y, &p) ? 0.0 : (double)INFINITY;
 }
 
 /* Gains jump where the surface turns from one of these to the other: by more than half a right angle. */
 static bool bends(const void *self, const double from[2], const double to[2])
 {
     struct boundary_point p, q;
-    return boundary_map_point((const struct boundary_map *)self, from[0], from[1], &p) &&
-           boundary_map_point((const struct boundary_map *)self, to[0], to[1], &q) &&
+    return boundary_map_point(self, from[0], from[1], &p) && boundary_map_point(self, to[0], to[1], &q) &&
            p.normal[0] * q.normal[0] + p.normal[1] * q.normal[1] + p.normal[2] * q.normal[2] < 0.7071;
 }
 
@@ -51,20 +48,15 @@ static double size_of(const struct compute *k)
 
 static bool read_face(struct compute *k, struct err *e)
 {
-    const char *word = args_value(&k->c->args, "face");
     int face = BOUNDARY_TOP;
-    while (word && boundary_map_sides[face] && strcmp(word, boundary_map_sides[face]) != 0)
-        face++;
-    if (!boundary_map_sides[face])
-        return err_set(e, ERR_USAGE, "--face: '%s' is not top, bottom, right, left, back, front, around or inside",
-                       word);
+    if (!cmd_word(k->c, "face", boundary_map_sides, &face, e)) return false;
     boundary_map_make(&k->mesh, &k->boundary, face, &k->chart);
     const double *low = k->boundary.low, *high = k->boundary.high;
     if (face >= BOUNDARY_AROUND && (low[0] >= 0 || high[0] <= 0 || low[1] >= 0 || high[1] <= 0))
         return err_set(e, ERR_SCENE,
                        "--face %s goes round the axis x = y = 0, and the solid lies beside it (x %.6g to %.6g m, y "
                        "%.6g to %.6g m); move the mesh so that the axis runs through its middle",
-                       word, low[0], high[0], low[1], high[1]);
+                       boundary_map_sides[face], low[0], high[0], low[1], high[1]);
     return true;
 }
 
@@ -142,7 +134,6 @@ static bool read_places(struct compute *k, struct modes_fit *fit, struct err *e)
     if (!modes_places(k->c, &ground, &p, e)) return false;
     k->laid = p;
     k->places = p.n;
-    k->left_out = p.left_out;
     k->xy = p.xy;
     k->point = ARENA_TAKE(k->c->arena, struct boundary_point, p.n);
     for (int i = 0; i < p.n; i++)
@@ -153,7 +144,7 @@ static bool read_places(struct compute *k, struct modes_fit *fit, struct err *e)
 /* Gains and poles of the modes at a place. */
 static double gains_at(const void *self, double x, double y, const struct modes_point *to)
 {
-    const struct compute *k = (const struct compute *)self;
+    const struct compute *k = self;
     struct boundary_point at;
     if (!boundary_map_point(&k->chart, x, y, &at)) return (double)INFINITY;
     solid_participation(&k->modes, &at, k->phi);
@@ -192,14 +183,14 @@ static bool read_listen(struct compute *k, struct err *e)
     k->elsewhere = text != NULL;
     if (!text) return true;
     if (commas != 2) {
-        if (!modes_lengths(k->c, &(struct modes_lengths){"listen", "X,Y", 2}, at, e)) return false;
+        if (!modes_lengths(k->c, "listen", "X,Y", 2, at, e)) return false;
         return boundary_map_point(&k->chart, at[0], at[1], &k->ear) ||
                err_set(e, ERR_SCENE,
                        "--listen: the place (%.9g, %.9g) m lies off the object; a point X,Y,Z of space takes the "
                        "nearest of the surface",
                        at[0], at[1]);
     }
-    if (!modes_lengths(k->c, &(struct modes_lengths){"listen", "X,Y,Z", 3}, at, e)) return false;
+    if (!modes_lengths(k->c, "listen", "X,Y,Z", 3, at, e)) return false;
     double far = boundary_nearest(&k->mesh, &k->boundary, at, &k->ear);
     return far <= POINT_OFF * size_of(k) ||
            err_set(e, ERR_SCENE,
@@ -216,9 +207,8 @@ static bool modes_compute_places(struct compute *k, struct err *e)
     for (size_t i = 0; points && i < sizeof others / sizeof *others; i++)
         if (args_given(&k->c->args, others[i]))
             return err_set(e, ERR_USAGE, "--points and --%s exclude each other", others[i]);
-    return modes_lengths(k->c, &(struct modes_lengths){"origin", "X,Y", 2}, k->origin, e) &&
-           modes_quantity(k->c, &k->quantity, e) && read_face(k, e) &&
-           (points ? read_points(k, points, e) : read_places(k, NULL, e)) && read_listen(k, e);
+    return modes_lengths(k->c, "origin", "X,Y", 2, k->origin, e) && modes_quantity(k->c, &k->quantity, e) &&
+           read_face(k, e) && (points ? read_points(k, points, e) : read_places(k, NULL, e)) && read_listen(k, e);
 }
 
 /* The mode table of `rasp modes compute`.
@@ -233,8 +223,6 @@ static bool modes_compute_places(struct compute *k, struct err *e)
 
    The first line is the hash of all that follows, which holds the hash of what the table was made from: a table that is
    current needs no second computation. */
-
-static void material(FILE *f, const struct compute_material *m);
 
 static const char first[] = "# content: ", second[] = "# inputs: ";
 enum { DIGITS = 9 };
@@ -326,13 +314,8 @@ static void material(FILE *f, const struct compute_material *m)
                 m->youngs_modulus * m->named->radial.youngs_modulus / m->named->youngs_modulus);
     else
         fprintf(f, ", Poisson's ratio %.9g", m->poisson);
-    fprintf(f, "\n# damping: decay = (alpha + beta w^2 + loss w)/2, alpha %.9g 1/s, beta %.9g s, loss factor %.9g\n",
-            m->alpha, m->beta, m->loss);
-    if (!m->named)
-        fputs("# source: the object's own figures\n", f);
-    else
-        fprintf(f, "# source: %s%s\n# source_of_damping: %s%s\n", m->own ? "the object's own figures, else " : "",
-                m->named->source, m->own_damping ? "the object's own figures, else " : "", m->named->damping_source);
+    fputc('\n', f);
+    modes_damping_write(f, (const double[3]){m->alpha, m->beta, m->loss}, m->named, m->own, m->own_damping);
 }
 
 static void notes(FILE *f, const char *text, struct arena *a)
@@ -507,17 +490,15 @@ int modes_compute_run(struct cmd_call *c, struct err *e)
         !modes_compute_places_settle(&k, e) || !modes_compute_write(&k, file, inputs, e))
         return (int)e->kind;
     if (!quiet) {
-        printf("%s: %d mode%s from %.6g to %.6g Hz at %d place%s", text_shown(k.c->arena, file), k.n,
-               k.n == 1 ? "" : "s", k.least, k.greatest, k.places, k.places == 1 ? "" : "s");
-        if (k.left_out) printf(" (%d of the grid lie beside the solid)", k.left_out);
-        modes_places_report(k.error, k.c->arena);
+        k.laid.n = k.places;
+        modes_places_report(file, &k.laid, "solid", k.error, k.n, (const double[2]){k.least, k.greatest}, c->arena);
         printf("; %d tetrahedra of order %ld, %ld freedoms, %.4g kg, %d rigid motion%s\n", k.mesh.elements, k.order,
                k.modes.freedoms, k.modes.mass, k.modes.rigid, k.modes.rigid == 1 ? "" : "s");
         if (k.estimated)
             printf("%s: %s\n",
                    args_given(&k.c->args, "shape") ? "estimated error of frequencies"
                                                    : "frequencies of the order below are off by more than these, by",
-                   modes_compute_solid_estimate_says((&k)));
+                   modes_compute_solid_estimate_says(&k));
         warn(c, k.note);
         modes_places_warn(c, k.error, &k.laid);
     }

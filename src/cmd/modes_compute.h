@@ -28,7 +28,7 @@ struct compute {
     struct boundary_map chart;
     double origin[2]; /* m */
     int quantity;     /* enum modes_quantity */
-    int places, left_out;
+    int places;
     double (*xy)[2];              /* [places] m, on the chart */
     struct boundary_point *point; /* [places] */
     struct modes_places laid;     /* the same as they were laid out; not those of a list */

@@ -78,14 +78,6 @@ static bool modes_compute_solid_limits_solid(struct compute *k, struct err *e)
 
 /* ------------------------------------------------------------------ mesh */
 
-static bool quantity(struct compute *k, const char *name, enum key_dimension d, double *x, struct err *e)
-{
-    const char *text = args_value(&k->c->args, name);
-    struct units_fault fault = {NULL, NULL};
-    return !text || units_read(text, d, x, k->c->arena, &fault) ||
-           err_set(e, ERR_USAGE, "--%s: '%s' %s", name, text, fault.text);
-}
-
 /* "mm" or "25.4 mm". */
 static bool read_unit(struct compute *k, double *unit, struct err *e)
 {
@@ -173,10 +165,11 @@ static bool read_material(struct compute *k, struct err *e)
     m->loss = t->loss;
     m->own = args_given(g, "youngs-modulus") || args_given(g, "poisson") || args_given(g, "density");
     m->own_damping = args_given(g, "alpha") || args_given(g, "beta") || args_given(g, "loss");
-    if (!quantity(k, "youngs-modulus", KEY_PRESSURE, &m->youngs_modulus, e) ||
-        !quantity(k, "density", KEY_DENSITY, &density, e) ||
+    if (!cmd_quantity(k->c, "youngs-modulus", KEY_PRESSURE, &m->youngs_modulus, e) ||
+        !cmd_quantity(k->c, "density", KEY_DENSITY, &density, e) ||
         !args_number(g, "poisson", (const double[2]){nu->low, nu->high}, &m->poisson, e) ||
-        !quantity(k, "alpha", KEY_PER_TIME, &m->alpha, e) || !quantity(k, "beta", KEY_TIME, &m->beta, e) ||
+        !cmd_quantity(k->c, "alpha", KEY_PER_TIME, &m->alpha, e) ||
+        !cmd_quantity(k->c, "beta", KEY_TIME, &m->beta, e) ||
         !args_number(g, "loss", (const double[2]){0, 2}, &m->loss, e))
         return false;
     if (isnan(m->youngs_modulus) || isnan(m->poisson) || isnan(density))
@@ -270,7 +263,8 @@ bool modes_compute_solid_read(struct compute *k, struct err *e)
     k->top = 20000;
     k->most = 100;
     k->order = args_given(&k->c->args, "shape") ? shapes_order(args_value(&k->c->args, "shape")) : 2;
-    if (!quantity(k, "top", KEY_FREQUENCY, &k->top, e) || !args_whole(&k->c->args, "modes", counts, &k->most, e) ||
+    if (!cmd_quantity(k->c, "top", KEY_FREQUENCY, &k->top, e) ||
+        !args_whole(&k->c->args, "modes", counts, &k->most, e) ||
         !args_whole(&k->c->args, "order", orders, &k->order, e))
         return false;
     if (!(k->top > 0 && k->top <= 1e7))

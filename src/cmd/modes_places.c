@@ -17,13 +17,12 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/text.h"
 #include "cmd/tell.h"
 #include "num/real.h"
 #include "response/morph.h"
 
-static void line(struct modes_places *p, const double ends[4], int n, struct arena *a);
-
-enum { SPOTS = 512 };
+enum { SPOTS = 512, FIT_PLACES = 4096, FIT_ROWS = 500000 };
 #define STUCK 1.0 /* dB */
 
 static double share(int i, double ratio)
@@ -88,7 +87,7 @@ double modes_places_error(struct modes_fit *f, const struct modes_places *p)
     return db;
 }
 
-static const char *told(double db, struct arena *a)
+static const char *db_text(double db, struct arena *a)
 {
     return db < -200 ? "less than -200 dB" : arena_format(a, "%.1f dB", db);
 }
@@ -102,12 +101,16 @@ void modes_places_write(FILE *f, double db, const struct modes_places *p, struct
     fprintf(f,
             "# interpolation_error: %s, rms of the differences of all modes' gains at %d places %s, relative to the "
             "gains\n",
-            told(db, a), SPOTS, p->line ? "along the line" : "over the box of these, those beside left out");
+            db_text(db, a), SPOTS, p->line ? "along the line" : "over the box of these, those beside left out");
 }
 
-void modes_places_report(double db, struct arena *a)
+void modes_places_report(const char *file, const struct modes_places *p, const char *what, double db, int n,
+                         const double range[2], struct arena *a)
 {
-    if (!isnan(db)) printf("; between them gains are off by %s", told(db, a));
+    printf("%s: %d mode%s from %.6g to %.6g Hz at %d place%s", text_shown(a, file), n, n == 1 ? "" : "s", range[0],
+           range[1], p->n, p->n == 1 ? "" : "s");
+    if (p->left_out) printf(" (%d of the grid lie beside the %s)", p->left_out, what);
+    if (!isnan(db)) printf("; between them gains are off by %s", db_text(db, a));
 }
 
 void modes_places_warn(struct cmd_call *c, double db, const struct modes_places *p)
@@ -117,14 +120,17 @@ void modes_places_warn(struct cmd_call *c, double db, const struct modes_places 
                     arena_format(c->arena,
                                  "between the places gains are off by %s, and %g dB would take more than %d places or "
                                  "%d rows; fewer modes (--modes, --top) need fewer",
-                                 told(db, c->arena), MODES_FIT_GOAL, MODES_FIT_PLACES, MODES_FIT_ROWS));
+                                 db_text(db, c->arena), MODES_FIT_GOAL, FIT_PLACES, FIT_ROWS));
 }
 
 /* ------------------------------------------------------------------ as many as needed */
 
+/* Lays so many places out. */
+typedef void fit_lay(const void *self, const int n[2], struct arena *a, struct modes_places *p);
+
 struct growing {
     struct modes_fit *fit;
-    modes_fit_lay *lay;
+    fit_lay *lay;
     const void *self;
     long most;
 };
@@ -176,11 +182,10 @@ static void shrink(const struct growing *g, int axis, int n[2])
     }
 }
 
-static void modes_places_choose(struct modes_fit *f, modes_fit_lay *lay, const void *self, bool line,
-                                struct modes_places *p)
+static void choose(struct modes_fit *f, fit_lay *lay, const void *self, bool line, struct modes_places *p)
 {
-    long rows = MODES_FIT_ROWS / f->n;
-    struct growing g = {f, lay, self, rows < 153 ? 153 : rows > MODES_FIT_PLACES ? MODES_FIT_PLACES : rows};
+    long rows = FIT_ROWS / f->n;
+    struct growing g = {f, lay, self, rows < 153 ? 153 : rows > FIT_PLACES ? FIT_PLACES : rows};
     struct step now = {.n = {5, line ? 1 : 5}};
     int axes = line ? 1 : 2;
     now.db = error_of(&g, now.n, &now.places);
@@ -342,8 +347,9 @@ static bool is_round(const struct modes_ground *g, double radii[2])
 /* n[0] rings, the rim's of 4 n[1] places, the others' in proportion to their radius, and FEW more near the middle.
    Rings are closer together near a rim, where a solid that is seen there from its side bends away, and where the spline
    has neighbours on one side only. Numbers of places are multiples of 4: what is symmetric has its places so. */
-static void rings(struct modes_places *p, const struct layout *l, const int n[2], struct arena *a)
+static void lay_rings(const void *self, const int n[2], struct arena *a, struct modes_places *p)
 {
+    const struct layout *l = self;
     const struct modes_ground *g = l->ground;
     double middle[2] = {0.5 * (g->low[0] + g->high[0]), 0.5 * (g->low[1] + g->high[1])};
     *p = (struct modes_places){.xy = arena_take(a, 1 + 4 * (size_t)n[0] * (size_t)(n[1] + FEW), sizeof *p->xy),
@@ -363,27 +369,19 @@ static void rings(struct modes_places *p, const struct layout *l, const int n[2]
 
 static void lay_line(const void *self, const int n[2], struct arena *a, struct modes_places *p)
 {
-    const struct layout *l = (const struct layout *)self;
-    line(p, l->ends, n[0], a);
+    line(p, ((const struct layout *)self)->ends, n[0], a);
 }
 
 static void lay_grid(const void *self, const int n[2], struct arena *a, struct modes_places *p)
 {
-    const struct layout *l = (const struct layout *)self;
-    grid(p, l->ground, n, a);
-}
-
-static void lay_rings(const void *self, const int n[2], struct arena *a, struct modes_places *p)
-{
-    const struct layout *l = (const struct layout *)self;
-    rings(p, l, n, a);
+    grid(p, ((const struct layout *)self)->ground, n, a);
 }
 
 static void along(struct cmd_call *c, const struct modes_ground *g, const double ends[4], int n, struct modes_places *p)
 {
     struct layout l = {.ends = {ends[0], ends[1], ends[2], ends[3]}};
     if (g->fit)
-        modes_places_choose(g->fit, lay_line, &l, true, p);
+        choose(g->fit, lay_line, &l, true, p);
     else
         line(p, ends, n, c->arena);
 }
@@ -397,7 +395,7 @@ static void standard(struct cmd_call *c, const struct modes_ground *g, struct mo
     else if (g->standard[1] == 1)
         along(c, g, (double[4]){g->low[0], middle, g->high[0], middle}, g->standard[0], p);
     else if (g->fit)
-        modes_places_choose(g->fit, is_round(g, l.round) ? lay_rings : lay_grid, &l, false, p);
+        choose(g->fit, is_round(g, l.round) ? lay_rings : lay_grid, &l, false, p);
     else
         grid(p, g, g->standard, c->arena);
 }
@@ -406,9 +404,8 @@ static bool read(struct cmd_call *c, double ends[4], long *places, int n[2], str
 {
     static const long counts[2] = {2, PLACES};
     const struct args *g = &c->args;
-    if (!modes_lengths(c, &(struct modes_lengths){"line", "X0,Y0,X1,Y1", 4}, ends, e) ||
-        !modes_lengths(c, &(struct modes_lengths){"circle", "RADIUS", 1}, ends, e) ||
-        !modes_lengths(c, &(struct modes_lengths){"at", "X,Y", 2}, ends, e) || !read_grid(c, n, e) ||
+    if (!modes_lengths(c, "line", "X0,Y0,X1,Y1", 4, ends, e) || !modes_lengths(c, "circle", "RADIUS", 1, ends, e) ||
+        !modes_lengths(c, "at", "X,Y", 2, ends, e) || !read_grid(c, n, e) ||
         !args_whole(g, "places", counts, places, e))
         return false;
     if (args_given(g, "line") + args_given(g, "circle") + args_given(g, "at") + args_given(g, "grid") > 1)

@@ -443,17 +443,18 @@ static const struct args_option plot_options[] = {
     {0},
 };
 
+static const char *const formats[] = {"png", "svg", NULL};
+
 static bool plot_format(struct cmd_call *c, struct plot_page *p, struct err *e)
 {
-    const char *format = args_value(&c->args, "format"), *o = args_value(&c->args, "output");
-    if (format && strcmp(format, "png") != 0 && strcmp(format, "svg") != 0)
-        return err_set(e, ERR_USAGE, "--format: '%s' is neither png nor svg", format);
+    const char *o = args_value(&c->args, "output");
+    int svg = o && text_ends(o, ".svg");
+    if (!cmd_word(c, "format", formats, &svg, e)) return false;
     if (o && !text_ends(o, ".png") && !text_ends(o, ".svg"))
         return err_set(e, ERR_USAGE, "--output %s: must end in .png or .svg", o);
-    if (format && o && strcmp(o + strlen(o) - 3, format) != 0)
-        return err_set(e, ERR_USAGE, "--output %s: does not end in .%s, the format that is asked for", o, format);
-    p->svg = format ? strcmp(format, "svg") == 0 : o && text_ends(o, ".svg");
-    return true;
+    p->svg = svg;
+    return !o || text_ends(o, svg ? ".svg" : ".png") ||
+           err_set(e, ERR_USAGE, "--output %s: does not end in .%s, the format that is asked for", o, formats[svg]);
 }
 
 /* Nor of the sound, or what lies beside it. */
@@ -496,21 +497,21 @@ static void plot_page(void *self, struct gnuplot *g) { plot_draw(self, g); }
 
 static int gallery_run(struct cmd_call *c, struct err *e)
 {
-    const char *format = args_value(&c->args, "format"), *panels = args_value(&c->args, "panels");
+    const char *panels = args_value(&c->args, "panels");
+    int svg = 0;
     struct plot_gallery g = {.source = c->args.operands[0],
                              .output = args_value(&c->args, "output"),
                              .title = args_value(&c->args, "title"),
                              .arena = c->arena,
                              .call = c,
-                             .svg = format && !strcmp(format, "svg"),
                              .force = args_given(&c->args, "force")};
     static const char *const others[] = {"from", "to", "channel"};
     for (int k = 0; k < 3; k++)
         if (args_given(&c->args, others[k]))
             return err_set(e, ERR_USAGE, "--%s: not of a gallery, which shows whole sounds", others[k]), (int)e->kind;
-    if (format && strcmp(format, "png") != 0 && !g.svg)
-        err_set(e, ERR_USAGE, "--format: '%s' is neither png nor svg", format);
-    else if (g.output && !text_ends(g.output, ".html"))
+    if (!cmd_word(c, "format", formats, &svg, e)) return (int)e->kind;
+    g.svg = svg;
+    if (g.output && !text_ends(g.output, ".html"))
         err_set(e, ERR_USAGE, "--output %s: a gallery is a page of HTML, its name must end in .html", g.output);
     else if (plot_panels_read(panels ? panels : "waveform,spectrogram", &g.asked, c->arena, e))
         plot_gallery(&g, e);

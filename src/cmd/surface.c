@@ -24,30 +24,13 @@
  * ERR_USAGE */
 static bool surface_length(struct cmd_call *c, const char *name, const double range[2], double *x, struct err *e)
 {
-    const char *text = args_value(&c->args, name);
-    struct units_fault fault = {NULL, NULL};
-    double value;
-    if (!text) return true;
-    if (!units_read(text, KEY_LENGTH, &value, c->arena, &fault))
-        return err_set(e, ERR_USAGE, "--%s: '%s' %s", name, text, fault.text);
+    double value = range[0];
+    if (!cmd_quantity(c, name, KEY_LENGTH, &value, e)) return false;
     if (!(value >= range[0] && value <= range[1]))
-        return err_set(e, ERR_USAGE, "--%s: %s is not from %s to %s", name, text,
+        return err_set(e, ERR_USAGE, "--%s: %s is not from %s to %s", name, args_value(&c->args, name),
                        units_text(range[0], KEY_LENGTH, c->arena), units_text(range[1], KEY_LENGTH, c->arena));
-    *x = value;
+    if (args_given(&c->args, name)) *x = value;
     return true;
-}
-
-/* One of the words; its place is the value. */
-static bool option_word(struct cmd_call *c, const char *name, const char *const *words, int *value, struct err *e)
-{
-    const char *text = args_value(&c->args, name);
-    if (!text) return true;
-    for (int i = 0; words[i]; i++)
-        if (!strcmp(text, words[i])) {
-            *value = i;
-            return true;
-        }
-    return err_set(e, ERR_USAGE, "--%s: '%s' is not %s, %s or %s", name, text, words[0], words[1], words[2]);
 }
 
 /* --pitch, --height-scale, --height-range, --holes (else `holes`), --levelling. ERR_USAGE */
@@ -66,8 +49,8 @@ static bool surface_options(struct cmd_call *c, enum heightfile_holes holes, str
     return surface_length(c, "pitch", pitch, &o->pitch, e) &&
            surface_length(c, "height-scale", scale, &o->height_scale, e) &&
            surface_length(c, "height-range", range, &o->height_range, e) &&
-           option_word(c, "holes", hole_words, &o->holes, e) &&
-           option_word(c, "levelling", levelling_words, &o->levelling, e);
+           cmd_word(c, "holes", hole_words, &o->holes, e) &&
+           cmd_word(c, "levelling", levelling_words, &o->levelling, e);
 }
 
 /* ------------------------------------------------------------------ info */
@@ -551,16 +534,13 @@ static bool read_size(struct synth *s, struct err *e)
 /* A word of --along, else the scene's, else what the size asks for. */
 static bool read_along(struct synth *s, struct err *e)
 {
-    static const char *const words[] = {[ALONG_PATH] = "path", [ALONG_X] = "x", [ALONG_PLANE] = "plane"};
-    const char *text = args_value(&s->c->args, "along");
-    int own = s->scene.contacts[0].surface.along;
-    s->along = text ? ALONG_AUTO : own != ALONG_AUTO ? own : s->h.rows > 1 ? ALONG_PLANE : ALONG_PATH;
-    for (int k = ALONG_PATH; text && k <= ALONG_PLANE; k++)
-        s->along = !strcmp(text, words[k]) ? k : s->along;
-    if (s->along == ALONG_AUTO) return err_set(e, ERR_USAGE, "--along: '%s' is not path, x or plane", text);
+    static const char *const words[] = {"path", "x", "plane", NULL};
+    int own = s->scene.contacts[0].surface.along, word = -1;
+    if (!cmd_word(s->c, "along", words, &word, e)) return false;
+    s->along = word >= 0 ? ALONG_PATH + word : own != ALONG_AUTO ? own : s->h.rows > 1 ? ALONG_PLANE : ALONG_PATH;
     return s->h.rows == 1 || s->along == ALONG_PLANE ||
            err_set(e, ERR_SCENE, "a surface along %s is a profile: give --size one length, or --along plane",
-                   words[s->along]);
+                   words[s->along - ALONG_PATH]);
 }
 
 static bool read_surface(struct synth *s, struct err *e)

@@ -159,10 +159,10 @@ void tell_as_json(struct cmd_call *c) { of(c)->json = true; }
 
 bool tell_begin(struct cmd_call *c, struct err *e)
 {
-    const char *format = args_value(&c->args, "diagnostics");
-    if (format && strcmp(format, "text") != 0 && strcmp(format, "json") != 0)
-        return err_set(e, ERR_USAGE, "--diagnostics: '%s' is neither text nor json", format);
-    of(c)->json = format && !strcmp(format, "json");
+    static const char *const formats[] = {"text", "json", NULL};
+    int json = 0;
+    if (!cmd_word(c, "diagnostics", formats, &json, e)) return false;
+    of(c)->json = json;
     return true;
 }
 
