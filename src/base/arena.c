@@ -86,6 +86,13 @@ void *arena_take(struct arena *a, size_t count, size_t size)
     return p; /* zeros: from calloc, which knows fresh pages and does not touch them, and never given twice */
 }
 
+void *arena_more(struct arena *a, const void *list, int n, size_t size)
+{
+    if (n > 0 && (n < 4 || n & (n - 1))) return (void *)list;
+    void *more = arena_take(a, n ? 2 * (size_t)n : 4, size);
+    return n ? memcpy(more, list, (size_t)n * size) : more;
+}
+
 char *arena_text(struct arena *a, const char *s)
 {
     size_t n = strlen(s) + 1;

@@ -20,6 +20,9 @@ char *arena_format(struct arena *a, const char *format, ...) __attribute__((form
 /* Bytes handed out so far (what was asked for, rounded up to the alignment). */
 size_t arena_bytes(const struct arena *a);
 
+/* The list of n with room for one more at its end: a new one that holds it where n is 0 or a power of two from 4 on. */
+void *arena_more(struct arena *a, const void *list, int n, size_t size);
+
 #define ARENA_TAKE(a, type, n) ((type *)arena_take((a), (size_t)(n), sizeof(type)))
 
 #endif

@@ -20,78 +20,52 @@ static int by_name(const void *a, const void *b)
     return strcmp(((const struct golden_file *)a)->name, ((const struct golden_file *)b)->name);
 }
 
-void golden_kept_sort(struct golden_files *files)
+void golden_sort(struct golden_files *files)
 {
     if (files->n) qsort(files->list, (size_t)files->n, sizeof *files->list, by_name);
 }
 
-const struct golden_file *golden_kept_find(const struct golden_files *files, const char *name)
+const struct golden_file *golden_find(const struct golden_files *files, const char *name)
 {
     for (int i = 0; i < files->n; i++)
         if (!strcmp(files->list[i].name, name)) return &files->list[i];
     return NULL;
 }
 
-/* ------------------------------------------------------------------ hashes */
-
-static bool sum_read(const struct golden *g, char *line, int number, struct golden_sum *sum, struct err *e)
+struct golden_file *golden_add(struct golden_files *files, const char *name, struct arena *a)
 {
-    size_t n = HASH_TEXT - 1;
-    bool good =
-        strlen(line) > n + GAP && strspn(line, "0123456789abcdef") == n && line[n] == ' ' && strchr(" *", line[n + 1]);
-    if (!good || !strchr(line + n + GAP, '/'))
-        return err_set(e, ERR_SCENE, "%s:%d: is not of the form SHA256  NAME/FILE, as rasp golden update writes it",
-                       g->hashes, number);
-    line[n] = '\0';
-    memcpy(sum->sha256, line, HASH_TEXT);
-    sum->name = line + n + GAP;
-    return true;
+    files->list = arena_more(a, files->list, files->n, sizeof *files->list);
+    files->list[files->n].name = name;
+    return &files->list[files->n++];
+}
+
+bool golden_has(const struct golden *g, const char *name, size_t n)
+{
+    for (int i = 0; i < g->n; i++)
+        if (strlen(g->scenes[i].name) == n && !strncmp(g->scenes[i].name, name, n)) return true;
+    return false;
 }
 
 bool golden_kept_read(struct golden *g, struct err *e)
 {
     struct bytes b;
-    int number = 0, most = 1;
+    size_t n = HASH_TEXT - 1;
     if (!g->hashes) return true;
     if (!bytes_read(g->hashes, g->call->arena, &b, e)) return false;
-    for (const char *p = b.at; *p; p++)
-        most += *p == '\n';
-    g->sums = ARENA_TAKE(g->call->arena, struct golden_sum, most);
-    for (char *p = b.at, *next; p; p = next) {
-        next = strchr(p, '\n');
-        if (next) *next++ = '\0';
-        p[strcspn(p, "\r")] = '\0';
-        number++;
-        if (*p && !sum_read(g, p, number, &g->sums[g->n_sums++], e)) return false;
+    char *rest = b.at, *line;
+    for (int number = 1; (line = strsep(&rest, "\n")); number++) {
+        line[strcspn(line, "\r")] = '\0';
+        if (!*line) continue;
+        bool good = strlen(line) > n + GAP && strspn(line, "0123456789abcdef") == n && line[n] == ' ' &&
+                    strchr(" *", line[n + 1]);
+        if (!good || !strchr(line + n + GAP, '/'))
+            return err_set(e, ERR_SCENE, "%s:%d: is not of the form SHA256  NAME/FILE, as rasp golden update writes it",
+                           g->hashes, number);
+        line[n] = '\0';
+        memcpy(golden_add(&g->sums, line + n + GAP, g->call->arena)->sha256, line, HASH_TEXT);
     }
     return true;
 }
-
-const struct golden_sum *golden_kept_sum(const struct golden *g, const char *scene, const char *file, struct arena *a)
-{
-    const char *name = arena_format(a, "%s/%s", scene, file);
-    for (int i = 0; i < g->n_sums; i++)
-        if (!strcmp(g->sums[i].name, name)) return &g->sums[i];
-    return NULL;
-}
-
-static struct golden_files in_sums(const struct golden *g, const char *scene, struct arena *a)
-{
-    struct golden_files files = {ARENA_TAKE(a, struct golden_file, g->n_sums + 1), 0};
-    for (int i = 0; i < g->n_sums; i++) {
-        /* What the line is of: FILE of NAME/FILE; NULL: of another scene. */
-        size_t n = strlen(scene);
-        const char *file =
-            !strncmp(g->sums[i].name, scene, n) && g->sums[i].name[n] == '/' ? g->sums[i].name + n + 1 : NULL;
-        if (!file) continue;
-        files.list[files.n].name = file;
-        memcpy(files.list[files.n++].sha256, g->sums[i].sha256, HASH_TEXT);
-    }
-    golden_kept_sort(&files);
-    return files;
-}
-
-/* ------------------------------------------------------------------ files */
 
 static bool is_kept(const char *name)
 {
@@ -104,81 +78,56 @@ static struct golden_files in_folder(const char *folder, struct arena *a)
 {
     struct golden_files files = {NULL, 0};
     DIR *d = opendir(folder);
-    int room = 0;
-    for (struct dirent *entry; d && (entry = readdir(d));) {
-        if (!is_kept(entry->d_name)) continue;
-        if (files.n == room) {
-            struct golden_file *more = ARENA_TAKE(a, struct golden_file, room = 2 * room + 8);
-            if (files.n) memcpy(more, files.list, (size_t)files.n * sizeof *more);
-            files.list = more;
-        }
-        files.list[files.n++].name = arena_text(a, entry->d_name);
-    }
+    for (struct dirent *entry; d && (entry = readdir(d));)
+        if (is_kept(entry->d_name)) golden_add(&files, arena_text(a, entry->d_name), a);
     if (d) closedir(d);
-    golden_kept_sort(&files);
+    golden_sort(&files);
     return files;
 }
 
 struct golden_files golden_kept_of(const struct golden *g, const char *scene, struct arena *a, struct err *e)
 {
-    if (!g->kept) return in_sums(g, scene, a);
-    const char *folder = arena_format(a, "%s/%s", g->kept, scene);
-    struct golden_files files = in_folder(folder, a);
-    for (int i = 0; i < files.n; i++)
-        hash_file(arena_format(a, "%s/%s", folder, files.list[i].name), files.list[i].sha256, e);
+    struct golden_files files = {NULL, 0};
+    if (g->kept) {
+        const char *folder = arena_format(a, "%s/%s", g->kept, scene);
+        files = in_folder(folder, a);
+        for (int i = 0; i < files.n; i++)
+            hash_file(arena_format(a, "%s/%s", folder, files.list[i].name), files.list[i].sha256, e);
+        return files;
+    }
+    size_t n = strlen(scene);
+    for (int i = 0; i < g->sums.n; i++) {
+        const struct golden_file *sum = &g->sums.list[i];
+        if (!strncmp(sum->name, scene, n) && sum->name[n] == '/')
+            memcpy(golden_add(&files, sum->name + n + 1, a)->sha256, sum->sha256, HASH_TEXT);
+    }
+    golden_sort(&files);
     return files;
-}
-
-/* ------------------------------------------------------------------ strays */
-
-struct strays {
-    const char **list;
-    int n, room;
-};
-
-static void stray(struct strays *all, const char *name, struct arena *a)
-{
-    if (all->n + 1 >= all->room) {
-        const char **more = ARENA_TAKE(a, const char *, all->room = 2 * all->room + 16);
-        if (all->n) memcpy(more, all->list, (size_t)all->n * sizeof *more);
-        all->list = more;
-    }
-    all->list[all->n++] = name;
-}
-
-static bool is_scene(const struct golden *g, const char *name, size_t n)
-{
-    for (int i = 0; i < g->n; i++)
-        if (strlen(g->scenes[i].name) == n && !strncmp(g->scenes[i].name, name, n)) return true;
-    return false;
-}
-
-static void strays_in_kept(const struct golden *g, struct strays *all, struct arena *a)
-{
-    struct dirent **entries;
-    int n = scandir(g->kept, &entries, NULL, alphasort);
-    for (int i = 0; i < n; i++) {
-        const char *name = entries[i]->d_name;
-        if (*name != '.' && is_kept(name)) stray(all, arena_text(a, name), a);
-        if (*name != '.' && !is_scene(g, name, strlen(name))) {
-            struct golden_files files = in_folder(arena_format(a, "%s/%s", g->kept, name), a);
-            for (int k = 0; k < files.n; k++)
-                stray(all, arena_format(a, "%s/%s", name, files.list[k].name), a);
-        }
-        free(entries[i]);
-    }
-    if (n >= 0) free(entries);
 }
 
 const char **golden_kept_strays(const struct golden *g, struct arena *a)
 {
-    struct strays all = {ARENA_TAKE(a, const char *, 16), 0, 16};
-    if (g->kept) strays_in_kept(g, &all, a);
-    for (int i = 0; i < g->n_sums; i++)
-        if (!is_scene(g, g->sums[i].name, strcspn(g->sums[i].name, "/")))
-            stray(&all, arena_format(a, "%s, in %s", g->sums[i].name, g->hashes), a);
-    all.list[all.n] = NULL;
-    return all.list;
+    struct golden_files all = {NULL, 0};
+    struct dirent **entries;
+    int n = g->kept ? scandir(g->kept, &entries, NULL, alphasort) : -1;
+    for (int i = 0; i < n; i++) {
+        const char *name = entries[i]->d_name;
+        if (*name != '.' && is_kept(name)) golden_add(&all, arena_text(a, name), a);
+        if (*name != '.' && !golden_has(g, name, strlen(name))) {
+            struct golden_files files = in_folder(arena_format(a, "%s/%s", g->kept, name), a);
+            for (int k = 0; k < files.n; k++)
+                golden_add(&all, arena_format(a, "%s/%s", name, files.list[k].name), a);
+        }
+        free(entries[i]);
+    }
+    if (n >= 0) free(entries);
+    for (int i = 0; i < g->sums.n; i++)
+        if (!golden_has(g, g->sums.list[i].name, strcspn(g->sums.list[i].name, "/")))
+            golden_add(&all, arena_format(a, "%s, in %s", g->sums.list[i].name, g->hashes), a);
+    const char **names = ARENA_TAKE(a, const char *, all.n + 1);
+    for (int i = 0; i < all.n; i++)
+        names[i] = all.list[i].name;
+    return names;
 }
 
 /* The scenes of `rasp golden`: operands that end in .yaml or .yml are scenes, others are lists, one scene a line:
@@ -210,43 +159,26 @@ struct line {
 
 /* ------------------------------------------------------------------ words of a line */
 
-/* One word from *p on, which is left behind it. False: a quote is open. */
-static bool take_word(const char **p, char *word)
-{
-    char quote = '\0';
-    for (; **p && (quote || !strchr(" \t", **p)); ++*p) {
-        if (quote ? **p == quote : **p == '\'' || **p == '"')
-            quote = quote ? '\0' : **p;
-        else
-            *word++ = **p;
-    }
-    *word = '\0';
-    return !quote;
-}
-
 static bool split(struct line *l, const char *text, struct arena *a, struct err *e)
 {
     l->n = 0;
     for (const char *p = text;;) {
         p += strspn(p, " \t");
         if (!*p || *p == '#') return true;
-        char *word = arena_take(a, strlen(p) + 1, 1);
-        if (!take_word(&p, word)) return err_set(e, ERR_SCENE, "%s:%d: a quote is not closed", l->list, l->number);
+        char *word = arena_take(a, strlen(p) + 1, 1), *to = word, quote = '\0';
+        for (; *p && (quote || !strchr(" \t", *p)); p++) {
+            if (quote ? *p == quote : *p == '\'' || *p == '"')
+                quote = quote ? '\0' : *p;
+            else
+                *to++ = *p;
+        }
+        if (quote) return err_set(e, ERR_SCENE, "%s:%d: a quote is not closed", l->list, l->number);
         if (l->n == WORDS) return err_set(e, ERR_SCENE, "%s:%d: more than %d words", l->list, l->number, WORDS);
         l->words[l->n++] = word;
     }
 }
 
 /* ------------------------------------------------------------------ a scene */
-
-/* NAME of .../NAME.yaml */
-static const char *stem(const char *file, struct arena *a)
-{
-    const char *slash = strrchr(file, '/'), *name = slash ? slash + 1 : file, *dot = strrchr(name, '.');
-    size_t n = dot && dot > name ? (size_t)(dot - name) : strlen(name);
-    if (n > 6 && !strncmp(name + n - 6, ".scene", 6)) n -= 6;
-    return arena_format(a, "%.*s", (int)n, name);
-}
 
 /* Its own limits count, of each kind for which it has any; else those of the command. */
 static bool limits(struct golden *g, struct golden_scene *s, const char *folder, struct err *e)
@@ -278,7 +210,7 @@ static bool at_line(const struct golden_scene *s, const struct err *why, struct 
 static bool scene_add(struct golden *g, struct line *l, struct err *e)
 {
     struct arena *a = g->call->arena;
-    struct golden_scene *s = &g->scenes[g->n];
+    struct golden_scene *s = (g->scenes = arena_more(a, g->scenes, g->n, sizeof *s)) + g->n;
     struct err why = {0};
     s->at = l->list ? arena_format(a, "%s:%d: ", l->list, l->number) : "";
     if (!args_parse(&s->args, golden_list_options, l->n, l->words, a, &why)) return at_line(s, &why, e);
@@ -287,9 +219,15 @@ static bool scene_add(struct golden *g, struct line *l, struct err *e)
                        s->at);
     const char *file = s->args.operands[0], *name = args_value(&s->args, "name");
     s->file = l->folder && *file != '/' ? arena_format(a, "%s/%s", l->folder, file) : file;
-    s->name = name ? name : stem(file, a);
+    if (!name) { /* NAME of .../NAME.yaml */
+        const char *slash = strrchr(s->file, '/'), *last = slash ? slash + 1 : s->file, *dot = strrchr(last, '.');
+        size_t n = dot && dot > last ? (size_t)(dot - last) : strlen(last);
+        if (n > 6 && !strncmp(last + n - 6, ".scene", 6)) n -= 6;
+        name = arena_format(a, "%.*s", (int)n, last);
+    }
+    s->name = name;
     static const char letters[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz+-_.";
-    if (!((*s->name && *s->name != '.' && strspn(s->name, letters) == strlen(s->name))))
+    if (!*s->name || *s->name == '.' || s->name[strspn(s->name, letters)])
         return err_set(e, *s->at ? ERR_SCENE : ERR_USAGE,
                        "%s'%s' cannot be the name of kept files: letters, digits and + - _ . are taken; in a list "
                        "--name NAME gives another",
@@ -305,21 +243,6 @@ static bool scene_add(struct golden *g, struct line *l, struct err *e)
 
 /* ------------------------------------------------------------------ operands */
 
-static int lines_in(const char *text)
-{
-    int n = 1;
-    for (; *text; text++)
-        n += *text == '\n';
-    return n;
-}
-
-static void make_room(struct golden *g, int more)
-{
-    struct golden_scene *scenes = ARENA_TAKE(g->call->arena, struct golden_scene, g->n + more);
-    if (g->n) memcpy(scenes, g->scenes, (size_t)g->n * sizeof *scenes);
-    g->scenes = scenes;
-}
-
 static bool list_add(struct golden *g, const char *file, struct err *e)
 {
     struct arena *a = g->call->arena;
@@ -331,10 +254,7 @@ static bool list_add(struct golden *g, const char *file, struct err *e)
                        .folder = slash ? arena_format(a, "%.*s", slash == file ? 1 : (int)(slash - file), file) : NULL};
     if (!bytes_read(file, a, &b, e)) return false;
     if (strlen(b.at) != b.n) return err_set(e, ERR_SCENE, "%s: is no list of scenes, which is text", file);
-    make_room(g, lines_in(b.at));
-    for (char *p = b.at, *next; p; p = next) {
-        next = strchr(p, '\n');
-        if (next) *next++ = '\0';
+    for (char *rest = b.at, *p; (p = strsep(&rest, "\n"));) {
         p[strcspn(p, "\r")] = '\0';
         l->number++;
         if (!split(l, p, a, e) || (l->n && !scene_add(g, l, e))) return false;
@@ -352,7 +272,6 @@ static bool golden_list(struct golden *g, struct err *e)
         const char *dot = strrchr(file, '.');
         bool scene = dot && (!strcmp(dot, ".yaml") || !strcmp(dot, ".yml"));
         g->whole = g->whole && !scene;
-        if (scene) make_room(g, 1);
         if (scene ? !scene_add(g, &l, e) : !list_add(g, file, e)) return false;
     }
     for (int i = 0; i < g->n; i++)
@@ -366,11 +285,6 @@ static bool golden_list(struct golden *g, struct err *e)
 
 /* What `rasp golden` prints: lines for people, or the Test Anything Protocol, version 13, each failure with a YAML
  * block. */
-
-void golden_report_begin(const struct golden *g, int points)
-{
-    if (g->tap) printf("TAP version 13\n1..%d\n", points);
-}
 
 /* 'text' in YAML. */
 static void put_quoted(const struct golden *g, const char *text)
@@ -447,11 +361,6 @@ void golden_report_strays(const struct golden *g, const char *const *strays, int
     }
     for (; *strays; strays++)
         printf("FAILED  %s: %s\n", text_shown(g->call->arena, *strays), says);
-}
-
-void golden_report_end(const struct golden *g, int good, int points)
-{
-    if (!g->tap && (!g->quiet || good < points)) printf("%d passed, %d failed\n", good, points - good);
 }
 
 /* rasp golden: sounds and tables that are kept, and whether scenes still make them. */

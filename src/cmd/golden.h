@@ -12,7 +12,7 @@ struct golden_file {
     char sha256[HASH_TEXT];
 };
 
-struct golden_files { /* of one scene, by name                                  */
+struct golden_files { /* by name                                               */
     struct golden_file *list;
     int n;
 };
@@ -31,27 +31,21 @@ struct golden_scene {
     struct err failed;           /* kind ERR_NONE: read, and rendered so far               */
     struct golden_files made[2]; /* by the first and the second render                     */
     struct golden_problem *problems;
-    int n_problems, room;
+    int n_problems;
     const char *note;    /* of what is within its tolerances; NULL: nothing        */
     struct arena *arena; /* of what one thread at a time finds                     */
-};
-
-struct golden_sum {
-    const char *name; /* NAME/sound.wav */
-    char sha256[HASH_TEXT];
 };
 
 struct golden {
     struct cmd_call *call;
     struct golden_scene *scenes;
     int n;
-    bool whole;              /* all operands are lists: nothing else should be kept    */
-    const char *kept;        /* folder of files; NULL: hashes only                     */
-    const char *hashes;      /* file of hashes; NULL: none                             */
-    struct golden_sum *sums; /* its lines, by name                                     */
-    int n_sums;
-    const char *work; /* folder of the renders                                  */
-    bool stays;       /* ... of scenes that fail stays                          */
+    bool whole;               /* all operands are lists: nothing else should be kept    */
+    const char *kept;         /* folder of files; NULL: hashes only                     */
+    const char *hashes;       /* file of hashes; NULL: none                             */
+    struct golden_files sums; /* its lines, NAME/FILE                                   */
+    const char *work;         /* folder of the renders                                  */
+    bool stays;               /* ... of scenes that fail stays                          */
     bool effective, tap, quiet;
     int threads;
 };
@@ -59,14 +53,15 @@ struct golden {
 /* What is kept. */
 bool golden_kept_read(struct golden *g, struct err *e); /* the file of hashes. ERR_INPUT, ERR_SCENE */
 struct golden_files golden_kept_of(const struct golden *g, const char *scene, struct arena *a,
-                                   struct err *e); /* ERR_INPUT */
-const struct golden_sum *golden_kept_sum(const struct golden *g, const char *scene, const char *file, struct arena *a);
+                                   struct err *e);                        /* ERR_INPUT */
 const char **golden_kept_strays(const struct golden *g, struct arena *a); /* NAME/FILE of no scene; ends with NULL */
-const struct golden_file *golden_kept_find(const struct golden_files *files, const char *name);
-void golden_kept_sort(struct golden_files *files);
 
-/* The folder of the renders, and one render of a scene into it, by any thread. pass 0 or 1; from: the scene's file, or
- * NULL for it as read. */
+struct golden_file *golden_add(struct golden_files *files, const char *name, struct arena *a);
+const struct golden_file *golden_find(const struct golden_files *files, const char *name);
+void golden_sort(struct golden_files *files);
+bool golden_has(const struct golden *g, const char *name, size_t n); /* is name[0..n) that of a scene? */
+
+/* The folder of the renders. */
 bool golden_run_folder(struct golden *g, struct err *e);
 void golden_run_end(const struct golden *g);
 
@@ -75,9 +70,7 @@ int golden_run_check(struct golden *g, struct err *e);
 int golden_run_update(struct golden *g, struct err *e);
 
 /* What is printed. */
-void golden_report_begin(const struct golden *g, int points);
 void golden_report_scene(const struct golden *g, const struct golden_scene *s, int number);
 void golden_report_strays(const struct golden *g, const char *const *strays, int number);
-void golden_report_end(const struct golden *g, int good, int points);
 
 #endif

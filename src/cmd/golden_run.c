@@ -25,9 +25,6 @@
 
 static const char *const passes[2] = {"first", "again"};
 
-static void golden_run_judge_add(struct golden_scene *s, const char *file, const char *report, const char *format, ...)
-    __attribute__((format(printf, 4, 5)));
-
 bool golden_run_folder(struct golden *g, struct err *e)
 {
     const char *given = args_value(&g->call->args, "output");
@@ -42,8 +39,8 @@ bool golden_run_folder(struct golden *g, struct err *e)
     return g->work != NULL;
 }
 
-static const char *golden_run_render_path(const struct golden *g, const struct golden_scene *s, int pass,
-                                          const char *file, struct arena *a)
+static const char *path_of(const struct golden *g, const struct golden_scene *s, int pass, const char *file,
+                           struct arena *a)
 {
     return arena_format(a, "%s/%s/%s/%s", g->work, s->name, passes[pass], file);
 }
@@ -52,37 +49,33 @@ static const char *golden_run_render_path(const struct golden *g, const struct g
 static bool note_files(struct golden_scene *s, int pass, const struct render_report *r, struct err *e)
 {
     struct golden_files *made = &s->made[pass];
-    *made = (struct golden_files){ARENA_TAKE(s->arena, struct golden_file, r->n_files + 1), 0};
+    *made = (struct golden_files){NULL, 0};
     for (int i = 0; i < r->n_files; i++) {
         const struct render_file *f = &r->files[i];
         if (!strcmp(f->kind, "scene") || !strcmp(f->kind, "summary")) continue;
-        made->list[made->n].name = arena_text(s->arena, strrchr(f->path, '/') + 1);
-        if (!hash_file(f->path, made->list[made->n++].sha256, e)) return false;
+        struct golden_file *to = golden_add(made, arena_text(s->arena, strrchr(f->path, '/') + 1), s->arena);
+        if (!hash_file(f->path, to->sha256, e)) return false;
     }
-    golden_kept_sort(made);
+    golden_sort(made);
     return true;
 }
 
-static bool into(const struct golden *g, struct golden_scene *s, const char *folder, struct err *e)
-{
-    const char *outer = arena_format(s->arena, "%s/%s", g->work, s->name);
-    interrupt_hold();
-    bool there = (mkdir(outer, 0777) == 0 || errno == EEXIST) && (mkdir(folder, 0777) == 0 || errno == EEXIST);
-    interrupt_go();
-    return there || err_set(e, ERR_CREATE, "the folder %s cannot be created: %s", folder, strerror(errno));
-}
-
-static bool golden_run_render(const struct golden *g, struct golden_scene *s, int pass, const char *from, struct err *e)
+static bool render(const struct golden *g, struct golden_scene *s, int pass, const char *from, struct err *e)
 {
     struct arena *a = arena_open();
-    const char *base = golden_run_render_path(g, s, pass, "sound", a), *messages = "";
+    const char *base = path_of(g, s, pass, "sound", a), *messages = "";
     struct scene read;
     struct render_report report;
-    bool ok = into(g, s, golden_run_render_path(g, s, pass, "", a), e) &&
-              (!from || scene_read(from, NULL, a, &read, &messages, e)) &&
-              (render_scene(from ? &read : &s->scene, base, a, &report, e) ||
-               scene_places_tell(from ? &read : &s->scene, e)) &&
-              note_files(s, pass, &report, e);
+    const char *folder = path_of(g, s, pass, "", a), *outer = arena_format(a, "%s/%s", g->work, s->name);
+    interrupt_hold();
+    bool ok = (mkdir(outer, 0777) == 0 || errno == EEXIST) && (mkdir(folder, 0777) == 0 || errno == EEXIST);
+    interrupt_go();
+    if (!ok)
+        err_set(e, ERR_CREATE, "the folder %s cannot be created: %s", arena_text(s->arena, folder), strerror(errno));
+    ok = ok && (!from || scene_read(from, NULL, a, &read, &messages, e)) &&
+         (render_scene(from ? &read : &s->scene, base, a, &report, e) ||
+          scene_places_tell(from ? &read : &s->scene, e)) &&
+         note_files(s, pass, &report, e);
     arena_close(a);
     return ok;
 }
@@ -103,17 +96,17 @@ static void clear(const char *folder)
     rmdir(folder);
 }
 
-static void golden_run_render_clear(const struct golden *g, const struct golden_scene *s)
+static void clear_renders(const struct golden *g, const struct golden_scene *s)
 {
     for (int pass = 0; pass < 2; pass++)
-        clear(golden_run_render_path(g, s, pass, "", s->arena));
+        clear(path_of(g, s, pass, "", s->arena));
     rmdir(arena_format(s->arena, "%s/%s", g->work, s->name));
 }
 
 void golden_run_end(const struct golden *g)
 {
     for (int i = 0; g->work && !g->stays && i < g->n; i++)
-        golden_run_render_clear(g, &g->scenes[i]);
+        clear_renders(g, &g->scenes[i]);
     if (g->work) {
         rmdir(g->work);
         interrupt_forget(g->work);
@@ -123,18 +116,15 @@ void golden_run_end(const struct golden *g)
 /* What `rasp golden` has against a scene: files that are missing, stray, or not the same bytes; of these, how far they
  * are off, by `rasp compare`. */
 
-static void golden_run_judge_add(struct golden_scene *s, const char *file, const char *report, const char *format, ...)
+static void __attribute__((format(printf, 4, 5)))
+problem(struct golden_scene *s, const char *file, const char *report, const char *format, ...)
 {
     char text[1200];
     va_list list;
     va_start(list, format);
     vsnprintf(text, sizeof text, format, list);
     va_end(list);
-    if (s->n_problems == s->room) {
-        struct golden_problem *more = ARENA_TAKE(s->arena, struct golden_problem, s->room = 2 * s->room + 4);
-        if (s->n_problems) memcpy(more, s->problems, (size_t)s->n_problems * sizeof *more);
-        s->problems = more;
-    }
+    s->problems = arena_more(s->arena, s->problems, s->n_problems, sizeof *s->problems);
     s->problems[s->n_problems++] = (struct golden_problem){file, arena_text(s->arena, text), report};
 }
 
@@ -168,16 +158,14 @@ static void judge_bytes(struct golden_scene *s, const char *name, const char *co
     struct err why = {0};
     const char *report;
     int code = measure(s, files, &report, &why);
-    bool sound = strlen(name) > 4 && !strcmp(name + strlen(name) - 4, ".wav"),
-         exact = sound ? s->sounds.exact : s->tables.exact;
+    bool sound = text_ends(name, ".wav"), exact = sound ? s->sounds.exact : s->tables.exact;
     if (why.kind)
-        golden_run_judge_add(s, name, NULL, "is not %s, and cannot be compared with it: %s", what, why.text);
+        problem(s, name, NULL, "is not %s, and cannot be compared with it: %s", what, why.text);
     else if (code)
-        golden_run_judge_add(s, name, report, "is not %s%s", what, exact ? "" : ", nor within its tolerances");
+        problem(s, name, report, "is not %s%s", what, exact ? "" : ", nor within its tolerances");
     else if (exact)
-        golden_run_judge_add(s, name, NULL,
-                             "has the same %s as %s, but not the same bytes: what stands around them differs",
-                             sound ? "samples" : "cells", what);
+        problem(s, name, NULL, "has the same %s as %s, but not the same bytes: what stands around them differs",
+                sound ? "samples" : "cells", what);
     else
         s->note = arena_format(s->arena, "%s%s%s", s->note ? s->note : "", s->note ? ", " : "", name);
 }
@@ -185,22 +173,22 @@ static void judge_bytes(struct golden_scene *s, const char *name, const char *co
 /* Is the kept file the one that was written? */
 static void judge_kept(const struct golden *g, struct golden_scene *s, const struct golden_file *kept)
 {
-    const struct golden_sum *sum = g->hashes && g->kept ? golden_kept_sum(g, s->name, kept->name, s->arena) : NULL;
+    const struct golden_file *sum =
+        g->hashes && g->kept ? golden_find(&g->sums, arena_format(s->arena, "%s/%s", s->name, kept->name)) : NULL;
     if (sum && strcmp(sum->sha256, kept->sha256) != 0)
-        golden_run_judge_add(s, kept->name, NULL,
-                             "the kept file is not the one whose hash is kept in %s: it was changed or damaged since",
-                             g->hashes);
+        problem(s, kept->name, NULL,
+                "the kept file is not the one whose hash is kept in %s: it was changed or damaged since", g->hashes);
     else if (!sum && g->hashes && g->kept)
-        golden_run_judge_add(s, kept->name, NULL, "has no hash in %s", g->hashes);
+        problem(s, kept->name, NULL, "has no hash in %s", g->hashes);
 }
 
 static void judge_file(const struct golden *g, struct golden_scene *s, const struct golden_file *kept, int pass)
 {
-    const struct golden_file *made = golden_kept_find(&s->made[pass], kept->name);
-    const char *new = golden_run_render_path(g, s, pass, kept->name, s->arena);
+    const struct golden_file *made = golden_find(&s->made[pass], kept->name);
+    const char *new = path_of(g, s, pass, kept->name, s->arena);
     if (pass == 0) judge_kept(g, s, kept);
     if (!made)
-        golden_run_judge_add(s, kept->name, NULL, "is kept, but not made any more");
+        problem(s, kept->name, NULL, "is kept, but not made any more");
     else if (strcmp(made->sha256, kept->sha256) == 0)
         return;
     else if (g->kept)
@@ -208,52 +196,49 @@ static void judge_file(const struct golden *g, struct golden_scene *s, const str
                     (const char *[]){arena_format(s->arena, "%s/%s/%s", g->kept, s->name, kept->name), new},
                     pass ? "what is kept (rendered from the effective scene)" : "what is kept");
     else
-        golden_run_judge_add(
+        problem(
             s, kept->name, NULL,
             "is not what is kept%s: its sha256 is %s, where %s has %s; how far it is off only kept files could tell",
             pass ? " (rendered from the effective scene)" : "", made->sha256, g->hashes, kept->sha256);
 }
 
 /* what was made against what is kept       */
-static void golden_run_judge(const struct golden *g, struct golden_scene *s, int pass)
+static void judge(const struct golden *g, struct golden_scene *s, int pass)
 {
     struct err why = {0};
     struct golden_files kept = golden_kept_of(g, s->name, s->arena, &why);
     if (why.kind)
-        golden_run_judge_add(s, "", NULL, "%s", why.text);
+        problem(s, "", NULL, "%s", why.text);
     else if (s->made[pass].n == 0)
-        golden_run_judge_add(s, "", NULL, "it makes neither a sound nor a table: there is nothing to keep");
+        problem(s, "", NULL, "it makes neither a sound nor a table: there is nothing to keep");
     else if (kept.n == 0) {
         struct arena *a = s->arena;
-        golden_run_judge_add(s, "", NULL, "nothing is kept of it; this makes it: rasp golden update%s%s%s%s %s",
-                             g->kept ? " --kept " : "", g->kept ? g->kept : "", g->hashes ? " --hashes " : "",
-                             g->hashes ? g->hashes : "",
-                             *s->at ? arena_format(a, "%.*s", (int)(strchr(s->at, ':') - s->at), s->at) : s->file);
+        problem(s, "", NULL, "nothing is kept of it; this makes it: rasp golden update%s%s%s%s %s",
+                g->kept ? " --kept " : "", g->kept ? g->kept : "", g->hashes ? " --hashes " : "",
+                g->hashes ? g->hashes : "",
+                *s->at ? arena_format(a, "%.*s", (int)(strchr(s->at, ':') - s->at), s->at) : s->file);
     }
     for (int i = 0; !why.kind && i < kept.n; i++)
         judge_file(g, s, &kept.list[i], pass);
     for (int i = 0; !why.kind && kept.n && i < s->made[pass].n; i++)
-        if (!golden_kept_find(&kept, s->made[pass].list[i].name))
-            golden_run_judge_add(s, s->made[pass].list[i].name, NULL, "is made, but not kept");
+        if (!golden_find(&kept, s->made[pass].list[i].name))
+            problem(s, s->made[pass].list[i].name, NULL, "is made, but not kept");
 }
 
 /* ... by the first render and the second  */
-static void golden_run_judge_twice(const struct golden *g, struct golden_scene *s)
+static void judge_twice(const struct golden *g, struct golden_scene *s)
 {
     s->sounds.exact = s->tables.exact = true;
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < s->made[pass].n; i++) {
-            const struct golden_file *one = &s->made[pass].list[i],
-                                     *other = golden_kept_find(&s->made[1 - pass], one->name);
-            const char *files[2] = {golden_run_render_path(g, s, 0, one->name, s->arena),
-                                    golden_run_render_path(g, s, 1, one->name, s->arena)};
+            const struct golden_file *one = &s->made[pass].list[i], *other = golden_find(&s->made[1 - pass], one->name);
+            const char *files[2] = {path_of(g, s, 0, one->name, s->arena), path_of(g, s, 1, one->name, s->arena)};
             if (!other)
-                golden_run_judge_add(s, one->name, NULL, "was made by the %s render only", pass ? "second" : "first");
+                problem(s, one->name, NULL, "was made by the %s render only", pass ? "second" : "first");
             else if (pass == 0 && strcmp(one->sha256, other->sha256) != 0)
                 judge_bytes(s, one->name, files, "what the first render made");
         }
-    if (s->made[0].n == 0)
-        golden_run_judge_add(s, "", NULL, "it makes neither a sound nor a table: there is nothing to keep");
+    if (s->made[0].n == 0) problem(s, "", NULL, "it makes neither a sound nor a table: there is nothing to keep");
 }
 
 /* rasp golden check: every scene rendered, and again from its effective scene where that is asked for, against what is
@@ -266,12 +251,11 @@ static bool check_scene(void *self, int i)
 {
     const struct golden *g = self;
     struct golden_scene *s = &g->scenes[i];
-    if (!s->failed.kind && golden_run_render(g, s, 0, NULL, &s->failed)) {
-        golden_run_judge(g, s, 0);
+    if (!s->failed.kind && render(g, s, 0, NULL, &s->failed)) {
+        judge(g, s, 0);
         bool again = g->effective && s->n_problems == 0;
-        if (again &&
-            golden_run_render(g, s, 1, golden_run_render_path(g, s, 0, "sound.scene.yaml", s->arena), &s->failed))
-            golden_run_judge(g, s, 1);
+        if (again && render(g, s, 1, path_of(g, s, 0, "sound.scene.yaml", s->arena), &s->failed))
+            judge(g, s, 1);
         else if (again)
             err_at(&s->failed, "rendered from the effective scene");
     }
@@ -283,16 +267,16 @@ static void check_took(void *self, int i)
     const struct golden *g = self;
     struct golden_scene *s = &g->scenes[i];
     if (interrupted(s)) return;
-    if (s->failed.kind) golden_run_judge_add(s, "", NULL, "%s", s->failed.text);
+    if (s->failed.kind) problem(s, "", NULL, "%s", s->failed.text);
     golden_report_scene(g, s, i + 1);
-    if (!g->stays || s->n_problems == 0) golden_run_render_clear(g, s);
+    if (!g->stays || s->n_problems == 0) clear_renders(g, s);
 }
 
 int golden_run_check(struct golden *g, struct err *e)
 {
     int points = g->n + g->whole, good = 0, code = 0;
     if (!golden_kept_read(g, e)) return (int)e->kind;
-    golden_report_begin(g, points);
+    if (g->tap) printf("TAP version 13\n1..%d\n", points);
     if (pool_run(&(struct pool_work){
             .n = g->n, .threads = g->threads, .context = g, .job = check_scene, .took = check_took}) < g->n ||
         interrupt_seen()) {
@@ -308,7 +292,7 @@ int golden_run_check(struct golden *g, struct err *e)
         golden_report_strays(g, strays, points);
         good += !*strays;
     }
-    golden_report_end(g, good, points);
+    if (!g->tap && (!g->quiet || good < points)) printf("%d passed, %d failed\n", good, points - good);
     return code ? code : good < points ? ERR_DIFFERS : 0;
 }
 
@@ -326,7 +310,7 @@ static bool render_one(void *self, int i)
 {
     const struct pass *p = self;
     struct golden_scene *s = &p->g->scenes[i];
-    return golden_run_render(p->g, s, p->number, NULL, &s->failed) && !interrupt_seen();
+    return render(p->g, s, p->number, NULL, &s->failed) && !interrupt_seen();
 }
 
 static bool none_failed(const struct golden *g, struct err *e)
@@ -358,8 +342,8 @@ static bool same_twice(const struct golden *g, struct err *e)
     int unequal = 0;
     for (int i = 0; i < g->n; i++) {
         struct golden_scene *s = &g->scenes[i];
-        golden_run_judge_twice(g, s);
-        if (s->n_problems && unequal++ == 0) golden_report_begin(g, g->n);
+        judge_twice(g, s);
+        if (s->n_problems && unequal++ == 0 && g->tap) printf("TAP version 13\n1..%d\n", g->n);
         if (s->n_problems) golden_report_scene(g, s, i + 1);
     }
     return !unequal ||
@@ -451,16 +435,16 @@ static bool write_scene(struct writing *w, const struct golden_scene *s, struct 
     const char *folder = arena_format(a, "%s/%s", g->kept ? g->kept : "", s->name);
     if (e->kind || (g->kept && !make_folder(w, folder, e))) return false;
     for (int i = 0; i < s->made[0].n; i++) {
-        const struct golden_file *made = &s->made[0].list[i], *old = golden_kept_find(&kept, made->name);
+        const struct golden_file *made = &s->made[0].list[i], *old = golden_find(&kept, made->name);
         bool same = old && strcmp(old->sha256, made->sha256) == 0;
         w->changed += !same;
         say(g, same ? "same" : old ? "changed" : "new", s->name, made->name);
         if (g->kept && !same &&
-            !copy(w, golden_run_render_path(g, s, 0, made->name, a), arena_format(a, "%s/%s", folder, made->name), e))
+            !copy(w, path_of(g, s, 0, made->name, a), arena_format(a, "%s/%s", folder, made->name), e))
             return false;
     }
     for (int i = 0; i < kept.n; i++)
-        if (!golden_kept_find(&s->made[0], kept.list[i].name)) {
+        if (!golden_find(&s->made[0], kept.list[i].name)) {
             w->changed++;
             say(g, "removed", s->name, kept.list[i].name);
             if (g->kept) w->gone[w->n_gone++] = arena_format(a, "%s/%s", folder, kept.list[i].name);
@@ -468,70 +452,28 @@ static bool write_scene(struct writing *w, const struct golden_scene *s, struct 
     return true;
 }
 
-static int by_name(const void *a, const void *b)
-{
-    return strcmp(((const struct golden_sum *)a)->name, ((const struct golden_sum *)b)->name);
-}
-
-static bool is_ours(const struct golden *g, const char *sum)
-{
-    size_t n = strcspn(sum, "/");
-    for (int i = 0; i < g->n; i++)
-        if (strlen(g->scenes[i].name) == n && !strncmp(g->scenes[i].name, sum, n)) return true;
-    return false;
-}
-
 /* Lines of other scenes stay, but where lists say what all scenes are. */
 static bool write_hashes(struct writing *w, struct err *e)
 {
     struct golden *g = w->g;
-    int n = 0, most = g->n_sums;
+    struct arena *a = g->call->arena;
+    struct golden_files all = {NULL, 0};
+    for (int i = 0; i < g->sums.n; i++)
+        if (!g->whole && !golden_has(g, g->sums.list[i].name, strcspn(g->sums.list[i].name, "/")))
+            *golden_add(&all, "", a) = g->sums.list[i];
     for (int i = 0; i < g->n; i++)
-        most += g->scenes[i].made[0].n;
-    struct golden_sum *all = ARENA_TAKE(g->call->arena, struct golden_sum, most);
-    for (int i = 0; i < g->n_sums; i++)
-        if (!g->whole && !is_ours(g, g->sums[i].name)) all[n++] = g->sums[i];
-    for (int i = 0; i < g->n; i++)
-        for (int k = 0; k < g->scenes[i].made[0].n; k++, n++) {
-            all[n].name = arena_format(g->call->arena, "%s/%s", g->scenes[i].name, g->scenes[i].made[0].list[k].name);
-            memcpy(all[n].sha256, g->scenes[i].made[0].list[k].sha256, HASH_TEXT);
+        for (int k = 0; k < g->scenes[i].made[0].n; k++) {
+            const struct golden_file *made = &g->scenes[i].made[0].list[k];
+            const char *name = arena_format(a, "%s/%s", g->scenes[i].name, made->name);
+            memcpy(golden_add(&all, name, a)->sha256, made->sha256, HASH_TEXT);
         }
-    qsort(all, (size_t)n, sizeof *all, by_name);
+    golden_sort(&all);
     struct outfile *o = &w->files[w->n];
     if (!mark_links(g->hashes, args_given(&g->call->args, "force"), e) || !outfile_open(o, g->hashes, e)) return false;
     w->n++;
-    for (int i = 0; i < n; i++)
-        fprintf(o->stream, "%s  %s\n", all[i].sha256, all[i].name);
+    for (int i = 0; i < all.n; i++)
+        fprintf(o->stream, "%s  %s\n", all.list[i].sha256, all.list[i].name);
     return outfile_settle(o, e);
-}
-
-/* Every file that is about to be complete is open. */
-static void allow_files(int n)
-{
-    struct rlimit limit;
-    if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= (rlim_t)n + 64) return;
-    limit.rlim_cur = limit.rlim_max;
-    setrlimit(RLIMIT_NOFILE, &limit);
-}
-
-static bool settle_all(struct writing *w, struct err *e)
-{
-    struct golden *g = w->g;
-    if (g->kept && !make_folder(w, g->kept, e)) return false;
-    for (int i = 0; i < g->n; i++)
-        if (!write_scene(w, &g->scenes[i], e)) return false;
-    return !g->hashes || write_hashes(w, e);
-}
-
-static bool commit_all(struct writing *w, struct err *e)
-{
-    int files = w->n - (w->g->hashes != NULL);
-    for (int i = 0; i < files; i++)
-        if (!outfile_commit(&w->files[i], e)) return false;
-    for (int i = 0; i < w->n_gone; i++)
-        if (unlink(w->gone[i]) != 0)
-            return err_set(e, ERR_IO, "%s: cannot be removed: %s", w->gone[i], strerror(errno));
-    return files == w->n || outfile_commit(&w->files[files], e);
 }
 
 static bool write_all(struct golden *g, struct writing *w, struct err *e)
@@ -548,11 +490,23 @@ static bool write_all(struct golden *g, struct writing *w, struct err *e)
                           .made = ARENA_TAKE(a, const char *, g->n + 1)};
     for (int i = 0; i < most; i++)
         w->files[i].fd = -1;
-    allow_files(most);
-    bool ok = !e->kind && settle_all(w, e);
+    struct rlimit limit; /* every file that is about to be complete is open */
+    if (getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < (rlim_t)most + 64) {
+        limit.rlim_cur = limit.rlim_max;
+        setrlimit(RLIMIT_NOFILE, &limit);
+    }
+    bool ok = !e->kind && (!g->kept || make_folder(w, g->kept, e));
+    for (int i = 0; ok && i < g->n; i++)
+        ok = write_scene(w, &g->scenes[i], e);
+    ok = ok && (!g->hashes || write_hashes(w, e));
+    int files = w->n - (g->hashes != NULL);
     interrupt_hold();
     if (ok) forget_folders(w);
-    ok = ok && commit_all(w, e);
+    for (int i = 0; ok && i < files; i++)
+        ok = outfile_commit(&w->files[i], e);
+    for (int i = 0; ok && i < w->n_gone; i++)
+        ok = unlink(w->gone[i]) == 0 || err_set(e, ERR_IO, "%s: cannot be removed: %s", w->gone[i], strerror(errno));
+    if (ok && g->hashes) ok = outfile_commit(&w->files[files], e);
     interrupt_go();
     for (int i = 0; i < w->n; i++)
         outfile_drop(&w->files[i]);

@@ -24,10 +24,8 @@ static void add(struct plot_page *p, const struct plot_way *way)
     for (int i = 1; i < way->n; i++)
         moves = moves || way->at[i][0] != way->at[0][0] || way->at[i][1] != way->at[0][1];
     if (!moves) return;
-    struct plot_way *ways = ARENA_TAKE(p->arena, struct plot_way, p->n_ways + 1);
-    if (p->n_ways) memcpy(ways, p->ways, (size_t)p->n_ways * sizeof *ways);
-    ways[p->n_ways++] = *way;
-    p->ways = ways;
+    p->ways = arena_more(p->arena, p->ways, p->n_ways, sizeof *p->ways);
+    p->ways[p->n_ways++] = *way;
 }
 
 /* Columns of x, y and speed; the last may be missing. */

@@ -131,11 +131,7 @@ struct warning *tell_add(struct warning **all, const char *file, const char *tex
 {
     struct warning *w = same(all, file, text, exact, a);
     if (w->n > 0 && !strcmp(w->files[w->n - 1], file)) return w;
-    if (w->n == w->room) {
-        const char **more = ARENA_TAKE(a, const char *, w->room = 2 * w->room + 4);
-        if (w->n > 0) memcpy(more, w->files, (size_t)w->n * sizeof *more);
-        w->files = more;
-    }
+    w->files = arena_more(a, w->files, w->n, sizeof *w->files);
     w->files[w->n++] = file;
     return w;
 }

@@ -58,7 +58,7 @@ void tell_paint(FILE *f, const char *lines);
 
 struct warning {
     const char *text, **files; /* of the first; files [n] that have it */
-    int n, room;
+    int n;
     bool numbers, other;  /* some have it with other numbers; so has the last */
     bool stimuli;         /* files are names of stimuli of a set; the caller's */
     struct warning *next; /* in the order they came; NULL: last   */
