@@ -406,7 +406,7 @@ static bool find_options(struct cmd_call *c, struct analysis *a, struct err *e)
                                 .column = args_value(&c->args, "column"),
                                 .options = impact_find_options};
     g->options.both = args_given(&c->args, "signed");
-    return cmd_word(c, "distribution", words, &a->distribution, e) &&
+    return args_word(&c->args, "distribution", words, &a->distribution, e) &&
            args_number(&c->args, "scale", positive, &g->scale, e) &&
            args_number(&c->args, "rate", rates, &g->rate, e) &&
            args_whole(&c->args, "channel", (const long[2]){1, 1024}, &g->channel, e) &&
@@ -522,12 +522,12 @@ static int analyse_run(struct cmd_call *c, struct err *e)
 {
     struct analysis *a = ARENA_TAKE(c->arena, struct analysis, 1);
     const char *output = args_value(&c->args, "output");
-    static const char *const formats[] = {"png", "svg", NULL};
+    static const char *const formats[] = {"png", "svg"};
     bool json = args_given(&c->args, "json");
     int svg = 0;
     a->arena = c->arena;
     a->force = args_given(&c->args, "force");
-    if (!cmd_word(c, "format", formats, &svg, e) || (output && !analyse_report_free(a, output, e)) ||
+    if (!cmd_either(c, "format", formats, &svg, e) || (output && !analyse_report_free(a, output, e)) ||
         !analyse_all(c, a, e))
         return (int)e->kind;
     analyse_write(c, a, svg, e);

@@ -68,23 +68,14 @@ int cmd_actions(const char *command, const struct action *table, struct cmd_call
 
 /* ------------------------------------------------------------------ values of options */
 
-bool cmd_word(const struct cmd_call *c, const char *name, const char *const *words, int *value, struct err *e)
+bool cmd_either(const struct cmd_call *c, const char *name, const char *const words[2], int *value, struct err *e)
 {
-    const char *text = args_value(&c->args, name), *all = "";
-    bool two = !words[2];
-    for (int i = 0; text && words[i]; i++) {
-        if (!strcmp(text, words[i])) {
-            *value = i;
-            return true;
-        }
-        all = arena_format(c->arena, "%s%s%s", all,
-                           i == 0         ? ""
-                           : words[i + 1] ? ", "
-                           : two          ? " nor "
-                                          : " or ",
-                           words[i]);
-    }
-    return !text || err_set(e, ERR_USAGE, "--%s: '%s' is %s %s", name, text, two ? "neither" : "not", all);
+    const char *text = args_value(&c->args, name);
+    int k = text && strcmp(text, words[0]) != 0;
+    if (text && strcmp(text, words[k]) != 0)
+        return err_set(e, ERR_USAGE, "--%s: '%s' is neither %s nor %s", name, text, words[0], words[1]);
+    if (text) *value = k;
+    return true;
 }
 
 bool cmd_quantity(const struct cmd_call *c, const char *name, enum key_dimension d, double *value, struct err *e)

@@ -83,8 +83,8 @@ bool cmd_recipe_read(struct cmd_call *c, const char *file, const char *rest, str
 /* Is it a scene, rather than a recipe? ERR_INPUT */
 bool cmd_recipe_is_scene(struct cmd_call *c, const char *file, bool *is, struct err *e);
 
-/* --NAME as one of the words, which end with NULL: *value is its place. ERR_USAGE */
-bool cmd_word(const struct cmd_call *c, const char *name, const char *const *words, int *value, struct err *e);
+/* --NAME as one of two words: *value is 0 or 1. ERR_USAGE */
+bool cmd_either(const struct cmd_call *c, const char *name, const char *const words[2], int *value, struct err *e);
 
 /* --NAME with a unit, or bare in SI units. ERR_USAGE. Of both *value is left alone when the option is not given. */
 bool cmd_quantity(const struct cmd_call *c, const char *name, enum key_dimension d, double *value, struct err *e);

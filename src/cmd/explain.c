@@ -550,14 +550,14 @@ static int explain_run(struct cmd_call *c, struct err *e)
     const char *word = c->args.n_operands ? c->args.operands[0] : NULL;
     const char **names = keys_text_names(c->arena);
     json_t *schema = schema_design(c->arena), *key = word ? design_key(schema, word) : NULL;
-    static const char *const parts[] = {"keys", "columns", NULL}, *const schemas[] = {"scene", "design", NULL};
+    static const char *const parts[] = {"keys", "columns"}, *const schemas[] = {"scene", "design"};
     int part = 0, of = 0;
     if (args_given(&c->args, "man")) {
-        if (cmd_word(c, "man", parts, &part, e) && part == 0) keys_man_print(stdout, c->arena);
+        if (cmd_either(c, "man", parts, &part, e) && part == 0) keys_man_print(stdout, c->arena);
         for (const struct table_column *t = force_table_columns; part == 1 && t->name; t++)
             printf(".It Ic %s\n%c%s.\n", t->name, toupper((unsigned char)t->meaning[0]), t->meaning + 1);
     } else if (args_given(&c->args, "schema")) {
-        if (cmd_word(c, "schema", schemas, &of, e)) {
+        if (cmd_either(c, "schema", schemas, &of, e)) {
             struct report r = {.out = stdout, .json = true, .at = {of ? json_incref(schema) : schema_scene(c->arena)}};
             report_close(&r, 0, e);
         }

@@ -120,7 +120,7 @@ static bool body_read(struct cmd_call *c, const char *file, struct body *b, stru
     static const char *const words[] = {"surface", "scraper", "ball", NULL};
     int word = 0;
     bool scene;
-    if (!cmd_word(c, "body", words, &word, e)) return false;
+    if (!args_word(&c->args, "body", words, &word, e)) return false;
     bool tool = word > 0;
     b->key = words[word];
     if (!cmd_recipe_is_scene(c, file, &scene, e)) return false;

@@ -49,7 +49,7 @@ static double size_of(const struct compute *k)
 static bool read_face(struct compute *k, struct err *e)
 {
     int face = BOUNDARY_TOP;
-    if (!cmd_word(k->c, "face", boundary_map_sides, &face, e)) return false;
+    if (!args_word(&k->c->args, "face", boundary_map_sides, &face, e)) return false;
     boundary_map_make(&k->mesh, &k->boundary, face, &k->chart);
     const double *low = k->boundary.low, *high = k->boundary.high;
     if (face >= BOUNDARY_AROUND && (low[0] >= 0 || high[0] <= 0 || low[1] >= 0 || high[1] <= 0))

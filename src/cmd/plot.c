@@ -443,13 +443,13 @@ static const struct args_option plot_options[] = {
     {0},
 };
 
-static const char *const formats[] = {"png", "svg", NULL};
+static const char *const formats[] = {"png", "svg"};
 
 static bool plot_format(struct cmd_call *c, struct plot_page *p, struct err *e)
 {
     const char *o = args_value(&c->args, "output");
     int svg = o && text_ends(o, ".svg");
-    if (!cmd_word(c, "format", formats, &svg, e)) return false;
+    if (!cmd_either(c, "format", formats, &svg, e)) return false;
     if (o && !text_ends(o, ".png") && !text_ends(o, ".svg"))
         return err_set(e, ERR_USAGE, "--output %s: must end in .png or .svg", o);
     p->svg = svg;
@@ -509,7 +509,7 @@ static int gallery_run(struct cmd_call *c, struct err *e)
     for (int k = 0; k < 3; k++)
         if (args_given(&c->args, others[k]))
             return err_set(e, ERR_USAGE, "--%s: not of a gallery, which shows whole sounds", others[k]), (int)e->kind;
-    if (!cmd_word(c, "format", formats, &svg, e)) return (int)e->kind;
+    if (!cmd_either(c, "format", formats, &svg, e)) return (int)e->kind;
     g.svg = svg;
     if (g.output && !text_ends(g.output, ".html"))
         err_set(e, ERR_USAGE, "--output %s: a gallery is a page of HTML, its name must end in .html", g.output);

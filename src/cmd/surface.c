@@ -49,8 +49,8 @@ static bool surface_options(struct cmd_call *c, enum heightfile_holes holes, str
     return surface_length(c, "pitch", pitch, &o->pitch, e) &&
            surface_length(c, "height-scale", scale, &o->height_scale, e) &&
            surface_length(c, "height-range", range, &o->height_range, e) &&
-           cmd_word(c, "holes", hole_words, &o->holes, e) &&
-           cmd_word(c, "levelling", levelling_words, &o->levelling, e);
+           args_word(&c->args, "holes", hole_words, &o->holes, e) &&
+           args_word(&c->args, "levelling", levelling_words, &o->levelling, e);
 }
 
 /* ------------------------------------------------------------------ info */
@@ -78,7 +78,7 @@ struct surface_info {
 #define NOTE(i, ...)                                                                                                   \
     ((i)->n_notes + 1 < NOTES ? (void)((i)->notes[(i)->n_notes++] = arena_format((i)->arena, __VA_ARGS__)) : (void)0)
 
-static const char *len(const struct surface_info *i, double x) { return heightfile_doubt_length(x, i->arena); }
+static const char *len(const struct surface_info *i, double x) { return heightfile_length_text(x, i->arena); }
 
 static void note_ends(struct surface_info *i, bool down)
 {
@@ -113,8 +113,8 @@ static void find_faults(struct surface_info *i)
              "missing points: %zu, the first at row %zu, column %zu (counted from 0): a scene needs surface.holes: "
              "fill, or a mended file",
              h->holes, h->first_hole / h->columns, h->first_hole % h->columns);
-    const char *doubts[HEIGHTFILE_DOUBTS];
-    int n = heightfile_doubt(&i->h, &heightfile_load_option_names, i->arena, doubts);
+    const char *doubts[HEIGHTFILE_WARNINGS];
+    int n = heightfile_warnings(&i->h, &heightfile_load_option_names, i->arena, doubts);
     if (i->heights.sz == 0) NOTE(i, "all heights are the same: there is nothing to be heard");
     for (int k = 0; k < n; k++)
         NOTE(i, "%s", doubts[k]);
@@ -326,7 +326,7 @@ static int surface_info_run(struct cmd_call *c, struct err *e)
 {
     struct heightfile_options o;
     int worst = 0, n = 0;
-    if (!surface_options(c, HEIGHTFILE_KEEP, &o, e)) return (int)e->kind;
+    if (!surface_options(c, HEIGHTFILE_LEAVE, &o, e)) return (int)e->kind;
     struct report r = report_open(stdout, args_given(&c->args, "json"));
     report_list(&r, "surfaces");
     for (int k = 0; k < c->args.n_operands; k++) {
@@ -536,7 +536,7 @@ static bool read_along(struct synth *s, struct err *e)
 {
     static const char *const words[] = {"path", "x", "plane", NULL};
     int own = s->scene.contacts[0].surface.along, word = -1;
-    if (!cmd_word(s->c, "along", words, &word, e)) return false;
+    if (!args_word(&s->c->args, "along", words, &word, e)) return false;
     s->along = word >= 0 ? ALONG_PATH + word : own != ALONG_AUTO ? own : s->h.rows > 1 ? ALONG_PLANE : ALONG_PATH;
     return s->h.rows == 1 || s->along == ALONG_PLANE ||
            err_set(e, ERR_SCENE, "a surface along %s is a profile: give --size one length, or --along plane",

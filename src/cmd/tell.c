@@ -155,9 +155,9 @@ void tell_as_json(struct cmd_call *c) { of(c)->json = true; }
 
 bool tell_begin(struct cmd_call *c, struct err *e)
 {
-    static const char *const formats[] = {"text", "json", NULL};
+    static const char *const formats[] = {"text", "json"};
     int json = 0;
-    if (!cmd_word(c, "diagnostics", formats, &json, e)) return false;
+    if (!cmd_either(c, "diagnostics", formats, &json, e)) return false;
     of(c)->json = json;
     return true;
 }
