@@ -55,7 +55,7 @@ static bool read_object(struct ring_choosing *c, const struct modes_ask *ask, st
                               .low = ask->band[0],
                               .top = ask->band[1],
                               .most = 4 * ask->strongest,
-                              .heard = MODES_TOP * ask->rate};
+                              .audible = MODES_TOP * ask->rate};
     if (!object_make(&c->given->object, &what, c->arena, o, &c->to->note, e))
         return err_at(e, "contact '%s'", c->contact->name);
     object_modes(o, c->given->object.origin, NULL, ask->strongest, c->arena, &c->to->modes);

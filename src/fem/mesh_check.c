@@ -167,12 +167,12 @@ static bool check_elements(struct mesh *m, struct arena *a, struct err *e)
     }
     middle_of(m, worst, at);
     if (slivers > 0)
-        mesh_note(m, a,
-                  arena_format(a,
-                               "%d of %d tetrahedra are nearly flat (radius ratio below %g; the worst, %.2g, at "
-                               "(%.4g, %.4g, %.4g) m): they are stiffer than the solid; "
-                               "optimise the mesh (gmsh -optimize_netgen)",
-                               slivers, m->elements, sliver, ratio, at[0], at[1], at[2]));
+        mesh_note(
+            m, a,
+            arena_format(a,
+                         "%d of %d tetrahedra are nearly flat (radius ratio below %g; the worst, %.2g, at (%.4g, %.4g, "
+                         "%.4g) m): they are stiffer than the solid; optimise the mesh (gmsh -optimize_netgen)",
+                         slivers, m->elements, sliver, ratio, at[0], at[1], at[2]));
     return true;
 }
 
@@ -197,8 +197,8 @@ static bool check_nodes(const struct mesh *m, double size, struct arena *a, stru
     const double *p = m->at[first];
     return err_set(e, ERR_SCENE,
                    "%s: %d nodes stand where another one stands, the first at (%.4g, %.4g, %.4g) m: parts that touch "
-                   "but are not joined, so that they would move apart; join "
-                   "them before meshing (gmsh: BooleanFragments or Coherence) or merge the nodes (Coherence Mesh)",
+                   "but are not joined, so that they would move apart; join them before meshing (gmsh: "
+                   "BooleanFragments or Coherence) or merge the nodes (Coherence Mesh)",
                    m->name, twice, p[0], p[1], p[2]);
 }
 
@@ -280,18 +280,8 @@ static bool check_bodies(const struct mesh *m, int *root, struct arena *a, struc
         if (size[i] > 0) sizes = arena_format(a, "%s%s%d", sizes, shown++ ? ", " : "", size[i]);
     return bodies == 1 || err_set(e, ERR_SCENE,
                                   "%s: %d bodies that share no face, of %s%s tetrahedra; an object is one body: save "
-                                  "one of them alone (gmsh: a physical volume), "
-                                  "or fuse them before meshing",
+                                  "one of them alone (gmsh: a physical volume), or fuse them before meshing",
                                   m->name, bodies, sizes, bodies > shown ? " ..." : "");
-}
-
-/* How they are joined: nodes, midsides, faces, bodies. */
-static bool check_joins(const struct mesh *m, const struct topology_face *f, double size, struct arena *a,
-                        struct err *e)
-{
-    int *root = topology_roots(m->elements, a);
-    return check_nodes(m, size, a, e) && (m->linear || check_midsides(m, a, e)) && check_faces(m, f, root, e) &&
-           check_bodies(m, root, a, e);
 }
 
 /* The surface of a solid is one or more closed skins: two faces at every edge, one fan of faces at every node. A skin
@@ -432,23 +422,13 @@ static void note_thin(const struct surface *s, struct arena *a)
         across += outer[t[0]] && outer[t[1]] && outer[t[2]] && outer[t[3]];
     }
     if (2 * across > s->m->elements)
-        mesh_note(s->m, a,
-                  arena_format(a,
-                               "%.0f %% of the elements reach from one side of the solid to the other: one "
-                               "element across bends right only while it is not much longer than "
-                               "thick; see whether a finer mesh changes the frequencies",
-                               100. * across / s->m->elements));
-}
-
-/* The surface: closed, touching itself nowhere; cavities; how many elements lie across. */
-static bool check_surface(struct mesh *m, const struct topology_face *f, struct arena *a, struct err *e)
-{
-    struct surface s = {.m = m};
-    collect(&s, f, a);
-    int *skin = topology_roots(s.n, a), *fan = topology_roots(3 * s.n, a);
-    if (!join(&s, skin, fan, e) || !check_fans(&s, fan, a, e) || !check_skins(&s, skin, a, e)) return false;
-    note_thin(&s, a);
-    return true;
+        mesh_note(
+            s->m, a,
+            arena_format(
+                a,
+                "%.0f %% of the elements reach from one side of the solid to the other: one element across bends right "
+                "only while it is not much longer than thick; see whether a finer mesh changes the frequencies",
+                100. * across / s->m->elements));
 }
 
 static const double smallest = 1e-3, largest = 10; /* m */
@@ -493,5 +473,14 @@ bool mesh_check(struct mesh *m, struct arena *a, struct err *e)
     double size = extent(m);
     if (!check_size(m, size, a, e) || !check_elements(m, a, e)) return false;
     struct topology_face *f = topology_faces(m, a);
-    return check_joins(m, f, size, a, e) && check_surface(m, f, a, e);
+    int *root = topology_roots(m->elements, a);
+    if (!check_nodes(m, size, a, e) || (!m->linear && !check_midsides(m, a, e)) || !check_faces(m, f, root, e) ||
+        !check_bodies(m, root, a, e))
+        return false;
+    struct surface s = {.m = m};
+    collect(&s, f, a);
+    int *skin = topology_roots(s.n, a), *fan = topology_roots(3 * s.n, a);
+    if (!join(&s, skin, fan, e) || !check_fans(&s, fan, a, e) || !check_skins(&s, skin, a, e)) return false;
+    note_thin(&s, a);
+    return true;
 }

@@ -236,61 +236,44 @@ static void blocks_mesh(const struct shapes_blocks *s, struct arena *a, struct m
 
 static const double thinnest = 1e-4; /* of the largest length: thinner ones are wrong units rather than objects */
 
-static const char *shape_list(struct arena *a)
+static const char *list(const char *const *names, struct arena *a)
 {
-    const char *all = shapes_kinds[0]->name;
-    for (int i = 1; i < SHAPES_KINDS; i++)
-        all = arena_format(a, "%s, %s", all, shapes_kinds[i]->name);
+    const char *all = names[0];
+    for (int i = 1; names[i]; i++)
+        all = arena_format(a, "%s, %s", all, names[i]);
     return all;
 }
 
-static const struct shapes_kind *kind_of(const char *name, struct arena *a, struct err *e)
+/* Index of the word; -1, and an error that begins with `none` and may end with `all` and the names: it is not there. */
+static int index_of(const char *word, const char *const *names, const char *none, const char *all, struct arena *a,
+                    struct err *e)
 {
-    const char *names[SHAPES_KINDS + 1] = {0};
-    for (int i = 0; i < SHAPES_KINDS; i++) {
-        names[i] = shapes_kinds[i]->name;
-        if (!strcmp(name, names[i])) return shapes_kinds[i];
-    }
-    const char *near = text_nearest(name, names);
+    for (int i = 0; names[i]; i++)
+        if (!strcmp(word, names[i])) return i;
+    const char *near = text_nearest(word, names);
     if (near)
-        err_set(e, ERR_USAGE, "no shape '%s'; did you mean '%s'?", name, near);
+        err_set(e, ERR_USAGE, "%s '%s'; did you mean '%s'?", none, word, near);
     else
-        err_set(e, ERR_USAGE, "no shape '%s'; shapes are %s", name, shape_list(a));
-    return NULL;
-}
-
-static const char *key_list(const struct shapes_kind *k, struct arena *a)
-{
-    const char *all = k->key[0];
-    for (int i = 1; k->key[i]; i++)
-        all = arena_format(a, "%s, %s", all, k->key[i]);
-    return arena_format(a, "%s, fineness", all);
-}
-
-/* Index of the key, SHAPES_LENGTHS: fineness; -1: none. */
-static int key_of(const struct shapes_kind *k, const char *key, struct arena *a, struct err *e)
-{
-    const char *names[SHAPES_LENGTHS + 2] = {0};
-    int n = 0;
-    for (; k->key[n]; n++) {
-        names[n] = k->key[n];
-        if (!strcmp(key, k->key[n])) return n;
-    }
-    names[n] = "fineness";
-    if (!strcmp(key, names[n])) return SHAPES_LENGTHS;
-    const char *near = text_nearest(key, names);
-    if (near)
-        err_set(e, ERR_USAGE, "%s has no '%s'; did you mean '%s'?", k->name, key, near);
-    else
-        err_set(e, ERR_USAGE, "%s has no '%s'; it has %s", k->name, key, key_list(k, a));
+        err_set(e, ERR_USAGE, "%s '%s'; %s %s", none, word, all, list(names, a));
     return -1;
+}
+
+/* The shape's keys; its fineness, if it is asked for, is the last. */
+static const char *const *keys_of(const struct shapes_kind *k, struct arena *a)
+{
+    const char **names = ARENA_TAKE(a, const char *, SHAPES_LENGTHS + 2);
+    int n = 0;
+    for (; k->key[n]; n++)
+        names[n] = k->key[n];
+    names[n] = "fineness";
+    return names;
 }
 
 static bool read_value(const struct shapes_kind *k, int key, const char *text, struct shapes_ask *q, struct arena *a,
                        struct err *e)
 {
     struct units_fault fault = {0};
-    if (key == SHAPES_LENGTHS)
+    if (!k->key[key])
         return text_int(text, 1, 6, &q->fineness) ||
                err_set(e, ERR_USAGE,
                        "fineness is '%s', and must be a whole number from 1 (coarse) to 6; 2 is the default", text);
@@ -313,13 +296,13 @@ static bool read_pairs(const struct shapes_kind *k, char *text, struct shapes_as
             return err_set(e, ERR_USAGE, "%s: '%s' is not of the form KEY=LENGTH, such as %s=10cm", k->name, text,
                            k->key[0]);
         *equals = '\0';
-        int key = key_of(k, text, a, e);
+        int key = index_of(text, keys_of(k, a), arena_format(a, "%s has no", k->name), "it has", a, e);
         if (key < 0 || !read_value(k, key, equals + 1, q, a, e)) return false;
         text = next;
     }
     for (int i = 0; i < k->needed; i++)
         if (isnan(q->length[i]))
-            return err_set(e, ERR_USAGE, "%s needs %s= (it has %s)", k->name, k->key[i], key_list(k, a));
+            return err_set(e, ERR_USAGE, "%s needs %s= (it has %s)", k->name, k->key[i], list(keys_of(k, a), a));
     return true;
 }
 
@@ -370,11 +353,15 @@ bool shapes_mesh_coarser(const char *text, double longer, struct arena *a, struc
     for (int i = 0; i < SHAPES_LENGTHS; i++)
         q.length[i] = NAN;
     if (colon) *colon = '\0';
-    const struct shapes_kind *k = kind_of(copy, a, e);
-    if (!k) return false;
+    const char *names[SHAPES_KINDS + 1] = {0};
+    for (int i = 0; i < SHAPES_KINDS; i++)
+        names[i] = shapes_kinds[i]->name;
+    int kind = index_of(copy, names, "no shape", "shapes are", a, e);
+    if (kind < 0) return false;
+    const struct shapes_kind *k = shapes_kinds[kind];
     if (!colon)
         return err_set(e, ERR_USAGE, "%s needs its lengths, such as %s:%s=10cm,...: it has %s", copy, copy, k->key[0],
-                       key_list(k, a));
+                       list(keys_of(k, a), a));
     q.nodes = k->nodes;
     if (!read_pairs(k, colon + 1, &q, a, e) || !check_proportions(k, &q, e) || (k->check && !k->check(&q, e)) ||
         !check_proportions(k, &q, e))

@@ -100,14 +100,12 @@ static bool solve(struct krylov *k)
     return true;
 }
 
-static void product(struct krylov *k) { solid_matrices_times_block(k->x->m_thin, k->u, k->z, k->lace); }
-
 /* u less its part along V, which is added to T where T's last columns are V's last block. z is M u before the second
  * time, and so M u after it to rounding. */
 static void part(struct krylov *k, bool known)
 {
     for (int pass = 0; pass < 2; pass++) {
-        product(k);
+        solid_matrices_times_block(k->x->m_thin, k->u, k->z, k->lace);
         for (int j = 0; j < WIDE && pass == 0; j++)
             k->size =
                 fmax(j ? k->size : 0.0, sqrt(cblas_ddot(k->n, k->u + (size_t)j * k->n, 1, k->z + (size_t)j * k->n, 1)));
@@ -277,18 +275,16 @@ static bool dense(struct solid_matrices *x, struct solid_pairs *p, struct err *e
     return ok;
 }
 
-/* Factor, Lanczos vectors and pairs against what the machine has. */
-static bool fits(const cholmod_factor *l, int want)
-{
-    double need = 8.0 * ((double)l->xsize + (double)l->n * (6.0 * want + 50.0));
-    return need < (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGE_SIZE);
-}
-
 static bool factorise(struct solid_matrices *x, const struct solid_search *ask, cholmod_factor **factor, struct err *e)
 {
     cholmod_sparse *a = solid_matrices_shifted(x, ask->shift);
     if (a && !*factor) *factor = cholmod_analyze(a, &x->common);
-    bool ok = a && *factor && fits(*factor, ask->want) && cholmod_factorize(a, *factor, &x->common);
+    bool ok = a && *factor;
+    if (ok) { /* factor, Lanczos vectors and pairs against what the machine has */
+        double need = 8.0 * ((double)(*factor)->xsize + (double)(*factor)->n * (6.0 * ask->want + 50.0));
+        ok = need < (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGE_SIZE) &&
+             cholmod_factorize(a, *factor, &x->common);
+    }
     if (!ok)
         solid_matrices_no_memory(x->k->ncol, e);
     else if ((*factor)->minor < (*factor)->n)

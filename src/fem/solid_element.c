@@ -323,13 +323,6 @@ static void add_stiffness(int n, double (*g)[3], const struct elastic *s, double
     }
 }
 
-static void add_mass(int n, const double *value, double weight, double m[NODES][NODES])
-{
-    for (int a = 0; a < n; a++)
-        for (int b = 0; b <= a; b++)
-            m[a][b] += weight * value[a] * value[b];
-}
-
 struct shaped {
     const double (*at)[3];
     const struct solid_lattice *lattice;
@@ -347,7 +340,9 @@ static bool integrate(const struct shaped *e, const struct rule *r, const struct
             turn(n, (const double(*)[3])cof, det, slope);
             add_stiffness(n, slope, s, det * r->weight[p], x->k);
         } else {
-            add_mass(n, value, det * r->weight[p], x->m);
+            for (int a = 0; a < n; a++)
+                for (int b = 0; b <= a; b++)
+                    x->m[a][b] += det * r->weight[p] * value[a] * value[b];
             x->volume += det * r->weight[p];
         }
     }

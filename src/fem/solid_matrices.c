@@ -387,12 +387,6 @@ static bool graph_open(const struct solid_net *m, struct graph *g)
     return true;
 }
 
-static void graph_close(struct graph *g)
-{
-    free(g->first);
-    free(g->node);
-}
-
 /* Rows of the columns of node i; counts only where there is no matrix yet. */
 static size_t fill(const struct graph *g, const struct solid_freedoms *f, cholmod_sparse *a)
 {
@@ -512,28 +506,24 @@ static bool add_all(const struct solid_net *net, const struct elastic *s, const 
     return true;
 }
 
-static void start(cholmod_common *c)
-{
-    cholmod_start(c);
-    c->print = 0;
-    c->error_handler = NULL;
-    c->supernodal = CHOLMOD_SUPERNODAL;
-    c->nmethods = 1;
-    c->method[0].ordering = CHOLMOD_METIS;
-    c->postorder = 1;
-}
-
 bool solid_matrices_open(const struct solid_net *net, const struct elastic *s, const struct solid_freedoms *f,
                          struct solid_matrices *x, struct err *e)
 {
     struct graph g;
     memset(x, 0, sizeof *x);
-    start(&x->common);
+    cholmod_start(&x->common);
+    x->common.print = 0;
+    x->common.error_handler = NULL;
+    x->common.supernodal = CHOLMOD_SUPERNODAL;
+    x->common.nmethods = 1;
+    x->common.method[0].ordering = CHOLMOD_METIS;
+    x->common.postorder = 1;
     if (graph_open(net, &g)) {
         x->k = pattern(&g, f, &x->common);
         x->m = x->k ? cholmod_copy_sparse(x->k, &x->common) : NULL;
     }
-    graph_close(&g);
+    free(g.first);
+    free(g.node);
     if (!x->m) return solid_matrices_no_memory((size_t)f->n, e);
     if (!add_all(net, s, f, x, e)) return false;
     x->m_thin = cholmod_copy_sparse(x->m, &x->common);

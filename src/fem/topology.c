@@ -141,9 +141,9 @@ int *topology_merge_at(struct topology_merge *g, const double at[3])
     return &s->number;
 }
 
-static const char warning[] = "linear elements were raised to quadratic ones with straight edges: their faces stay "
-                              "flat, so what is round wants a finer mesh "
-                              "or a quadratic one (gmsh -order 2, tetgen -o2)";
+static const char warning[] =
+    "linear elements were raised to quadratic ones with straight edges: their faces stay flat, so what is round wants "
+    "a finer mesh or a quadratic one (gmsh -order 2, tetgen -o2)";
 
 void topology_elevate(struct mesh *m, struct arena *a)
 {

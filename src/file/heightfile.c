@@ -193,20 +193,10 @@ static size_t fill_find(const struct fill *f, size_t place)
 static bool fill_neighbour(const struct heightfile *h, size_t place, int side, size_t *there)
 {
     size_t column = place % h->columns, row = place / h->columns;
-    switch (side) {
-    case 0:
-        *there = place - 1;
-        return column > 0;
-    case 1:
-        *there = place + 1;
-        return column + 1 < h->columns;
-    case 2:
-        *there = place - h->columns;
-        return row > 0;
-    default:
-        *there = place + h->columns;
-        return row + 1 < h->rows;
-    }
+    const size_t step[4] = {(size_t)-1, 1, -h->columns, h->columns};
+    const bool inside[4] = {column > 0, column + 1 < h->columns, row > 0, row + 1 < h->rows};
+    *there = place + step[side];
+    return inside[side];
 }
 
 /* The unknowns, their neighbours, the diagonal, and the right-hand side in r: heights from the middle of their range,
@@ -467,16 +457,23 @@ static bool take_holes(const struct load *l)
                    l->names->fill);
 }
 
+/* Missing ones are left out. */
+static void extremes(const struct heightfile *h, double *low, double *high)
+{
+    *low = HUGE_VAL, *high = -HUGE_VAL;
+    for (size_t i = 0; i < h->rows * h->columns; i++) {
+        *low = fmin(*low, h->z[i]);
+        *high = fmax(*high, h->z[i]);
+    }
+}
+
 static bool check_heights(const struct load *l)
 {
     static const double likely[2] = {2e-8, 2e-3};
     const struct heightfile *h = l->h;
-    double low = HUGE_VAL, high = -HUGE_VAL;
+    double low, high;
     char hint[120];
-    for (size_t i = 0; i < h->rows * h->columns; i++) {
-        low = fmin(low, h->z[i]);
-        high = fmax(high, h->z[i]);
-    }
+    extremes(h, &low, &high);
     double range = high - low;
     if (range == 0 || (range >= 1e-9 && range <= 10e-3)) return true;
     slip(hint, range, likely);
@@ -541,11 +538,11 @@ int heightfile_warnings(const struct heightfile *h, const struct heightfile_name
     int n = 0;
     figures(h, &rms, &slope);
     if (rms > 0 && rms < 1e-9)
-        texts[n++] = arena_format(a,
-                                  "an rms height of %s is finer than polished glass: were micrometres taken for "
-                                  "millimetres somewhere? Heights 1000 times as large would be an ordinary surface: "
-                                  "check their unit and %s",
-                                  heightfile_length_text(rms, a), key);
+        texts[n++] =
+            arena_format(a,
+                         "an rms height of %s is finer than polished glass: were micrometres taken for millimetres "
+                         "somewhere? Heights 1000 times as large would be an ordinary surface: check their unit and %s",
+                         heightfile_length_text(rms, a), key);
     if (slope > 3)
         texts[n++] = arena_format(
             a,
@@ -612,12 +609,6 @@ static bool check_writable(const char *path, const struct heightfile *h, double 
     return true;
 }
 
-static bool check_title(const char *path, const char *title, struct err *e)
-{
-    return !title || !title[strcspn(title, "\r\n")] ||
-           err_set(e, ERR_SCENE, "%s: the title of a GSF is one line", path);
-}
-
 static bool check_fits(const char *path, const struct heightfile *h, enum heightfile_format format, struct err *e)
 {
     bool sdf = format == HEIGHTFILE_SDF;
@@ -636,41 +627,20 @@ static bool check_fits(const char *path, const struct heightfile *h, enum height
                    h->columns, h->rows);
 }
 
-static struct heightfile_written extent(const struct heightfile *h, enum heightfile_format format)
-{
-    double low = HUGE_VAL, high = -HUGE_VAL;
-    for (size_t i = 0; i < h->rows * h->columns; i++) {
-        low = fmin(low, h->z[i]);
-        high = fmax(high, h->z[i]);
-    }
-    return (struct heightfile_written){low, high - low, format == HEIGHTFILE_PNG ? (high - low) / 65535 : 0};
-}
-
 static bool write_it(FILE *f, const struct heightfile *h, enum heightfile_format format,
                      const struct heightfile_written *w, struct err *e)
 {
-    switch (format) {
-    case HEIGHTFILE_GSF:
+    if (format == HEIGHTFILE_PNG) return heightfile_formats_png_write(f, h, w->low, w->range, e);
+    if (format == HEIGHTFILE_GSF)
         write_gsf(f, h);
-        break;
-    case HEIGHTFILE_GWY:
+    else if (format == HEIGHTFILE_GWY)
         heightfile_gwy_write(f, h);
-        break;
-    case HEIGHTFILE_SDF:
-        heightfile_sdf_write(f, h, true);
-        break;
-    case HEIGHTFILE_SDF_TEXT:
-        heightfile_sdf_write(f, h, false);
-        break;
-    case HEIGHTFILE_NPY:
+    else if (format == HEIGHTFILE_NPY)
         write_npy(f, h);
-        break;
-    case HEIGHTFILE_PNG:
-        return heightfile_formats_png_write(f, h, w->low, w->range, e);
-    case HEIGHTFILE_CSV:
+    else if (format == HEIGHTFILE_CSV)
         heightfile_formats_csv_write(f, h);
-        break;
-    }
+    else
+        heightfile_sdf_write(f, h, format == HEIGHTFILE_SDF);
     return true;
 }
 
@@ -679,10 +649,13 @@ bool heightfile_write(const char *path, const struct heightfile *h, enum heightf
 {
     struct outfile o;
     double most = format == HEIGHTFILE_GSF ? (double)FLT_MAX : DBL_MAX;
-    *w = extent(h, format);
-    if (!check_fits(path, h, format, e) || !check_writable(path, h, most, e) ||
-        !check_title(path, format == HEIGHTFILE_GSF ? h->title : NULL, e) || !outfile_open(&o, path, e))
-        return false;
+    double low, high;
+    extremes(h, &low, &high);
+    *w = (struct heightfile_written){low, high - low, format == HEIGHTFILE_PNG ? (high - low) / 65535 : 0};
+    if (!check_fits(path, h, format, e) || !check_writable(path, h, most, e)) return false;
+    if (format == HEIGHTFILE_GSF && h->title && h->title[strcspn(h->title, "\r\n")])
+        return err_set(e, ERR_SCENE, "%s: the title of a GSF is one line", path);
+    if (!outfile_open(&o, path, e)) return false;
     if (write_it(o.stream, h, format, w, e)) return outfile_commit(&o, e);
     outfile_drop(&o);
     return err_at(e, "%s", path);

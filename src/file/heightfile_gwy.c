@@ -71,24 +71,12 @@ static bool gwy_object(const struct gwy *g, struct gwy_part *p, const char **nam
     return true;
 }
 
+/* 0: texts and objects, whose size their contents say. */
 static size_t gwy_size(char type)
 {
-    switch (type) {
-    case 'b':
-    case 'c':
-    case 'C':
-        return 1;
-    case 'i':
-    case 'I':
-        return 4;
-    case 'q':
-    case 'Q':
-    case 'd':
-    case 'D':
-        return 8;
-    default:
-        return 0;
-    }
+    if (strchr("bcC", type)) return 1;
+    if (strchr("iI", type)) return 4;
+    return strchr("qQdD", type) ? 8 : 0;
 }
 
 /* The length of an array, and p behind it. */

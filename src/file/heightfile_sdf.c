@@ -238,10 +238,8 @@ static void sdf_write_text(FILE *f, const struct heightfile *h)
 
 static void sdf_write_binary(FILE *f, const struct heightfile *h)
 {
-    fwrite("bISO-1.0"
-           "rasp\0\0\0\0\0\0"
-           "010120000000"
-           "010120000000",
+    fwrite("bISO-1.0rasp\0\0\0\0\0\0"
+           "010120000000010120000000",
            1, 42, f);
     bytes_put(f, h->columns, 2);
     bytes_put(f, h->rows, 2);

@@ -276,8 +276,8 @@ bool mesh_raw_finish(struct mesh_raw *r, const char *path, double unit, const st
     if (r->elements == 0 && r->triangles > 0)
         return err_set(e, ERR_SCENE,
                        "%s: no tetrahedra, only %zu triangles: this is a surface; fill the solid inside it with "
-                       "elements (gmsh -3, tetgen -pq); where there is a Physical "
-                       "Surface, gmsh saves no elements but those of physical groups: give a Physical Volume too",
+                       "elements (gmsh -3, tetgen -pq); where there is a Physical Surface, gmsh saves no elements but "
+                       "those of physical groups: give a Physical Volume too",
                        path, r->triangles);
     if (r->elements == 0)
         return err_set(e, ERR_SCENE, "%s: no tetrahedra; fill the solid with elements (gmsh -3, tetgen -pq)", path);

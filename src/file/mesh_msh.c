@@ -31,48 +31,25 @@ enum { LINE = 1, TRIANGLE = 2, TETRAHEDRON = 4, LINE_3 = 8, TRIANGLE_6 = 9, TETR
 /* Nodes of such an element; 0, and an error: it is none that is read. */
 static int element_size(const struct mesh_msh *g, int64_t type)
 {
+    static const int nodes[] = {[LINE] = 2,  [TRIANGLE] = 3,   [TETRAHEDRON] = 4,    [LINE_3] = 3,
+                                [POINT] = 1, [TRIANGLE_6] = 6, [TETRAHEDRON_10] = 10};
     static const struct {
-        int type;
         const char *name;
-    } others[] = {{3, "quadrangle"},
-                  {5, "hexahedron"},
-                  {6, "prism"},
-                  {7, "pyramid"},
-                  {10, "quadrangle"},
-                  {12, "hexahedron"},
-                  {13, "prism"},
-                  {14, "pyramid"},
-                  {16, "quadrangle"},
-                  {17, "hexahedron"},
-                  {18, "prism"},
-                  {19, "pyramid"},
-                  {20, "triangle of third order"},
-                  {21, "triangle of third order"},
-                  {26, "line of third order"},
-                  {29, "tetrahedron of third order"}};
-    switch (type) {
-    case POINT:
-        return 1;
-    case LINE:
-        return 2;
-    case TRIANGLE:
-    case LINE_3:
-        return 3;
-    case TETRAHEDRON:
-        return 4;
-    case TRIANGLE_6:
-        return 6;
-    case TETRAHEDRON_10:
-        return 10;
-    default:
-        break;
-    }
-    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
-        if (others[i].type == type)
+        int type[3];
+    } others[] = {{"quadrangle", {3, 10, 16}},
+                  {"hexahedron", {5, 12, 17}},
+                  {"prism", {6, 13, 18}},
+                  {"pyramid", {7, 14, 19}},
+                  {"triangle of third order", {20, 21}},
+                  {"line of third order", {26}},
+                  {"tetrahedron of third order", {29}}};
+    if (type > 0 && type <= POINT && nodes[type] > 0) return nodes[type];
+    for (size_t i = 0; type > 0 && i < 3 * sizeof others / sizeof others[0]; i++)
+        if (others[i / 3].type[i % 3] == type)
             return (int)mesh_source_bad(
                 &g->source,
                 "a %s (type %d): only tetrahedra of 4 or 10 nodes are read; mesh without recombining, gmsh -3 -order 2",
-                others[i].name, others[i].type);
+                others[i / 3].name, others[i / 3].type[i % 3]);
     return (int)mesh_source_bad(
         &g->source, "an element of type %" PRId64 ": only tetrahedra of 4 or 10 nodes are read; gmsh -3 -order 2",
         type);

@@ -71,21 +71,17 @@ static bool check_file(const char *path, struct err *e)
 
 /* libsndfile scales integers so that 2^(bits-1) is 1, which is exact in double. */
 
+static const struct {
+    int bits, format; /* below 0: of floating point */
+} encodings[] = {{16, SF_FORMAT_PCM_16}, {24, SF_FORMAT_PCM_24}, {-32, SF_FORMAT_FLOAT}, {-64, SF_FORMAT_DOUBLE},
+                 {32, SF_FORMAT_PCM_32}, {8, SF_FORMAT_PCM_S8},  {8, SF_FORMAT_PCM_U8}};
+enum { WRITTEN = 4, ENCODINGS = sizeof encodings / sizeof encodings[0] }; /* the first of them */
+
 static int integer_bits(int format)
 {
-    switch (format & SF_FORMAT_SUBMASK) {
-    case SF_FORMAT_PCM_S8:
-    case SF_FORMAT_PCM_U8:
-        return 8;
-    case SF_FORMAT_PCM_16:
-        return 16;
-    case SF_FORMAT_PCM_24:
-        return 24;
-    case SF_FORMAT_PCM_32:
-        return 32;
-    default:
-        return 0;
-    }
+    for (int i = 0; i < ENCODINGS; i++)
+        if ((format & SF_FORMAT_SUBMASK) == encodings[i].format && encodings[i].bits > 0) return encodings[i].bits;
+    return 0;
 }
 
 /* A hostile header may claim more than any machine holds; no encoding gets 32768 samples out of a byte. */
@@ -185,18 +181,9 @@ struct wav_out {
 
 static int encoding(int bits)
 {
-    switch (bits) {
-    case 16:
-        return SF_FORMAT_PCM_16;
-    case 24:
-        return SF_FORMAT_PCM_24;
-    case -32:
-        return SF_FORMAT_FLOAT;
-    case -64:
-        return SF_FORMAT_DOUBLE;
-    default:
-        return 0;
-    }
+    for (int i = 0; i < WRITTEN; i++)
+        if (encodings[i].bits == bits) return encodings[i].format;
+    return 0;
 }
 
 static bool text_given(const char *s) { return s && *s; }
@@ -218,11 +205,11 @@ static bool sound_open(struct wav_out *w, int container, struct err *e)
     errno = 0;
     w->sound = sf_open_fd(w->out.fd, SFM_WRITE, &i, 0);
     if (!w->sound)
-        return out_of_memory(w, e) || err_set(e, ERR_CREATE,
-                                              "%s: the sound file cannot be begun, of %d channel%s at %g Hz: %s; is "
-                                              "the disk full, or the size of files limited? Make room, or write "
-                                              "elsewhere with -o",
-                                              w->path, f->channels, f->channels == 1 ? "" : "s", f->rate, reason(NULL));
+        return out_of_memory(w, e) ||
+               err_set(e, ERR_CREATE,
+                       "%s: the sound file cannot be begun, of %d channel%s at %g Hz: %s; is the disk full, or the "
+                       "size of files limited? Make room, or write elsewhere with -o",
+                       w->path, f->channels, f->channels == 1 ? "" : "s", f->rate, reason(NULL));
     sf_command(w->sound, SFC_SET_ADD_PEAK_CHUNK, NULL, SF_FALSE);
     if ((text_given(f->title) && sf_set_string(w->sound, SF_STR_TITLE, f->title)) ||
         (text_given(f->comment) && sf_set_string(w->sound, SF_STR_COMMENT, f->comment)))
@@ -363,13 +350,11 @@ static bool sample_bad(const struct wav_out *w, size_t i, double x, struct err *
     if (bits < 0)
         return err_set(e, ERR_SCENE,
                        "%s: frame %.0f (%.6f s), channel %d: %g is too large for 32-bit floating point; lower the "
-                       "level, or what the force "
-                       "comes from",
+                       "level, or what the force comes from",
                        w->path, frame, seconds, channel, x);
     return err_set(e, ERR_SCENE,
                    "%s: frame %.0f (%.6f s), channel %d: %.6f is %+.2f dB re full scale, beyond the range of %d-bit "
-                   "integers; lower the "
-                   "level or write floating point",
+                   "integers; lower the level or write floating point",
                    w->path, frame, seconds, channel, x, 20 * real_log10(fabs(x)), bits);
 }
 

@@ -81,21 +81,13 @@ static bool unreadable(struct yaml *y, const char *file, struct diag_place named
     bool pipe = errno == ENXIO;
     const char *why = pipe ? "it is a pipe" : strerror(errno);
     y->missing = true;
-    if (named.source)
-        diag_add(y->diag, named,
-                 pipe ? "only what the command line names may be one: save it as a file"
-                      : "a path in a file is relative to that file's folder",
-                 "cannot read '%s': %s", file, why);
-    else
-        diag_add(y->diag, (struct diag_place){yaml_source(y, file, "", 0), 0, 0, 0}, NULL, "cannot be read: %s", why);
-    return false;
-}
-
-static bool too_large(struct yaml *y, const struct diag_source *source)
-{
-    diag_add(y->diag, (struct diag_place){source, 0, 0, 0}, "is it a scene? measured data belong in files of their own",
-             "larger than %d MiB", SIZE_MAX_BYTES >> 20);
-    return false;
+    if (!named.source)
+        return diag_add(y->diag, (struct diag_place){yaml_source(y, file, "", 0), 0, 0, 0}, NULL, "cannot be read: %s",
+                        why);
+    return diag_add(y->diag, named,
+                    pipe ? "only what the command line names may be one: save it as a file"
+                         : "a path in a file is relative to that file's folder",
+                    "cannot read '%s': %s", file, why);
 }
 
 const char *yaml_bytes_text(const char *file, struct arena *a, size_t *size)
@@ -160,13 +152,9 @@ static bool line_break(uint32_t c, char next)
 
 static bool bad_character(struct yaml *y, struct diag_place at, int length, uint32_t code)
 {
-    if (length == 0)
-        diag_add(y->diag, at, "save the file with the encoding UTF-8", "not valid UTF-8");
-    else if (code == 0)
-        diag_add(y->diag, at, "save the file as plain text in UTF-8", "a NUL byte");
-    else
-        diag_add(y->diag, at, "remove it", "control character U+%04X", (unsigned)code);
-    return false;
+    if (length == 0) return diag_add(y->diag, at, "save the file with the encoding UTF-8", "not valid UTF-8");
+    if (code == 0) return diag_add(y->diag, at, "save the file as plain text in UTF-8", "a NUL byte");
+    return diag_add(y->diag, at, "remove it", "control character U+%04X", (unsigned)code);
 }
 
 /* UTF-8 without byte order mark, NUL or control characters, at most 4 MiB; else an error is told. */
@@ -174,12 +162,13 @@ static bool text_good(struct yaml *y, const struct diag_source *s)
 {
     struct diag_place at = {s, 1, 1, 1};
     const char *mark = byte_order_mark(s);
-    if (s->size > SIZE_MAX_BYTES) return too_large(y, s);
-    if (mark) {
-        diag_add(y->diag, (struct diag_place){s, 0, 0, 0}, "save the file as UTF-8 without a byte order mark (BOM)",
-                 "encoded as %s", mark);
-        return false;
-    }
+    if (s->size > SIZE_MAX_BYTES)
+        return diag_add(y->diag, (struct diag_place){s, 0, 0, 0},
+                        "is it a scene? measured data belong in files of their own", "larger than %d MiB",
+                        SIZE_MAX_BYTES >> 20);
+    if (mark)
+        return diag_add(y->diag, (struct diag_place){s, 0, 0, 0},
+                        "save the file as UTF-8 without a byte order mark (BOM)", "encoded as %s", mark);
     for (size_t i = 0; i < s->size;) {
         uint32_t code = 0;
         int length = text_utf8(s->text + i, s->size - i, &code);
@@ -397,10 +386,7 @@ static bool pair_read(struct parse *p, struct yaml_node *map, const struct event
     struct yaml_node *key = node_read(p, key_event), *value = NULL;
     struct event ev;
     if (!key || !event_next(p, &ev) || !(value = node_read(p, &ev))) return false;
-    if (map->n == KEYS_MAX) {
-        diag_add(p->y->diag, key->at, NULL, "more than %d keys in one map", KEYS_MAX);
-        return false;
-    }
+    if (map->n == KEYS_MAX) return diag_add(p->y->diag, key->at, NULL, "more than %d keys in one map", KEYS_MAX);
     if (key_good(p, map, key)) yaml_append(map, key, value);
     return true;
 }
@@ -419,28 +405,9 @@ static struct yaml_node *map_read(struct parse *p, const struct event *start)
     return NULL;
 }
 
-static struct yaml_node *kind_read(struct parse *p, const struct event *ev)
-{
-    switch (ev->type) {
-    case YAML_ALIAS_EVENT:
-        return alias_read(p, ev);
-    case YAML_SCALAR_EVENT:
-        return scalar_read(p, ev);
-    case YAML_SEQUENCE_START_EVENT:
-        return list_read(p, ev);
-    case YAML_MAPPING_START_EVENT:
-        return map_read(p, ev);
-    default:
-        return NULL;
-    }
-}
-
 static bool anchor_add(struct parse *p, const struct event *ev, const struct yaml_node *node)
 {
-    if (p->n_anchors == ANCHORS_MAX) {
-        diag_add(p->y->diag, ev->at, NULL, "more than %d anchors", ANCHORS_MAX);
-        return false;
-    }
+    if (p->n_anchors == ANCHORS_MAX) return diag_add(p->y->diag, ev->at, NULL, "more than %d anchors", ANCHORS_MAX);
     if (!p->anchors) p->anchors = ARENA_TAKE(p->y->arena, struct anchor, ANCHORS_MAX);
     p->anchors[p->n_anchors++] = (struct anchor){ev->anchor, node};
     return true;
@@ -456,7 +423,15 @@ static struct yaml_node *node_read(struct parse *p, const struct event *ev)
         return NULL;
     }
     p->depth++;
-    struct yaml_node *node = kind_read(p, ev);
+    struct yaml_node *node = NULL;
+    if (ev->type == YAML_ALIAS_EVENT)
+        node = alias_read(p, ev);
+    else if (ev->type == YAML_SCALAR_EVENT)
+        node = scalar_read(p, ev);
+    else if (ev->type == YAML_SEQUENCE_START_EVENT)
+        node = list_read(p, ev);
+    else if (ev->type == YAML_MAPPING_START_EVENT)
+        node = map_read(p, ev);
     p->depth--;
     if (node && ev->anchor && ev->type != YAML_ALIAS_EVENT && !anchor_add(p, ev, node)) return NULL;
     return node;

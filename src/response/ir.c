@@ -174,31 +174,10 @@ void ir_sample(struct ir_sampler *s, int quantity, const struct modes_point *p, 
    its integral, the answer to what is slow, stays what it is. Values per second stay: nothing is scaled by the ratio of
    rates. */
 
-static bool silent(const double *x, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        if (x[i] != 0.0) return false;
-    return true;
-}
-
 static size_t cut(double rate, double t0, size_t n)
 {
     size_t most = isnan(t0) ? n : ir_length(rate, t0);
     return most < n ? most : n;
-}
-
-/* h with the rate of the file, and with `rate`. */
-/* NULL: an error. */
-static double *convert(const struct ir_ask *ask, const struct wav *w, struct arena *a, struct ir *ir, struct err *e)
-{
-    double *h = w->x;
-    ir->note = NULL;
-    ir->length = w->frames;
-    if (w->rate == ask->rate) return h;
-    ir->note = arena_format(a, "%s: resampled from %g Hz to %g Hz", ask->path, w->rate, ask->rate);
-    if (resample(a, w->x, w->frames, w->rate, ask->rate, &h, &ir->length, e)) return h;
-    err_at(e, "%s", ask->path);
-    return NULL;
 }
 
 static bool make(const char *path, const void *how, struct arena *a, void *thing, struct err *e)
@@ -210,14 +189,20 @@ static bool make(const char *path, const void *how, struct arena *a, void *thing
     if (w.channels != 1)
         return err_set(e, ERR_SCENE, "%s: has %d channels; an impulse response is mono: extract one channel", path,
                        w.channels);
-    size_t before = cut(w.rate, ask->t0, w.frames);
-    if (silent(w.x, before))
+    size_t before = cut(w.rate, ask->t0, w.frames), still = 0;
+    while (still < before && w.x[still] == 0.0)
+        still++;
+    if (still == before)
         return err_set(e, ERR_SCENE,
                        "%s: the impulse response is silent%s; give one that rings, or leave the response out", path,
                        before < w.frames ? " before response_length" : "");
     w.x[0] *= 0.5;
-    double *h = convert(ask, &w, a, ir, e);
-    if (!h) return false;
+    double *h = w.x;
+    *ir = (struct ir){.length = w.frames};
+    if (w.rate != ask->rate) {
+        ir->note = arena_format(a, "%s: resampled from %g Hz to %g Hz", ask->path, w.rate, ask->rate);
+        if (!resample(a, w.x, w.frames, w.rate, ask->rate, &h, &ir->length, e)) return err_at(e, "%s", ask->path);
+    }
     ir->length = cut(ask->rate, ask->t0, ir->length);
     for (size_t n = 0; n < ir->length; n++)
         h[n] /= ask->rate;
@@ -284,7 +269,7 @@ static bool find_columns(struct reader *r)
 }
 
 /* Whether a component of the path is "..", or it starts at the root. */
-static bool leaves(const char *name)
+static bool escapes(const char *name)
 {
     if (name[0] == '/') return true;
     for (const char *part = name; part; part = strchr(part, '/') ? strchr(part, '/') + 1 : NULL)
@@ -296,7 +281,7 @@ static bool check_name(const struct reader *r, size_t row)
 {
     const char *name = cell(r, row, FILE_NAME);
     if (name[0] == '\0') return err_set(r->e, ERR_SCENE, "file_name is empty") || at(r, row);
-    if (leaves(name))
+    if (escapes(name))
         return err_set(r->e, ERR_SCENE, "'%s' leads out of the folder; name a file inside it", name) || at(r, row);
     for (size_t other = 0; other < row; other++)
         if (strcmp(cell(r, other, FILE_NAME), name) == 0)

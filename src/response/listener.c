@@ -81,16 +81,15 @@ static bool set_monopole(struct listener *l, const struct listener_ask *ask, con
     const struct listen *air = &ask->output->listen;
     double r = distance(ask, m, ask->channel);
     if (isnan(m->radius))
-        return err_set(e, ERR_SCENE,
-                       "output.listen.radiator: monopole: %s does not say how large the object is; a mode table may, "
-                       "by a line '# radius_m: METRES' (of the "
-                       "sphere of the same surface area); else listen to the contact",
-                       m->name);
+        return err_set(
+            e, ERR_SCENE,
+            "output.listen.radiator: monopole: %s does not say how large the object is; a mode table may, by a line '# "
+            "radius_m: METRES' (of the sphere of the same surface area); else listen to the contact",
+            m->name);
     if (!(r > m->radius))
         return err_set(e, ERR_SCENE,
                        "output.listen.places: place %d is %.6g m from the middle of %s, inside the sphere of %.6g m "
-                       "radius that stands for it: listen "
-                       "from farther away",
+                       "radius that stands for it: listen from farther away",
                        ask->channel + 1, r, m->name, m->radius);
     l->monopole = radiator_monopole(m->radius, r, air->density, air->sound_speed);
     l->extra = radiator_monopole_sampled(&l->monopole, ask->rate);
@@ -134,12 +133,11 @@ static bool point_possible(const struct listener_ask *ask, const struct modes *m
                        "listen to the contact",
                        m->name);
     double off = o->shapes(o, p[0] - ask->origin[0], p[1] - ask->origin[1], ARENA_TAKE(a, double, o->n));
-    return off <= 1e-9 ||
-           err_set(e, ERR_SCENE,
-                   "output.listen.places: place %d, [%.6g, %.6g] m, is %.3g m beside %s, which lies from "
-                   "[%.6g, %.6g] to [%.6g, %.6g] m: move the place, or the object by its origin",
-                   ask->channel + 1, p[0], p[1], off, m->name, o->low[0] + ask->origin[0], o->low[1] + ask->origin[1],
-                   o->high[0] + ask->origin[0], o->high[1] + ask->origin[1]);
+    return off <= 1e-9 || err_set(e, ERR_SCENE,
+                                  "output.listen.places: place %d, [%.6g, %.6g] m, is %.3g m beside %s, which lies "
+                                  "from [%.6g, %.6g] to [%.6g, %.6g] m: move the place, or the object by its origin",
+                                  ask->channel + 1, p[0], p[1], off, m->name, o->low[0] + ask->origin[0],
+                                  o->low[1] + ask->origin[1], o->high[0] + ask->origin[0], o->high[1] + ask->origin[1]);
 }
 
 static bool set_radiator(struct listener *l, const struct listener_ask *ask, const struct modes *m, struct arena *a,

@@ -55,8 +55,7 @@ static bool no_column(const struct rows *r, int c, struct err *e)
     if (r->envelope)
         return err_set(e, ERR_SCENE,
                        "%s: a table of envelopes needs the column '%s'; its columns are place, x_m, y_m, mode, "
-                       "frequency_hz, time_s, amplitude, "
-                       "phase_rad",
+                       "frequency_hz, time_s, amplitude, phase_rad",
                        r->csv->file, envelope_names[c]);
     return err_set(e, ERR_SCENE,
                    "%s: a mode table needs the column '%s'; its columns are place, x_m, y_m, mode, frequency_hz, "
@@ -169,7 +168,7 @@ static int number_order(const void *a, const void *b)
 
 /* Numbers anew what has been numbered as it appeared: places by x, then y; modes by their lowest frequency; what is
    equal in that, by name. So nothing that follows can depend on the order of rows. */
-static void settle_numbers(const struct rows *r, int c, struct arena *a)
+static void renumber(const struct rows *r, int c, struct arena *a)
 {
     size_t n = c == PLACE ? r->places : r->modes, *id = c == PLACE ? r->place : r->mode, *to = ARENA_TAKE(a, size_t, n);
     struct number *s = ARENA_TAKE(a, struct number, n);
@@ -224,12 +223,6 @@ static bool duplicate(const struct rows *r, const struct key *p, const struct ke
                    r->csv->lines[p->row]);
 }
 
-/* Times of an envelope must be told apart by the fit. */
-static bool twice(const struct rows *r, const struct key *p, const struct key *q)
-{
-    return p->place == q->place && p->mode == q->mode && q->within - p->within < (r->envelope ? 1e-9 : 0.5);
-}
-
 static bool sort_rows(struct rows *r, struct arena *a, struct err *e)
 {
     size_t rows = r->csv->rows;
@@ -239,7 +232,9 @@ static bool sort_rows(struct rows *r, struct arena *a, struct err *e)
         k[i] = (struct key){r->place[i], r->mode[i], i, r->value[i * COLUMNS + (r->envelope ? TIME : SLOPE)]};
     qsort(k, rows, sizeof *k, key_order);
     for (size_t i = 0; i < rows; i++) {
-        if (i && twice(r, &k[i - 1], &k[i])) return duplicate(r, &k[i - 1], &k[i], e);
+        if (i && k[i - 1].place == k[i].place && k[i - 1].mode == k[i].mode &&
+            k[i].within - k[i - 1].within < (r->envelope ? 1e-9 : 0.5)) /* the fit must tell times apart */
+            return duplicate(r, &k[i - 1], &k[i], e);
         r->order[i] = k[i].row;
     }
     return true;
@@ -253,12 +248,11 @@ static bool check_points(const struct rows *r, struct arena *a, struct err *e)
         if (r->place[i] == seen) first[seen++] = i;
         size_t o = first[r->place[i]];
         const double *v = values_of(r, i), *w = values_of(r, o);
-        if (v[X] != w[X] || v[Y] != w[Y]) {
-            err_set(e, ERR_SCENE,
-                    "place '%.60s' is at (%g, %g) m here and at (%g, %g) m in line %d: make both the same",
-                    cell_of(r, i, PLACE), v[X], v[Y], w[X], w[Y], r->csv->lines[o]);
-            return bad_row(r, i, e);
-        }
+        if (v[X] != w[X] || v[Y] != w[Y])
+            return err_set(e, ERR_SCENE,
+                           "place '%.60s' is at (%g, %g) m here and at (%g, %g) m in line %d: make both the same",
+                           cell_of(r, i, PLACE), v[X], v[Y], w[X], w[Y], r->csv->lines[o]) ||
+                   bad_row(r, i, e);
     }
     return true;
 }
@@ -273,8 +267,8 @@ static bool rows_read(const struct csv *csv, struct arena *a, struct rows *r, st
     r->places = number_labels(r, PLACE, a, r->place);
     r->modes = number_labels(r, MODE, a, r->mode);
     if (!check_points(r, a, e)) return false;
-    settle_numbers(r, PLACE, a);
-    settle_numbers(r, MODE, a);
+    renumber(r, PLACE, a);
+    renumber(r, MODE, a);
     return sort_rows(r, a, e);
 }
 
@@ -303,9 +297,9 @@ static bool lay_out(struct arena *a, const struct envelopes *v, size_t entry, st
     }
     *s = (struct slopes_series){(int)n, time, amplitude, {0}};
     if (n >= 2) return true;
-    err_set(e, ERR_SCENE, "the envelope of mode '%.60s' at place '%.60s' has one sample; give at least 2",
-            cell_of(v->r, v->t->entry[entry].row, MODE), cell_of(v->r, v->t->entry[entry].row, PLACE));
-    return bad_row(v->r, v->t->entry[entry].row, e);
+    return err_set(e, ERR_SCENE, "the envelope of mode '%.60s' at place '%.60s' has one sample; give at least 2",
+                   cell_of(v->r, v->t->entry[entry].row, MODE), cell_of(v->r, v->t->entry[entry].row, PLACE)) ||
+           bad_row(v->r, v->t->entry[entry].row, e);
 }
 
 static bool judge(struct envelopes *v, size_t row, double error, struct err *e)
@@ -316,12 +310,12 @@ static bool judge(struct envelopes *v, size_t row, double error, struct err *e)
         v->worst_row = row;
     }
     if (!(error > 0.1)) return true;
-    err_set(e, ERR_SCENE,
-            "the envelope of mode '%.60s' is met by decaying exponentials to %.1f dB only, which is above -20 dB; give "
-            "it as it decays, "
-            "without what precedes the rise, or as several modes",
-            cell_of(v->r, row, MODE), decibel(error));
-    return bad_row(v->r, row, e);
+    return err_set(e, ERR_SCENE,
+                   "the envelope of mode '%.60s' is met by decaying exponentials to %.1f dB only, which is above -20 "
+                   "dB; give "
+                   "it as it decays, without what precedes the rise, or as several modes",
+                   cell_of(v->r, row, MODE), decibel(error)) ||
+           bad_row(v->r, row, e);
 }
 
 /* Fits the envelopes of n entries with the same decays. */
@@ -386,8 +380,6 @@ void mode_table_write_place(FILE *f, const struct mode_table_place *place, int n
     }
 }
 
-static const char *const quantity_names[] = {"displacement", "velocity", "acceleration", NULL};
-
 /* ------------------------------------------------------------------ comments */
 
 /* The comment's value; NULL where it is not given, and an error when it is given twice. */
@@ -400,31 +392,6 @@ static bool comment(const struct csv *t, const char *key, const char **value, st
     return given < 2 || err_set(e, ERR_SCENE,
                                 "%s: the comment '# %s: ...' is given more than once; write it once, before the header",
                                 t->file, key);
-}
-
-static bool needed(const struct csv *t, const char *key, const char *words, const char **value, struct err *e)
-{
-    if (!comment(t, key, value, e)) return false;
-    return *value ||
-           err_set(e, ERR_SCENE, "%s: the comment '# %s: ...' is missing; write it once, before the header (%s)",
-                   t->file, key, words);
-}
-
-/* Index of the word among up to three. */
-static bool choose(const struct csv *t, const char *value, const char *const *words, int *index, struct err *e)
-{
-    for (*index = 0; words[*index]; (*index)++)
-        if (strcmp(value, words[*index]) == 0) return true;
-    return words == quantity_names
-               ? err_set(
-                     e, ERR_SCENE,
-                     "%s: quantity: '%.60s' is not displacement, velocity or acceleration (per N s): write one of them",
-                     t->file, value)
-               : err_set(e, ERR_SCENE, "%s: %s: '%.60s' is neither %s nor %s", t->file,
-                         strcmp(words[0], "shared") == 0 ? "poles"
-                         : strcmp(words[0], "ids") == 0  ? "pairing"
-                                                         : "gains",
-                         value, words[0], words[1]);
 }
 
 static bool read_radius(const struct csv *t, double *radius, struct err *e)
@@ -441,23 +408,43 @@ static bool read_radius(const struct csv *t, double *radius, struct err *e)
 /* by_frequency: -1 where the table does not say. */
 static bool read_comments(struct mode_table *t, int *by_frequency, struct err *e)
 {
-    static const char *const poles_words[] = {"shared", "separate", NULL},
-                             *const pairing_words[] = {"ids", "frequency", NULL},
-                             *const gains_words[] = {"logarithmic", "complex", NULL};
-    const char *poles, *quantity, *pairing, *gains;
-    int separate, complex = 0;
+    enum { POLES, QUANTITY, PAIRING, GAINS, KEYS };
+    static const struct {
+        const char *key, *needed; /* NULL: it may be left out */
+        const char *const words[4];
+    } rows[KEYS] = {
+        {"poles", "shared or separate", {"shared", "separate"}},
+        {"quantity", "displacement, velocity or acceleration", {"displacement", "velocity", "acceleration"}},
+        {"pairing", NULL, {"ids", "frequency"}},
+        {"gains", NULL, {"logarithmic", "complex"}}};
+    const char *value[KEYS];
+    int index[KEYS] = {-1, -1, -1, -1};
     *by_frequency = -1;
-    if (!needed(&t->csv, "poles", "shared or separate", &poles, e) ||
-        !needed(&t->csv, "quantity", "displacement, velocity or acceleration", &quantity, e) ||
-        !comment(&t->csv, "pairing", &pairing, e) || !comment(&t->csv, "gains", &gains, e) ||
-        !choose(&t->csv, poles, poles_words, &separate, e) ||
-        !choose(&t->csv, quantity, quantity_names, &t->quantity, e) ||
-        (pairing && !choose(&t->csv, pairing, pairing_words, by_frequency, e)) ||
-        (gains && !choose(&t->csv, gains, gains_words, &complex, e)))
-        return false;
-    t->shared = !separate;
-    t->complex = complex;
-    if (t->shared && gains && !complex)
+    for (int k = 0; k < KEYS; k++) {
+        if (!comment(&t->csv, rows[k].key, &value[k], e)) return false;
+        if (!value[k] && rows[k].needed)
+            return err_set(e, ERR_SCENE,
+                           "%s: the comment '# %s: ...' is missing; write it once, before the header (%s)", t->csv.file,
+                           rows[k].key, rows[k].needed);
+    }
+    for (int k = 0; k < KEYS; k++) {
+        const char *const *words = rows[k].words;
+        if (!value[k]) continue;
+        for (index[k] = 0; words[index[k]] && strcmp(value[k], words[index[k]]) != 0;)
+            index[k]++;
+        if (words[index[k]]) continue;
+        return k == QUANTITY ? err_set(e, ERR_SCENE,
+                                       "%s: quantity: '%.60s' is not displacement, velocity or acceleration (per N s): "
+                                       "write one of them",
+                                       t->csv.file, value[k])
+                             : err_set(e, ERR_SCENE, "%s: %s: '%.60s' is neither %s nor %s", t->csv.file, rows[k].key,
+                                       value[k], words[0], words[1]);
+    }
+    *by_frequency = index[PAIRING];
+    t->quantity = index[QUANTITY];
+    t->shared = index[POLES] == 0;
+    t->complex = index[GAINS] == 1;
+    if (t->shared && index[GAINS] == 0)
         return err_set(e, ERR_SCENE,
                        "%s: gains: logarithmic is for separate poles; those of shared ones pass zero at nodal lines: "
                        "remove that line",
@@ -485,25 +472,17 @@ static bool one_mode(const struct rows *r, const size_t *rows, size_t n, struct 
     for (size_t i = 1; i < n; i++) {
         const double *w = values_of(r, rows[i]);
         if (w[FREQUENCY] == v[FREQUENCY] && (!r->envelope || w[PHASE] == v[PHASE])) continue;
-        err_set(e, ERR_SCENE,
-                "mode '%.60s' of place '%.60s' has frequency %.12g Hz and phase %.12g here, %.12g Hz and %.12g in line "
-                "%d; %s",
-                cell_of(r, rows[i], MODE), cell_of(r, rows[i], PLACE), w[FREQUENCY], w[PHASE], v[FREQUENCY], v[PHASE],
-                r->csv->lines[rows[0]],
-                r->envelope ? "an envelope belongs to one frequency and phase"
-                            : "the slopes of a mode have one frequency");
-        return bad_row(r, rows[i], e);
+        return err_set(e, ERR_SCENE,
+                       "mode '%.60s' of place '%.60s' has frequency %.12g Hz and phase %.12g here, %.12g Hz and %.12g "
+                       "in line "
+                       "%d; %s",
+                       cell_of(r, rows[i], MODE), cell_of(r, rows[i], PLACE), w[FREQUENCY], w[PHASE], v[FREQUENCY],
+                       v[PHASE], r->csv->lines[rows[0]],
+                       r->envelope ? "an envelope belongs to one frequency and phase"
+                                   : "the slopes of a mode have one frequency") ||
+               bad_row(r, rows[i], e);
     }
     return true;
-}
-
-static void take_slopes(const struct rows *r, const size_t *rows, struct mode_entry *m)
-{
-    for (int i = 0; i < m->n; i++) {
-        const double *v = values_of(r, rows[i]);
-        m->slope[i] = (struct mode_slope){v[DECAY], v[GAIN], v[PHASE]};
-    }
-    qsort(m->slope, (size_t)m->n, sizeof *m->slope, slope_order);
 }
 
 /* One entry per place and mode; slopes of an envelope table are fitted later. *from: [entries] where its rows begin in
@@ -528,7 +507,11 @@ static bool gather(const struct rows *r, struct arena *a, struct mode_table *t, 
         if (!one_mode(r, row, end - i, e)) return false;
         if (r->envelope) continue;
         m->slope = ARENA_TAKE(a, struct mode_slope, end - i);
-        take_slopes(r, row, m);
+        for (int k = 0; k < m->n; k++) {
+            const double *v = values_of(r, row[k]);
+            m->slope[k] = (struct mode_slope){v[DECAY], v[GAIN], v[PHASE]};
+        }
+        qsort(m->slope, (size_t)m->n, sizeof *m->slope, slope_order);
     }
     return true;
 }
@@ -551,12 +534,11 @@ static void take_places(const struct rows *r, struct arena *a, struct mode_table
 
 static bool missing(const struct rows *r, const struct mode_table *t, size_t place, size_t mode, struct err *e)
 {
-    return err_set(
-        e, ERR_SCENE,
-        "%s:%d: place '%.60s', which starts here, has no mode '%.60s'; every place needs every mode (a mode that is "
-        "silent there has gain 0)",
-        t->csv.file, t->csv.lines[t->row[place]], cell_of(r, t->row[place], PLACE),
-        cell_of(r, first_row(r, MODE, mode), MODE));
+    return err_set(e, ERR_SCENE,
+                   "%s:%d: place '%.60s', which starts here, has no mode '%.60s'; every place needs every mode (a mode "
+                   "that is silent there has gain 0)",
+                   t->csv.file, t->csv.lines[t->row[place]], cell_of(r, t->row[place], PLACE),
+                   cell_of(r, first_row(r, MODE, mode), MODE));
 }
 
 /* Returns the first mode the place lacks, or their number. */
@@ -572,23 +554,23 @@ static bool unequal(double a, double b) { return fabs(a - b) > 1e-9 * fmax(fabs(
 
 static bool same_poles(const struct rows *r, const struct mode_entry *m, const struct mode_entry *w, struct err *e)
 {
-    if (m->n != w->n) {
-        err_set(e, ERR_SCENE,
-                "mode '%.60s' has %d slopes at this place, %d at that of line %d; with shared poles they are as many "
-                "at every place",
-                cell_of(r, m->row, MODE), m->n, w->n, r->csv->lines[w->row]);
-        return bad_row(r, m->row, e);
-    }
+    if (m->n != w->n)
+        return err_set(e, ERR_SCENE,
+                       "mode '%.60s' has %d slopes at this place, %d at that of line %d; with shared poles they are as "
+                       "many "
+                       "at every place",
+                       cell_of(r, m->row, MODE), m->n, w->n, r->csv->lines[w->row]) ||
+               bad_row(r, m->row, e);
     for (int k = 0; k < m->n; k++)
-        if (unequal(m->frequency, w->frequency) || unequal(m->slope[k].decay, w->slope[k].decay)) {
-            err_set(e, ERR_SCENE,
-                    "mode '%.60s' has frequency %.12g Hz and decay %.12g/s here, %.12g Hz and %.12g/s in line %d; with "
-                    "shared "
-                    "poles they are the same at every place: correct one, or let the table say # poles: separate",
-                    cell_of(r, m->row, MODE), m->frequency, m->slope[k].decay, w->frequency, w->slope[k].decay,
-                    r->csv->lines[w->row]);
-            return bad_row(r, m->row, e);
-        }
+        if (unequal(m->frequency, w->frequency) || unequal(m->slope[k].decay, w->slope[k].decay))
+            return err_set(e, ERR_SCENE,
+                           "mode '%.60s' has frequency %.12g Hz and decay %.12g/s here, %.12g Hz and %.12g/s in line "
+                           "%d; with "
+                           "shared poles they are the same at every place: correct one, or let the table say # poles: "
+                           "separate",
+                           cell_of(r, m->row, MODE), m->frequency, m->slope[k].decay, w->frequency, w->slope[k].decay,
+                           r->csv->lines[w->row]) ||
+                   bad_row(r, m->row, e);
     return true;
 }
 
@@ -603,12 +585,12 @@ static bool check_shared(const struct rows *r, const struct mode_table *t, struc
 static bool check_separate(const struct rows *r, const struct mode_table *t, struct err *e)
 {
     for (size_t i = 0; t->places > 1 && i < t->first[t->places]; i++)
-        if (!(t->entry[i].slope[0].decay > 0.0)) {
-            err_set(e, ERR_SCENE,
-                    "decay_per_s is 0: separate poles are interpolated between places in the log, where 0 has no "
-                    "value; give a small decay");
-            return bad_row(r, t->entry[i].row, e);
-        }
+        if (!(t->entry[i].slope[0].decay > 0.0))
+            return err_set(
+                       e, ERR_SCENE,
+                       "decay_per_s is 0: separate poles are interpolated between places in the log, where 0 has no "
+                       "value; give a small decay") ||
+                   bad_row(r, t->entry[i].row, e);
     return true;
 }
 
@@ -635,8 +617,7 @@ static void guess_pairing(struct mode_table *t, struct arena *a)
     if (again)
         t->note = arena_format(a,
                                "%s: not every place has the same modes; they are paired by %s; say \"# pairing: %s\" "
-                               "above the table's header to keep to that, "
-                               "or \"# pairing: %s\"",
+                               "above the table's header to keep to that, or \"# pairing: %s\"",
                                t->csv.file, hold ? "name" : "frequency, for their names do not hold",
                                hold ? "ids" : "frequency", hold ? "frequency" : "ids");
 }

@@ -50,6 +50,12 @@ double modes_direct(int quantity, int n, const double *frequency, const double *
 
 int modes_drop_above(struct modes *m, double rate) { return m->drop ? m->drop(m, MODES_TOP * rate) : 0; }
 
+double modes_fade(double frequency, double rate)
+{
+    double u = rate > 0.0 ? (frequency / rate - 0.45) / 0.05 : 0.0;
+    return u <= 0.0 ? 1.0 : u < 1.0 ? 0.5 * (1.0 + real_cospi(u)) : 0.0;
+}
+
 bool modes_in_band(const struct modes_ask *ask, double lowest, double highest)
 {
     const double same = 1.0 - 1e-9; /* what rounding puts beside an end lies at it */
@@ -305,21 +311,12 @@ static int drop(struct modes *m, double top)
 {
     struct morph *p = (struct morph *)m->self;
     struct arena *a = arena_open();
-    bool *keep = ARENA_TAKE(a, bool, m->n);
+    bool *chosen_ones = ARENA_TAKE(a, bool, m->n);
     for (int i = 0; i < m->n; i++)
-        keep[i] = p->lowest[i] < top;
-    int dropped = morph_select(p, m, keep);
+        chosen_ones[i] = p->lowest[i] < top;
+    int dropped = morph_select(p, m, chosen_ones);
     arena_close(a);
     return dropped;
-}
-
-static void set_home(const struct making *k, struct modes *m)
-{
-    const int(*edge)[2];
-    int edges = places_edges(k->places, &edge),
-        first = places_kind(k->places) == PLACES_LINE && edges > 0 ? edge[0][0] : 0;
-    m->home[0] = k->t->xy[2 * first];
-    m->home[1] = k->t->xy[2 * first + 1];
 }
 
 static void make_modes(const struct making *k, double rate, struct modes *m)
@@ -346,7 +343,11 @@ static void make_modes(const struct making *k, double rate, struct modes *m)
     else
         fill_logarithmic(k, m, p);
     m->at = p->re ? morph_complex : morph_separate;
-    set_home(k, m);
+    const int(*edge)[2]; /* of a line its first place is the home */
+    int edges = places_edges(k->places, &edge),
+        first = places_kind(k->places) == PLACES_LINE && edges > 0 ? edge[0][0] : 0;
+    m->home[0] = k->t->xy[2 * first];
+    m->home[1] = k->t->xy[2 * first + 1];
 }
 
 static bool make_table(const char *path, const void *how, struct arena *a, void *table, struct err *e)
@@ -366,8 +367,7 @@ bool modes_table(const char *path, const struct modes_ask *ask, struct arena *a,
     if (k.inside == 0)
         return err_set(e, ERR_SCENE,
                        "%s: none of its modes lies from %g Hz to below %g Hz, the band from which they are chosen: "
-                       "widen that band (surface.band, scraper.band "
-                       "or ball.band), or check that frequency_hz is in Hz",
+                       "widen that band (surface.band, scraper.band or ball.band), or check that frequency_hz is in Hz",
                        path, ask->band[0], ask->band[1]);
     choose(&k, ask->strongest);
     make_components(&k);
@@ -456,8 +456,8 @@ static bool gains_elsewhere(const struct modes *m, int i, struct err *e)
 {
     return err_set(e, ERR_SCENE,
                    "%s: its gains are those of another listening place than the one that is touched (that of the mode "
-                   "at %.6g Hz is no driving point's), and do not "
-                   "say how the surface gives way under the ball; give surface.object, or contact.roll.ground: rigid",
+                   "at %.6g Hz is no driving point's), and do not say how the surface gives way under the ball; give "
+                   "surface.object, or contact.roll.ground: rigid",
                    m->name, m->frequency[i]);
 }
 
@@ -499,8 +499,7 @@ bool modes_shapes_make(const struct modes *m, const char *key, struct arena *a, 
         return err_set(
             e, ERR_SCENE,
             "%s: %s, and so it cannot give way under a ball; give %s.object or a table with the same frequencies at "
-            "all places, or "
-            "contact.roll.ground: rigid",
+            "all places, or contact.roll.ground: rigid",
             m->name,
             m->travels ? "its modes change over time" : "its frequencies and decays differ from place to place", key);
     s->moves = m->moves;

@@ -102,6 +102,10 @@ bool modes_in_band(const struct modes_ask *ask, double lowest, double highest);
 
 int modes_drop_above(struct modes *m, double rate);
 
+/* What a mode of that frequency has left beside a sample rate that may be too low for it: 1 below 0.45 of the rate, 0
+   from half of it on. rate 0: 1. */
+double modes_fade(double frequency, double rate);
+
 /* Time after which a unit impulse's response has decayed by `decibel` (> 0) below its initial amplitude bound; slowest
  * mode. */
 double modes_ring_time(const struct modes *m, double decibel);

@@ -60,7 +60,7 @@
 struct problem {
     int rows, columns; /* columns: the real ones; then as many spare ones as rows */
     const double *cost;
-    double spare;
+    double dummy;
     double *u, *v, *least; /* potentials; least reduced cost to each column so far */
     int *row, *from;       /* of a column: its row (-1: free), the column before it on the path (-1: the new row) */
     char *done;
@@ -68,7 +68,7 @@ struct problem {
 
 static double reduced(const struct problem *p, int row, int column)
 {
-    double cost = column < p->columns ? p->cost[(size_t)row * p->columns + column] : p->spare;
+    double cost = column < p->columns ? p->cost[(size_t)row * p->columns + column] : p->dummy;
     return cost - p->u[row] - p->v[column];
 }
 
@@ -121,7 +121,7 @@ static void bring_in(struct problem *p, int first)
 static void solve(struct arena *a, int rows, int columns, const double *cost, double alone, int *column)
 {
     int all = rows + columns;
-    struct problem p = {.rows = rows, .columns = columns, .cost = cost, .spare = 2.0 * alone};
+    struct problem p = {.rows = rows, .columns = columns, .cost = cost, .dummy = 2.0 * alone};
     p.u = ARENA_TAKE(a, double, rows);
     p.v = ARENA_TAKE(a, double, all);
     p.least = ARENA_TAKE(a, double, all);
@@ -222,7 +222,7 @@ struct follow {
     int *column;               /* [all modes] */
 };
 
-static double apart(const struct follow *f, int p, int q)
+static double distance_between(const struct follow *f, int p, int q)
 {
     double x = f->xy[2 * p] - f->xy[2 * q], y = f->xy[2 * p + 1] - f->xy[2 * q + 1];
     return sqrt(x * x + y * y);
@@ -234,7 +234,7 @@ static void gather(struct follow *f, int place)
     for (int t = 0; t < f->n; t++)
         f->nearest[t] = HUGE_VAL;
     for (int p = 0; p < f->places; p++) {
-        double distance = apart(f, p, place);
+        double distance = distance_between(f, p, place);
         for (int i = 0; f->met[p] && i < f->list[p].n; i++) {
             int t = f->track[p][i];
             if (distance < f->nearest[t]) {
@@ -263,8 +263,8 @@ static int next(const struct follow *f, int edges, const int (*edge)[2])
     double least = HUGE_VAL;
     for (int k = 0; k < edges; k++) {
         int p = edge[k][0], q = edge[k][1];
-        if (f->met[p] == f->met[q] || apart(f, p, q) >= least) continue;
-        least = apart(f, p, q);
+        if (f->met[p] == f->met[q] || distance_between(f, p, q) >= least) continue;
+        least = distance_between(f, p, q);
         best = f->met[p] ? q : p;
     }
     return best;
@@ -320,12 +320,6 @@ static void times(int n, const double *by, double *x)
         x[i] *= by[i];
 }
 
-static double fade_of(const struct morph *p, double frequency)
-{
-    double u = (frequency / p->rate - 0.45) / 0.05;
-    return u <= 0.0 ? 1.0 : u >= 1.0 ? 0.0 : 0.5 * (1.0 + real_cospi(u));
-}
-
 /* Poles of the sum's shares of their logarithms. */
 static void curve(const struct morph *p, const struct places_sum *sum, const double *rows, const double *own,
                   double *to)
@@ -349,7 +343,7 @@ double morph_complex(const struct modes *m, const struct modes_where *where, con
     curve(p, &sum, p->frequency, m->frequency, to->frequency);
     curve(p, &sum, p->decay, m->decay, to->decay);
     for (int k = 0; k < p->highs; k++) {
-        double fade = fade_of(p, to->frequency[p->high[k]]);
+        double fade = modes_fade(to->frequency[p->high[k]], p->rate);
         to->re[p->high[k]] *= fade;
         to->im[p->high[k]] *= fade;
     }
@@ -483,7 +477,7 @@ static void mend(const struct morph *p, const struct places_mix *mix, const stru
     n = 0;
     for (int i = 0; i < p->n; i++)
         if (p->torn[i] > 0.0) {
-            double re = 0.0, im = 0.0, by = p->largest[i] * fade_of(p, to->frequency[i]);
+            double re = 0.0, im = 0.0, by = p->largest[i] * modes_fade(to->frequency[i], p->rate);
             for (int k = 0; k < edges; k++, n++) {
                 re += share[k] * p->size[n] * p->cosine[n];
                 im += share[k] * p->size[n] * p->sine[n];
@@ -505,7 +499,7 @@ double morph_separate(const struct modes *m, const struct modes_where *where, co
     vecmath_sincospi((size_t)p->n, to->im, to->im, to->re);
     if (p->gaps) times(p->n, p->share, p->amplitude);
     for (int k = 0; k < p->highs; k++)
-        p->amplitude[p->high[k]] *= fade_of(p, to->frequency[p->high[k]]);
+        p->amplitude[p->high[k]] *= modes_fade(to->frequency[p->high[k]], p->rate);
     times(p->n, p->amplitude, to->re);
     times(p->n, p->amplitude, to->im);
     mend(p, &mix, to);
@@ -564,28 +558,28 @@ void morph_slopes(struct morph *p)
 }
 
 /* Rows are packed towards the front: nothing is overwritten before it is read. */
-static void pack(double *v, int rows, int n, const bool *keep)
+static void pack(double *v, int rows, int n, const bool *chosen)
 {
     size_t to = 0;
     for (int r = 0; v && r < rows; r++)
         for (int i = 0; i < n; i++)
-            if (keep[i]) v[to++] = v[(size_t)r * n + i];
+            if (chosen[i]) v[to++] = v[(size_t)r * n + i];
 }
 
-int morph_select(struct morph *p, struct modes *m, const bool *keep)
+int morph_select(struct morph *p, struct modes *m, const bool *chosen)
 {
     double *rows[] = {p->re, p->im, p->frequency, p->decay, p->gain, p->phase, p->there};
     double *single[] = {p->largest, p->lowest, p->highest, m->frequency, m->decay, m->slowest};
-    int n = p->n, kept = 0;
+    int n = p->n, left = 0;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
-        pack(rows[k], p->re ? places_rows(p->places) : p->rows, n, keep);
+        pack(rows[k], p->re ? places_rows(p->places) : p->rows, n, chosen);
     for (size_t k = 0; k < sizeof single / sizeof *single; k++)
-        pack(single[k], 1, n, keep);
+        pack(single[k], 1, n, chosen);
     for (int i = 0; i < n; i++)
-        kept += keep[i];
-    m->n = p->n = kept;
+        left += chosen[i];
+    m->n = p->n = left;
     if (!m->shared) morph_finish(p);
-    return n - kept;
+    return n - left;
 }
 
 #define NO_RATE 1e12 /* Hz */

@@ -70,8 +70,8 @@ double morph_complex(const struct modes *m, const struct modes_where *where, con
 
 double morph_separate(const struct modes *m, const struct modes_where *where, const struct modes_point *to);
 
-/* Keeps the components for which keep[i] is set, here and in m; returns how many were dropped. */
-int morph_select(struct morph *p, struct modes *m, const bool *keep);
+/* Keeps the components for which chosen[i] is set, here and in m; returns how many were dropped. */
+int morph_select(struct morph *p, struct modes *m, const bool *chosen);
 
 /* Modes between places at which they have been computed, as a mode table of those places and of complex gains would
    give them. */

@@ -126,7 +126,7 @@ void object_sine_bind(struct arena *a, struct object *o)
         }
     }
     o->shapes = sine_shapes;
-    object_keep_table(o, a, q);
+    object_set_table(o, a, q);
 }
 
 void object_sine_list(const struct object_body *b, const struct object_sine_law *law, const struct object_limit *limit,
@@ -137,10 +137,12 @@ void object_sine_list(const struct object_body *b, const struct object_sine_law 
         for (int n = 1; n <= limit->most / m; n++) {
             double w = law->w(law->self, m * REAL_PI / g->length, n * REAL_PI / g->width);
             if (w >= limit->w) break;
-            object_list_add(
-                l, a,
-                (struct object_mode){
-                    .w = w, .mass = law->mass, .excess = law->excess(law->self, w), .a = 2 * m, .b = 2 * n});
+            object_list_add(l, a,
+                            (struct object_mode){.w = w,
+                                                 .mass = law->mass,
+                                                 .excess = law->excess ? law->excess(law->self, w) : 0.0,
+                                                 .a = 2 * m,
+                                                 .b = 2 * n});
         }
     object_list_cut(l, limit);
 }
@@ -222,9 +224,9 @@ void object_radial_list(const struct object_radial *q, const struct object_limit
     }
     l->capped = l->n < limit->most && lambda_top >= highest;
     object_list_cut(l, limit);
-    struct object_radial *kept = ARENA_TAKE(a, struct object_radial, 1);
-    *kept = *q;
-    l->work = kept;
+    struct object_radial *rest = ARENA_TAKE(a, struct object_radial, 1);
+    *rest = *q;
+    l->work = rest;
 }
 
 /* ------------------------------------------------------------------ shapes */
@@ -346,14 +348,14 @@ void object_radial_bind(struct arena *a, struct object *o)
     o->radius = radius / sqrt(2.0);
     o->flat = true;
     o->shapes = radial_shapes;
-    object_keep_table(o, a, t);
+    object_set_table(o, a, t);
 }
 
 #define TOO_HIGH 0.05 /* excess of a frequency that is worth a note */
 
 /* ------------------------------------------------------------------ for the shapes */
 
-void object_keep_table(struct object *o, struct arena *a, const void *table)
+void object_set_table(struct object *o, struct arena *a, const void *table)
 {
     struct object_inside *in = ARENA_TAKE(a, struct object_inside, 1);
     *in = *object_inside(o);
@@ -414,11 +416,11 @@ static double decay_of(const struct object_body *b, double w) { return material_
 /* Takes out those that do not ring; returns how many. */
 static int drop_overdamped(const struct object_body *b, struct object_list *l)
 {
-    int kept = 0;
+    int rest = 0;
     for (int i = 0; i < l->n; i++)
-        if (decay_of(b, l->mode[i].w) < l->mode[i].w) l->mode[kept++] = l->mode[i];
-    int dropped = l->n - kept;
-    l->n = kept;
+        if (decay_of(b, l->mode[i].w) < l->mode[i].w) l->mode[rest++] = l->mode[i];
+    int dropped = l->n - rest;
+    l->n = rest;
     return dropped;
 }
 
@@ -513,15 +515,15 @@ static const char *joined(struct arena *a, const char *before, const char *more)
     return before ? arena_format(a, "%s\n%s", before, more) : more;
 }
 
-/* Of the modes below `heard`, Hz; 0: of all. */
-static const char *reach(const struct object_inside *in, double heard, struct arena *a)
+/* Of the modes below `audible`, Hz; 0: of all. */
+static const char *reach(const struct object_inside *in, double audible, struct arena *a)
 {
     const struct object_list *l = &in->list;
     int high = 0, first = -1, all = 0;
     double worst = 0.0;
     for (int i = 0; i < l->n; i++) {
         double w = l->mode[i].w, d = decay_of(in->body, w);
-        if (heard > 0 && !(sqrt((w - d) * (w + d)) < 2 * REAL_PI * heard)) continue;
+        if (audible > 0 && !(sqrt((w - d) * (w + d)) < 2 * REAL_PI * audible)) continue;
         all++;
         if (l->mode[i].excess > TOO_HIGH) {
             first = first < 0 ? i : first;
@@ -532,15 +534,14 @@ static const char *reach(const struct object_inside *in, double heard, struct ar
     if (high == 0) return NULL;
     return arena_format(a,
                         "%s: %s puts the frequencies of %d of its %d modes more than %g %% too high, from %.0f Hz on "
-                        "(by about %.0f %% at most): it is not "
-                        "thin enough for them",
+                        "(by about %.0f %% at most): it is not thin enough for them",
                         in->body->key, in->kind->theory, high, all, 100.0 * TOO_HIGH,
                         l->mode[first].w / (2.0 * REAL_PI), 100.0 * worst);
 }
 
-static const char *notes(const struct object_inside *in, double heard, struct arena *a)
+static const char *notes(const struct object_inside *in, double audible, struct arena *a)
 {
-    const char *text = reach(in, heard, a), *key = in->body->key;
+    const char *text = reach(in, audible, a), *key = in->body->key;
     int dropped = in->list.dropped;
     if (dropped > 0)
         text = joined(a, text,
@@ -565,14 +566,14 @@ bool object_make(const struct object_given *given, const struct object_ask *ask,
     *in = (struct object_inside){.kind = kind_of(given->shape), .body = b};
     if (!list_ringing(in, &limit, a, e)) return false;
     if (in->list.n == 0)
-        return err_set(e, ERR_SCENE,
-                       "%s: no %smode of this object %s%g Hz: widen the band (rasp modes object: --top), "
-                       "or, if it is too %s",
-                       b->key, in->list.dropped ? "ringing " : "",
-                       ask->low > 0 ? arena_format(a, "from %g Hz to below ", ask->low) : "below ", ask->top,
-                       in->list.dropped ? "damped, give a material of less damping"
-                                        : "small or too stiff, give larger sizes or a softer material");
-    *note = notes(in, ask->heard, a);
+        return err_set(
+            e, ERR_SCENE,
+            "%s: no %smode of this object %s%g Hz: widen the band (rasp modes object: --top), or, if it is too %s",
+            b->key, in->list.dropped ? "ringing " : "",
+            ask->low > 0 ? arena_format(a, "from %g Hz to below ", ask->low) : "below ", ask->top,
+            in->list.dropped ? "damped, give a material of less damping"
+                             : "small or too stiff, give larger sizes or a softer material");
+    *note = notes(in, ask->audible, a);
     *o = (struct object){.key = b->key};
     finish(o, in, a);
     sort_by_frequency(o, a);
@@ -600,7 +601,7 @@ struct ear {
     struct arena *arena;
     double origin[2], listen[2];
     bool fixed;    /* heard at `listen` */
-    double *heard; /* [n] phi(listen)/m, or 1/m */
+    double *scale; /* [n] phi(listen)/m, or 1/m */
     double *turn;  /* [n] -d/w_d */
 };
 
@@ -613,9 +614,9 @@ static double gains(const struct ear *r, double x, double y, double *gain)
     double off = o->shapes(o, x, y, gain);
     if (is_family(o) && r->fixed) object_kinds_shell_from(o, r->listen, (const double[2]){x, y}, gain);
     for (int i = 0; i < o->n; i++)
-        gain[i] = is_family(o) ? (r->fixed ? gain[i] : 1.0) * r->heard[i]
-                  : r->fixed   ? gain[i] * r->heard[i]
-                               : gain[i] * gain[i] * r->heard[i];
+        gain[i] = is_family(o) ? (r->fixed ? gain[i] : 1.0) * r->scale[i]
+                  : r->fixed   ? gain[i] * r->scale[i]
+                               : gain[i] * gain[i] * r->scale[i];
     return off;
 }
 
@@ -632,15 +633,15 @@ static void ear_make(struct ear *r, const struct object *o, const double origin[
                      struct arena *a)
 {
     *r = (struct ear){.o = o, .arena = a, .origin = {origin[0], origin[1]}, .fixed = listen != NULL};
-    r->heard = ARENA_TAKE(a, double, o->n);
+    r->scale = ARENA_TAKE(a, double, o->n);
     r->turn = ARENA_TAKE(a, double, o->n);
     if (listen) {
         r->listen[0] = listen[0];
         r->listen[1] = listen[1];
     }
-    if (listen && !is_family(o)) o->shapes(o, listen[0], listen[1], r->heard);
+    if (listen && !is_family(o)) o->shapes(o, listen[0], listen[1], r->scale);
     for (int i = 0; i < o->n; i++) {
-        r->heard[i] = (listen && !is_family(o) ? r->heard[i] : 1.0) / o->mass[i];
+        r->scale[i] = (listen && !is_family(o) ? r->scale[i] : 1.0) / o->mass[i];
         r->turn[i] = -o->decay[i] / (2.0 * REAL_PI * o->frequency[i]);
     }
 }
@@ -729,11 +730,11 @@ static int drop(struct modes *m, double top)
 {
     struct ear *r = (struct ear *)m->self;
     struct object *picked = ARENA_TAKE(r->arena, struct object, 1);
-    int *kept = ARENA_TAKE(r->arena, int, m->n), n = 0, all = m->n;
+    int *rest = ARENA_TAKE(r->arena, int, m->n), n = 0, all = m->n;
     for (int i = 0; i < all; i++)
-        if (m->frequency[i] < top) kept[n++] = i;
+        if (m->frequency[i] < top) rest[n++] = i;
     if (n > 0 && n < all) {
-        pick(r->o, kept, n, r->arena, picked);
+        pick(r->o, rest, n, r->arena, picked);
         fill(r, picked, m);
     }
     m->n = n;

@@ -44,7 +44,7 @@ struct object_ask {
     double top;
     int most;
     double low;
-    double heard; /* Hz: `note` says of modes below this how far theory is off; 0: of all */
+    double audible; /* Hz: `note` says of modes below this how far theory is off; 0: of all */
 };
 bool object_make(const struct object_given *given, const struct object_ask *ask, struct arena *a, struct object *o,
                  const char **note, struct err *e);

@@ -184,7 +184,7 @@ static void beam_bind(struct arena *a, struct object *o)
         b->near[i] = 0.5 * (1.0 + b->slope[i]);
     }
     o->shapes = beam_shapes;
-    object_keep_table(o, a, b);
+    object_set_table(o, a, b);
 }
 
 /* Bars (rectangular section, bending across the thickness) and rods (round: solid, or a tube with a wall).
@@ -323,20 +323,13 @@ static double frequency(const void *speed, double kx, double ky)
     return *(const double *)speed * sqrt(kx * kx + ky * ky);
 }
 
-static double no_excess(const void *speed, double w)
-{
-    (void)speed;
-    (void)w;
-    return 0.0;
-}
-
 static bool membrane_list(const struct object_body *b, const struct object_limit *limit, struct arena *a,
                           struct object_list *l, struct err *e)
 {
     (void)e;
     const struct object_given *g = b->given;
     double area_density = b->density * g->thickness, speed = sqrt(g->surface_tension / area_density);
-    struct object_sine_law law = {frequency, no_excess, &speed, 0.25 * area_density * g->length * g->width};
+    struct object_sine_law law = {frequency, NULL, &speed, 0.25 * area_density * g->length * g->width};
     object_sine_list(b, &law, limit, a, l);
     return true;
 }
@@ -610,7 +603,7 @@ static void shell_bind(struct arena *a, struct object *o)
     o->high[0] = o->high[1] = REAL_PI * outer;
     o->radius = outer;
     o->shapes = shell_shapes;
-    object_keep_table(o, a, order);
+    object_set_table(o, a, order);
 }
 
 const struct object_kind object_kinds_shell = {"thin-shell theory", shell_list, shell_bind};

@@ -59,7 +59,7 @@ static inline const struct object_inside *object_inside(const struct object *o)
 {
     return (const struct object_inside *)o->self;
 }
-void object_keep_table(struct object *o, struct arena *a, const void *table);
+void object_set_table(struct object *o, struct arena *a, const void *table);
 
 /* Moves (x, y) to the nearest place of the box; returns how far. */
 double object_nearest(const struct object *o, double *x, double *y);
@@ -74,7 +74,7 @@ void object_sine_bind(struct arena *a, struct object *o);
 /* Modes (m, n) >= 1 of w = law(m pi/length, n pi/width) that rises with both. */
 struct object_sine_law {
     double (*w)(const void *self, double kx, double ky);
-    double (*excess)(const void *self, double w);
+    double (*excess)(const void *self, double w); /* NULL: none */
     const void *self;
     double mass;
 };

@@ -29,8 +29,7 @@ static bool plate_stiffness(const struct object_body *b, struct plate *p, struct
     if (!(coupled > 0.0))
         return err_set(e, ERR_SCENE,
                        "%s: no material has a poisson of %g with a youngs_modulus_across of %g Pa beside a "
-                       "youngs_modulus of %g Pa: "
-                       "poisson^2 must be below the modulus along over the one across",
+                       "youngs_modulus of %g Pa: poisson^2 must be below the modulus along over the one across",
                        b->key, nu, b->across, b->youngs_modulus);
     double cube = h * h * h / 12.0;
     p->dx = b->youngs_modulus * cube / coupled;
@@ -349,8 +348,7 @@ bool object_plate_ritz(const struct object_body *b, const struct object_limit *l
         if (!solve(r, b, w, a, l))
             return err_set(e, ERR_SCENE,
                            "%s: this stiffness is not positive, or so different along and across that numbers do not "
-                           "reach: youngs_modulus "
-                           "%g Pa, across %g Pa, shear_modulus %g Pa, poisson %g",
+                           "reach: youngs_modulus %g Pa, across %g Pa, shear_modulus %g Pa, poisson %g",
                            b->key, b->youngs_modulus, b->across, b->shear, b->poisson);
         if (l->n >= few.most || w >= few.w) break;
     }
@@ -422,7 +420,7 @@ static void ritz_bind(struct arena *a, struct object *o)
         o->terms += (double)t->block[i].n * t->block[i].modes;
     }
     o->shapes = shapes;
-    object_keep_table(o, a, t);
+    object_set_table(o, a, t);
 }
 
 static bool list(const struct object_body *b, const struct object_limit *limit, struct arena *a, struct object_list *l,

@@ -109,7 +109,7 @@ static void add_triangle(struct mesh *m, const struct corner *side, int point)
 }
 
 /* Joins the next point; returns its corner. spare: two more. */
-static struct corner *join(struct mesh *m, struct corner *last, int point, struct corner *spare)
+static struct corner *join(struct mesh *m, struct corner *last, int point, struct corner *room)
 {
     struct corner *from = last, *to = last;
     for (; sees(m, point, to); to = to->after)
@@ -117,25 +117,25 @@ static struct corner *join(struct mesh *m, struct corner *last, int point, struc
     for (; sees(m, point, from->before); from = from->before)
         add_triangle(m, from->before, point);
     if (from == to) { /* further along the line */
-        to = &spare[1];
+        to = &room[1];
         *to = (struct corner){last->point, NULL, last->after};
         to->after->before = to;
     }
-    spare[0] = (struct corner){point, from, to};
-    from->after = to->before = &spare[0];
-    return &spare[0];
+    room[0] = (struct corner){point, from, to};
+    from->after = to->before = &room[0];
+    return &room[0];
 }
 
 static void sweep(struct arena *a, struct mesh *m)
 {
     struct point *p = ARENA_TAKE(a, struct point, m->n);
-    struct corner *spare = ARENA_TAKE(a, struct corner, 2 * (size_t)m->n), *last = spare;
+    struct corner *room = ARENA_TAKE(a, struct corner, 2 * (size_t)m->n), *last = room;
     for (int i = 0; i < m->n; i++)
         p[i] = (struct point){m->xy[2 * i], m->xy[2 * i + 1], i};
     qsort(p, (size_t)m->n, sizeof *p, left_first);
     *last = (struct corner){p[0].index, last, last};
     for (int i = 1; i < m->n; i++)
-        last = join(m, last, p[i].index, spare + 2 * (size_t)i);
+        last = join(m, last, p[i].index, room + 2 * (size_t)i);
 }
 
 /* ------------------------------------------------------------------ edges */
@@ -235,7 +235,7 @@ static int by_corner(const void *a, const void *b)
 }
 
 /* The lowest corner of each triangle first, and triangles by it. */
-static void settle(struct mesh *m)
+static void order_triangles(struct mesh *m)
 {
     for (int t = 0; t < m->triangles; t++) {
         int *k = m->corner[t], low = k[0] < k[1] ? (k[0] < k[2] ? 0 : 2) : (k[1] < k[2] ? 1 : 2);
@@ -245,18 +245,11 @@ static void settle(struct mesh *m)
     qsort(m->corner, (size_t)m->triangles, sizeof *m->corner, by_corner);
 }
 
-static bool sound(const struct mesh *m)
+/* The triangles of the points xy [n][2] (m, n >= 3, different, not on one line), anticlockwise, and their sides;
+   slivers along the hull, within 1e-9 m of a line, are left out. false: no triangulation. */
+static bool delaunay(struct arena *a, const double *xy, struct mesh *m)
 {
-    for (int t = 0; t < m->triangles; t++)
-        if (!(height(m, m->corner[t][0], m->corner[t][1], m->corner[t][2]) > 0.0)) return false;
-    return m->triangles == 2 * m->n - 2 - m->hull;
-}
-
-/* The corners [returned number][3] of the triangles of the points xy [n][2] (m, n >= 3, different, not on one line),
-   anticlockwise; slivers along the hull, within 1e-9 m of a line, are left out. 0: no triangulation. */
-static int delaunay(struct arena *a, int n, const double *xy, const int (**corner)[3])
-{
-    struct mesh m = {.n = n};
+    int n = m->n;
     double *moved = ARENA_TAKE(a, double, 2 * (size_t)n), extent = 0.0;
     for (int i = 0; i < 2 * n; i++) {
         moved[i] = xy[i] - xy[i % 2];
@@ -265,18 +258,20 @@ static int delaunay(struct arena *a, int n, const double *xy, const int (**corne
     double step = ldexp(extent, -44); /* above least: rounding of x reverses no order of places one above the other */
     for (int i = 0; i < 2 * n; i++)
         moved[i] = step * rint(moved[i] / step);
-    m.xy = moved;
-    m.least = 1e-14 * extent;
-    m.corner = arena_take(a, 2 * (size_t)n, sizeof *m.corner);
-    m.side = ARENA_TAKE(a, struct side, 6 * (size_t)n);
-    m.count = ARENA_TAKE(a, int, 2 * (size_t)n);
-    sweep(a, &m);
-    for (int pass = 0; pass < 4 * n && flip(&m) > 0; pass++)
+    m->xy = moved;
+    m->least = 1e-14 * extent;
+    m->corner = arena_take(a, 2 * (size_t)n, sizeof *m->corner);
+    m->side = ARENA_TAKE(a, struct side, 6 * (size_t)n);
+    m->count = ARENA_TAKE(a, int, 2 * (size_t)n);
+    sweep(a, m);
+    for (int pass = 0; pass < 4 * n && flip(m) > 0; pass++)
         ;
-    peel(&m);
-    settle(&m);
-    *corner = (const int(*)[3])m.corner;
-    return sound(&m) ? m.triangles : 0;
+    peel(m);
+    order_triangles(m);
+    find_sides(m);
+    for (int t = 0; t < m->triangles; t++)
+        if (!(height(m, m->corner[t][0], m->corner[t][1], m->corner[t][2]) > 0.0)) return false;
+    return m->triangles > 0 && m->triangles == 2 * n - 2 - m->hull;
 }
 
 /* Barycentric coordinates in a triangulation: x = x_0 + l_1 (x_1 - x_0) + l_2 (x_2 - x_0), l_0 = 1
@@ -317,37 +312,20 @@ static struct triangle triangle_make(const double *xy, const int *corner)
     return (struct triangle){corner, {o[0], o[1]}, {{d / area, -b / area}, {-c / area, a / area}}};
 }
 
-struct plane_side {
-    int low, high, from, to;
-};
-
-static int by_ends(const void *a, const void *b)
+/* Each edge once, by its lower and its higher end. */
+static void take_edges(struct arena *a, const struct mesh *m, struct places_plane *p)
 {
-    const struct plane_side *p = a, *q = b;
-    return p->low != q->low ? (p->low > q->low) - (p->low < q->low) : (p->high > q->high) - (p->high < q->high);
-}
-
-static void find_edges(struct arena *a, struct places_plane *p)
-{
-    int n = 3 * p->triangles;
-    struct plane_side *s = ARENA_TAKE(a, struct plane_side, n);
-    for (int i = 0; i < n; i++) {
-        const int *k = p->triangle[i / 3].corner;
-        int from = k[i % 3], to = k[(i + 1) % 3];
-        s[i] = (struct plane_side){from < to ? from : to, from < to ? to : from, from, to};
-    }
-    qsort(s, (size_t)n, sizeof *s, by_ends);
-    p->edge = arena_take(a, (size_t)n, sizeof *p->edge);
-    p->side = arena_take(a, (size_t)n, sizeof *p->side);
-    for (int i = 0; i < n; i++) {
-        bool twice = i + 1 < n && by_ends(&s[i], &s[i + 1]) == 0;
-        p->edge[p->edges][0] = s[i].low;
-        p->edge[p->edges++][1] = s[i].high;
-        if (!twice) {
-            p->side[p->sides][0] = s[i].from;
-            p->side[p->sides++][1] = s[i].to;
-        }
-        i += twice;
+    p->edge = arena_take(a, (size_t)m->sides, sizeof *p->edge);
+    p->side = arena_take(a, (size_t)m->sides, sizeof *p->side);
+    for (int k = 0; k < m->sides; k++) {
+        const struct side *s = &m->side[k];
+        const int *corner = m->corner[s->triangle];
+        if (k > 0 && twin(m, k - 1)) continue;
+        p->edge[p->edges][0] = s->low;
+        p->edge[p->edges++][1] = s->high;
+        if (twin(m, k)) continue;
+        p->side[p->sides][0] = corner[(s->at + 1) % 3];
+        p->side[p->sides++][1] = corner[(s->at + 2) % 3];
     }
 }
 
@@ -413,14 +391,14 @@ static void fill_cells(struct arena *a, struct places_plane *p)
 static struct places_plane *plane_make(struct arena *a, int n, const double *xy)
 {
     struct places_plane *p = ARENA_TAKE(a, struct places_plane, 1);
-    const int(*corner)[3];
+    struct mesh m = {.n = n};
     p->xy = xy;
-    p->triangles = delaunay(a, n, xy, &corner);
-    if (p->triangles == 0) return NULL;
+    if (!delaunay(a, xy, &m)) return NULL;
+    p->triangles = m.triangles;
     p->triangle = ARENA_TAKE(a, struct triangle, p->triangles);
     for (int t = 0; t < p->triangles; t++)
-        p->triangle[t] = triangle_make(xy, corner[t]);
-    find_edges(a, p);
+        p->triangle[t] = triangle_make(xy, m.corner[t]);
+    take_edges(a, &m, p);
     lay_cells(xy, n, p);
     fill_cells(a, p);
     return p;
@@ -470,12 +448,6 @@ static double plane_at(const struct places_plane *p, double x, double y, struct 
     for (int k = p->start[cell]; k < p->start[cell + 1]; k++)
         if (in_triangle(&p->triangle[p->holds[k]], x, y, mix)) return 0.0;
     return off_hull(p, x, y, mix);
-}
-
-static int plane_edges(const struct places_plane *p, const int (**edge)[2])
-{
-    *edge = (const int(*)[2])p->edge;
-    return p->edges;
 }
 
 static const double same = 1e-9;    /* m */
@@ -623,7 +595,6 @@ static bool make_grid(struct arena *a, struct places *p)
 
 static bool make_plane(struct arena *a, struct places *p, struct err *e)
 {
-    const int(*edge)[2];
     p->kind = PLACES_PLANE;
     p->plane = plane_make(a, p->n, p->xy);
     if (!p->plane)
@@ -633,11 +604,11 @@ static bool make_plane(struct arena *a, struct places *p, struct err *e)
             "same point: write them with more digits, or take one place of those that are close");
     p->rings =
         places_smooth_rings_make(a, p->n, p->xy, p->order, rounded * distance(p->xy, p->xy + 2 * farthest(p, 0)));
-    p->edges = plane_edges(p->plane, &edge);
+    p->edges = p->plane->edges;
     p->edge = arena_take(a, (size_t)p->edges, sizeof *p->edge);
     for (int k = 0; k < p->edges; k++)
         for (int c = 0; c < 2; c++)
-            p->edge[k][c] = p->order[edge[k][c]];
+            p->edge[k][c] = p->order[p->plane->edge[k][c]];
     return true;
 }
 

@@ -94,11 +94,11 @@ void places_smooth_spline_slopes(const struct places_spline *s, int count, const
     }
 }
 
-enum { APART = 32, PARTS = 8 };
+enum { SPACING = 32, PARTS = 8 };
 
 double places_smooth_spline_grows(const struct places_spline *s, struct arena *a)
 {
-    int count = s->n < APART ? s->n : APART;
+    int count = s->n < SPACING ? s->n : SPACING;
     double *f = ARENA_TAKE(a, double, (size_t)s->n *(size_t)count),
            *m = ARENA_TAKE(a, double, (size_t)s->n *(size_t)count), most = 1;
     const double **from = ARENA_TAKE(a, const double *, s->n);

@@ -134,7 +134,7 @@ static double fit_gains(struct gains *g, const double *x, int k)
 
 enum { STARTS = 2, STEPS = 40, PER_DECADE = 8 };
 
-static const double enough = 1e-3, apart = 0.4; /* of the error; of x */
+static const double enough = 1e-3, spacing = 0.4; /* of the error; of x */
 
 struct work {
     struct gains g;
@@ -156,7 +156,7 @@ static bool space_out(const struct work *w, double *x, int k)
         x[0] = fmax(x[0], w->low);
         x[k - 1] = fmin(x[k - 1], w->high);
         for (int j = 1; j < k; j++) {
-            double lack = 0.5 * (apart - (x[j] - x[j - 1]));
+            double lack = 0.5 * (spacing - (x[j] - x[j - 1]));
             if (lack > 1e-9) {
                 x[j - 1] -= lack;
                 x[j] += lack;

@@ -235,12 +235,6 @@ static void decays(const struct mix *x, int n, const double *f, double *decay)
     vecmath_exp((size_t)n, decay, decay);
 }
 
-static double fade(const struct self *s, double f)
-{
-    double x = s->rate > 0.0 ? (f / s->rate - 0.45) / 0.05 : 0.0;
-    return x <= 0.0 ? 1.0 : x < 1.0 ? 0.5 + 0.5 * real_cospi(x) : 0.0;
-}
-
 static void block(const struct self *s, const struct mix *x, const int range[2], const struct modes_point *p)
 {
     double f[BLOCK], g[BLOCK], decay[BLOCK];
@@ -253,7 +247,8 @@ static void block(const struct self *s, const struct mix *x, const int range[2],
     decays(x, n, f, decay);
     for (int j = 0, i = range[0]; j < n; j++, i++) {
         double w0 = 2.0 * REAL_PI * f[j], rings = w0 * w0 - decay[j] * decay[j],
-               w = rings > 0.0 ? sqrt(rings) : INFINITY, gain = s->gain * g[j] * fade(s, w / (2.0 * REAL_PI));
+               w = rings > 0.0 ? sqrt(rings) : INFINITY,
+               gain = s->gain * g[j] * modes_fade(w / (2.0 * REAL_PI), s->rate);
         p->re[i] = -gain * decay[j] / w;
         p->im[i] = gain;
         if (p->frequency) {
@@ -278,12 +273,10 @@ static double at(const struct modes *m, const struct modes_where *where, const s
 static bool inside(const char *key, const double place[2], struct err *e)
 {
     double r = sqrt(place[0] * place[0] + place[1] * place[1]);
-    return r <= 1.0 + 1e-6 ||
-           err_set(
-               e, ERR_SCENE,
-               "surface.space.%s: [%.9g, %.9g] lies %.6g from the centre, outside the disk of radius 1 whose rim is "
-               "that of wood, metal and glass; divide both by that",
-               key, place[0], place[1], r);
+    return r <= 1.0 + 1e-6 || err_set(e, ERR_SCENE,
+                                      "surface.space.%s: [%.9g, %.9g] lies %.6g from the centre, outside the disk of "
+                                      "radius 1 whose rim is that of wood, metal and glass; divide both by that",
+                                      key, place[0], place[1], r);
 }
 
 static bool ends(const struct space *g, struct self *s, struct err *e)
@@ -337,8 +330,7 @@ static int strongest_first(const void *a, const void *b)
  * they are there. */
 static void walk(struct modes *m, struct rank *rank, struct arena *a)
 {
-    struct modes_point p = {ARENA_TAKE(a, double, m->n), ARENA_TAKE(a, double, m->n), ARENA_TAKE(a, double, m->n),
-                            ARENA_TAKE(a, double, m->n)};
+    struct modes_point p = modes_point_make(a, m->n);
     for (int i = 0; i < m->n; i++) {
         m->slowest[i] = INFINITY;
         rank[i] = (struct rank){.energy = -1.0, .low = INFINITY, .lowest = INFINITY, .index = i};
@@ -368,7 +360,7 @@ static void permute(double *v, const int *index, int n, double *room)
 }
 
 /* The modes index[n], in that order. */
-static void keep(struct modes *m, struct self *s, const int *index, int n, double *room)
+static void select_modes(struct modes *m, struct self *s, const int *index, int n, double *room)
 {
     double *own[] = {m->frequency, m->decay, m->slowest, s->low};
     for (int c = 0; c < 4; c++)
@@ -388,7 +380,7 @@ static int drop(struct modes *m, double top)
     int *index = ARENA_TAKE(a, int, m->n + 1), n = 0, all = m->n;
     for (int i = 0; i < all; i++)
         if (s->low[i] < top) index[n++] = i;
-    keep(m, s, index, n, ARENA_TAKE(a, double, all + 1));
+    select_modes(m, s, index, n, ARENA_TAKE(a, double, all + 1));
     arena_close(a);
     return all - n;
 }
@@ -411,7 +403,7 @@ static bool choose(struct modes *m, struct self *s, const struct modes_ask *ask,
     qsort(rank, (size_t)n, sizeof *rank, strongest_first);
     for (int i = 0; i < n; i++)
         index[i] = rank[i].index;
-    keep(m, s, index, n, ARENA_TAKE(a, double, most));
+    select_modes(m, s, index, n, ARENA_TAKE(a, double, most));
     return n < ask->strongest && below == most && most < MOST;
 }
 
@@ -433,7 +425,6 @@ bool space_modes(const struct space *g, const struct modes_ask *ask, struct aren
     s->rate = travels ? ask->rate : 0.0; /* only now: what is chosen does not depend on it */
     return m->n > 0 || err_set(e, ERR_SCENE,
                                "surface.space: none of its modes lies from %g Hz to below %g Hz, surface.band: widen "
-                               "the band, or change "
-                               "surface.space.fundamental, %g Hz",
+                               "the band, or change surface.space.fundamental, %g Hz",
                                ask->band[0], ask->band[1], g->fundamental);
 }
