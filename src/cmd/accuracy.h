@@ -1,6 +1,6 @@
 /* rasp accuracy: a sweep of renders, what each costs and how wrong it is. accuracy.c reads the command line, lists what
-   is rendered and finds orders, the error of the reference and the front; accuracy_child.c renders and compares;
-   accuracy_report.c prints, writes and draws. */
+   is rendered, renders and compares, and finds orders, the error of the reference and the front; accuracy_report.c
+   prints, writes and draws. */
 #ifndef CMD_ACCURACY_H
 #define CMD_ACCURACY_H
 #include "cmd/cmd.h"
@@ -64,12 +64,11 @@ struct accuracy_sweep {
 
 enum { ACCURACY_VALUES = 32 }; /* most that may be given of a knob */
 
-/* --values KNOB=a,b,c, in the arena: [KNOBS] lists. ERR_USAGE */
+/* --values KNOB=a,b,c: [KNOBS] lists. */
 struct accuracy_values {
     double *x;
     int n;
 };
-bool accuracy_values(const struct args *args, struct arena *a, struct accuracy_values *to, struct err *e);
 
 /* No contact is heard: its force is compared, as output.quantity: force plays it. */
 bool accuracy_silent(const struct scene *s);

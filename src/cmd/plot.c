@@ -17,9 +17,12 @@
 #include "output/gnuplot.h"
 #include "output/mark.h"
 #include "pipeline/outputs.h"
+#include "response/mode_table.h"
+#include "response/object.h"
+#include "response/space.h"
+#include "scene/ball.h"
 #include "scene/scene_read.h"
-
-static void plot_page(void *self, struct gnuplot *g);
+#include "trajectory/trajectory.h"
 
 const char *const plot_panels_words[PLOT_PANELS] = {"waveform", "spectrogram", "force", "normal",
                                                     "motion",   "modes",       "decays"};
@@ -31,29 +34,22 @@ const char *plot_panels_colour(int i)
     return colours[i % (int)(sizeof colours / sizeof colours[0])];
 }
 
-static bool read_word(const char *word, unsigned *asked, struct err *e)
-{
-    const char *names[PLOT_PANELS + 1] = {NULL}, *meant;
-    memcpy(names, plot_panels_words, sizeof plot_panels_words);
-    for (int k = 0; k < PLOT_PANELS; k++)
-        if (!strcmp(word, names[k])) {
-            *asked |= 1u << k;
-            return true;
-        }
-    meant = text_nearest(word, names);
-    return err_set(
-        e, ERR_USAGE,
-        "--panels: '%s' is no panel%s%s; there are waveform, spectrogram, force, normal, motion, modes and decays",
-        word, meant ? "; did you mean " : "", meant ? meant : "");
-}
-
 bool plot_panels_read(const char *words, unsigned *asked, struct arena *a, struct err *e)
 {
     *asked = 0;
-    for (char *p = words ? arena_text(a, words) : NULL, *next; p; p = next) {
-        next = strchr(p, ',');
-        if (next) *next++ = '\0';
-        if (!read_word(p, asked, e)) return false;
+    for (char *rest = words ? arena_text(a, words) : NULL, *word; (word = strsep(&rest, ","));) {
+        const char *names[PLOT_PANELS + 1] = {NULL}, *meant;
+        int k = 0;
+        memcpy(names, plot_panels_words, sizeof plot_panels_words);
+        while (names[k] && strcmp(word, names[k]) != 0)
+            k++;
+        meant = names[k] ? NULL : text_nearest(word, names);
+        if (!names[k])
+            return err_set(e, ERR_USAGE,
+                           "--panels: '%s' is no panel%s%s; there are waveform, spectrogram, force, normal, motion, "
+                           "modes and decays",
+                           word, meant ? "; did you mean " : "", meant ? meant : "");
+        *asked |= 1u << k;
     }
     return true;
 }
@@ -107,57 +103,40 @@ static const char *text_of(const json_t *object, const char *key, struct arena *
     return arena_text(a, text ? text : "");
 }
 
-static void contacts_read(struct plot_summary *s, const json_t *list, struct arena *a)
-{
-    size_t n = json_array_size(list);
-    s->contacts = ARENA_TAKE(a, const char *, n);
-    for (size_t i = 0; i < n; i++)
-        s->contacts[s->n_contacts++] = text_of(json_array_get(list, i), "name", a);
-}
-
-static void files_read(struct plot_summary *s, const json_t *list, struct arena *a)
-{
-    size_t n = json_array_size(list);
-    s->lists = json_is_array(list);
-    for (int k = 0; k < 2; k++)
-        s->tables[k] = ARENA_TAKE(a, const char *, n);
-    for (size_t i = 0; i < n; i++) {
-        const json_t *file = json_array_get(list, i);
-        const char *kind = text_of(file, "kind", a);
-        s->sounds = s->sounds || strcmp(kind, "wav") == 0;
-        if (strcmp(kind, "scene") == 0) s->effective = text_of(file, "sha256", a);
-        if (strcmp(kind, "csv") != 0 && strcmp(kind, "npy") != 0) continue;
-        s->tables[0][s->n_tables] = text_of(file, "contact", a);
-        s->tables[1][s->n_tables++] = text_of(file, "sha256", a);
-    }
-}
-
 struct plot_summary plot_summary_read(const char *file, struct arena *a)
 {
-    json_t *whole = json_load_file(file, 0, NULL);
+    json_t *whole = json_load_file(file, 0, NULL), *contacts = json_object_get(whole, "contacts"),
+           *files = json_object_get(whole, "files"), *each;
     struct plot_summary s = {.file = file, .title = text_of(whole, "scene", a), .there = whole, .effective = ""};
-    contacts_read(&s, json_object_get(whole, "contacts"), a);
-    files_read(&s, json_object_get(whole, "files"), a);
+    size_t i;
+    s.contacts = ARENA_TAKE(a, const char *, json_array_size(contacts));
+    json_array_foreach(contacts, i, each) s.contacts[s.n_contacts++] = text_of(each, "name", a);
+    s.lists = json_is_array(files);
+    for (int k = 0; k < 2; k++)
+        s.tables[k] = ARENA_TAKE(a, const char *, json_array_size(files));
+    json_array_foreach(files, i, each)
+    {
+        const char *kind = text_of(each, "kind", a);
+        s.sounds = s.sounds || strcmp(kind, "wav") == 0;
+        if (strcmp(kind, "scene") == 0) s.effective = text_of(each, "sha256", a);
+        if (strcmp(kind, "csv") != 0 && strcmp(kind, "npy") != 0) continue;
+        s.tables[0][s.n_tables] = text_of(each, "contact", a);
+        s.tables[1][s.n_tables++] = text_of(each, "sha256", a);
+    }
     json_decref(whole);
     return s;
 }
 
-/* NULL: it is not listed. Of several contacts each has a table, of one contact it needs no name. */
-static const char *hash_of(const struct plot_summary *s, const char *contact)
-{
-    for (int i = 0; i < s->n_tables; i++)
-        if (*contact ? s->n_tables > 1 && strcmp(s->tables[0][i], contact) == 0 : s->n_tables == 1)
-            return s->tables[1][i];
-    return NULL;
-}
-
-/* Is that file the table of the contact ("": of the only one) that the summary lists? *why: why not. ERR_INPUT: it
- * cannot be read. */
-static bool plot_summary_has(const struct plot_summary *s, const char *path, const char *contact, const char **why,
-                             struct err *e)
+/* Is that file the table of the contact ("": of the only one) that the summary lists? Of several contacts each has a
+   table, of one contact it needs no name. *why: why not. ERR_INPUT: it cannot be read. */
+static bool summary_has(const struct plot_summary *s, const char *path, const char *contact, const char **why,
+                        struct err *e)
 {
     char hex[HASH_TEXT];
-    const char *hash = hash_of(s, contact);
+    const char *hash = NULL;
+    for (int i = s->n_tables - 1; i >= 0; i--)
+        if (*contact ? s->n_tables > 1 && strcmp(s->tables[0][i], contact) == 0 : s->n_tables == 1)
+            hash = s->tables[1][i];
     *why = hash ? "gives another sha256" : "does not list it";
     return hash && hash_file(path, hex, e) && strcmp(hash, hex) == 0;
 }
@@ -232,6 +211,214 @@ static bool sound_gather(struct plot_page *p, struct err *e)
     return true;
 }
 
+/* ------------------------------------------------------------------ the way of a contact
+
+   As its table of diagnostics has it, or, where there is none, as the scene's motion goes. Not more places than a panel
+   can show. */
+
+enum { MOST = 4000 };
+
+static void add(struct plot_page *p, const struct plot_way *way)
+{
+    bool moves = false;
+    for (int i = 1; i < way->n; i++)
+        moves = moves || way->at[i][0] != way->at[0][0] || way->at[i][1] != way->at[0][1];
+    if (!moves) return;
+    p->ways = arena_more(p->arena, p->ways, p->n_ways, sizeof *p->ways);
+    p->ways[p->n_ways++] = *way;
+}
+
+/* Where a contact was in the time shown, by its table; one that stays has no way. Columns of x, y and speed; the last
+   may be missing. */
+static bool way_of_table(struct plot_page *p, const char *name, const struct csv *csv, const double *times,
+                         struct err *e)
+{
+    struct plot_way way = {.name = name};
+    int column[3] = {csv_column(csv, "x_m"), csv_column(csv, "y_m"), csv_column(csv, "speed_m_per_s")};
+    size_t shown = 0, each = 0;
+    if (column[0] < 0 || column[1] < 0) return true;
+    for (size_t row = 0; row < csv->rows; row++)
+        shown += times[row] >= p->from && times[row] <= p->to;
+    size_t step = (shown + MOST - 1) / MOST;
+    way.at = (double(*)[3])arena_take(p->arena, MOST + 2, sizeof *way.at);
+    for (size_t row = 0; row < csv->rows; row++) {
+        if (!(times[row] >= p->from && times[row] <= p->to) || (each++ % step && each != shown)) continue;
+        double *to = way.at[way.n++];
+        for (int k = 0; k < 3; k++)
+            if (column[k] >= 0 && !csv_number(csv, row, column[k], &to[k], e)) return false;
+    }
+    add(p, &way);
+    return true;
+}
+
+static bool way_of_scene(struct plot_page *p, const struct scene *s, const struct contact *c, struct err *e)
+{
+    struct trajectory tr;
+    if (!trajectory_make(&c->motion, trajectory_seed(s, c), p->arena, &tr, e)) return false;
+    double from = fmax(p->from - c->start, 0), to = fmin(p->to - c->start, tr.duration),
+           *t = ARENA_TAKE(p->arena, double, 4 * MOST), *x = t + MOST, *y = x + MOST, *du = y + MOST;
+    struct plot_way way = {s->n_contacts > 1 ? c->name : "", MOST,
+                           (double(*)[3])arena_take(p->arena, MOST, sizeof *way.at)};
+    if (!(from < to)) return true;
+    for (int i = 0; i < MOST; i++)
+        t[i] = from + (to - from) * i / (MOST - 1);
+    trajectory_at(&tr, MOST, t, (struct trajectory_out){.x = x, .y = y, .du = du});
+    for (int i = 0; i < MOST; i++)
+        memcpy(way.at[i], (const double[3]){x[i], y[i], fabs(du[i])}, sizeof way.at[i]);
+    add(p, &way);
+    return true;
+}
+
+/* NULL: none */
+static const struct plot_way *way_of(const struct plot_page *p, const struct scene *s, const struct contact *c)
+{
+    for (int i = 0; i < p->n_ways; i++)
+        if (s->n_contacts == 1 || !strcmp(p->ways[i].name, c->name)) return &p->ways[i];
+    return NULL;
+}
+
+/* What rings in a render, for `rasp plot`: the modes that its effective scene names, each with its largest gain along
+   the motion; the edges of objects and the places of tables. Or the modes of a mode table, each with its largest gain
+   over the places. */
+
+enum { PLACES = 33 /* along the motion */ };
+
+/* ------------------------------------------------------------------ a mode table */
+
+static bool is_mode_table(const struct csv *csv)
+{
+    return csv_column(csv, "frequency_hz") >= 0 && csv_column(csv, "mode") >= 0;
+}
+
+static void count(struct plot_mode *m, double frequency, double decay, double gain)
+{
+    if (gain > m->gain) *m = (struct plot_mode){frequency, decay, gain};
+}
+
+static bool modes_of_table(struct plot_page *p, struct err *e)
+{
+    struct mode_table t;
+    if (!mode_table_read(p->file, p->arena, &t, e)) return false;
+    struct plot_body *b = p->bodies = ARENA_TAKE(p->arena, struct plot_body, 1);
+    *b = (struct plot_body){"", (int)t.modes, ARENA_TAKE(p->arena, struct plot_mode, t.modes)};
+    for (size_t k = 0; k < t.first[t.places]; k++)
+        for (int s = 0; s < t.entry[k].n; s++)
+            count(&b->modes[t.entry[k].mode], t.entry[k].frequency, t.entry[k].slope[s].decay,
+                  fabs(t.entry[k].slope[s].gain));
+    const char *title = csv_comment(&t.csv, "title");
+    p->title = p->title ? p->title : title ? title : p->file;
+    p->n_bodies = 1;
+    p->table_of_modes = true;
+    return true;
+}
+
+/* ------------------------------------------------------------------ a response */
+
+/* Nothing: a recording, or none. */
+static bool modes_of(const struct response *r, double rate, struct arena *a, struct modes *m, struct err *e)
+{
+    struct modes_ask ask = {
+        .strongest = r->modes, .band = {r->band[0], r->band[1]}, .pairing = r->pairing, .rate = rate};
+    struct object *o = ARENA_TAKE(a, struct object, 1);
+    const char *note;
+    bool ok = true;
+    m->n = 0;
+    if (r->object.given) {
+        ok = object_make(
+            &r->object,
+            &(struct object_ask){.key = "object", .low = r->band[0], .top = r->band[1], .most = 4 * r->modes}, a, o,
+            &note, e);
+        if (ok) object_modes(o, r->object.origin, NULL, r->modes, a, m);
+    } else if (r->space.given) {
+        ok = space_modes(&r->space, &ask, a, m, e);
+    } else if (r->file && text_ends(r->file, ".csv")) {
+        ok = modes_table(r->file, &ask, a, m, e);
+    }
+    if (ok && m->n) modes_drop_above(m, rate);
+    return ok;
+}
+
+static void add_body(struct plot_page *p, const struct modes *m, const struct plot_way *way, double share,
+                     const char *name)
+{
+    struct modes_point point = modes_point_make(p->arena, m->n);
+    struct plot_body *b = &p->bodies[p->n_bodies++];
+    *b = (struct plot_body){name, m->n, ARENA_TAKE(p->arena, struct plot_mode, m->n)};
+    for (int k = 0; k < PLACES; k++) {
+        int at = way ? (int)((long)k * (way->n - 1) / (PLACES - 1)) : -1;
+        struct modes_where where = {at < 0 ? m->home[0] : way->at[at][0], at < 0 ? m->home[1] : way->at[at][1],
+                                    (double)k / (PLACES - 1)};
+        modes_at(m, &where, &point);
+        for (int i = 0; i < m->n; i++)
+            count(&b->modes[i], m->shared ? m->frequency[i] : point.frequency[i],
+                  m->shared ? m->decay[i] : point.decay[i],
+                  share * sqrt(point.re[i] * point.re[i] + point.im[i] * point.im[i]));
+    }
+}
+
+/* ------------------------------------------------------------------ seen from above */
+
+static bool add_ground(struct plot_page *p, const struct response *r, const struct modes *m, struct err *e)
+{
+    struct plot_ground *g = &p->grounds[p->n_grounds++];
+    if (r->object.given && m->object && r->object.shape != OBJECT_SHELL) {
+        g->box = true;
+        int shape = r->object.shape;
+        g->round = shape == OBJECT_DISK || shape == OBJECT_MEMBRANE || shape == OBJECT_DRUM;
+        for (int k = 0; k < 2; k++) {
+            g->low[k] = r->object.origin[k] + m->object->low[k];
+            g->high[k] = r->object.origin[k] + m->object->high[k];
+        }
+    } else if (r->file && text_ends(r->file, ".csv") && !r->object.given && !r->space.given) {
+        struct mode_table t;
+        if (!mode_table_read(r->file, p->arena, &t, e)) return false;
+        g->n = t.places > 1 ? (int)t.places : 0;
+        g->places = (double(*)[2])arena_take(p->arena, t.places, sizeof *g->places);
+        memcpy(g->places, t.xy, t.places * sizeof *g->places);
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------ a scene */
+
+static bool add_contact(struct plot_page *p, const struct scene *s, const struct contact *c, struct err *e)
+{
+    const char *which = s->n_contacts > 1 ? arena_format(p->arena, " of %s", c->name) : "", *tool = ball_tool(c);
+    struct modes m = {0};
+    if (!way_of(p, s, c) && !way_of_scene(p, s, c, e)) return false;
+    if (!modes_of(&c->surface.response, s->output.sample_rate, p->arena, &m, e) ||
+        !add_ground(p, &c->surface.response, &m, e))
+        return false;
+    if (m.n) add_body(p, &m, way_of(p, s, c), fabs(c->gain), arena_format(p->arena, "surface%s", which));
+    if (c->scraper.weight == 0) return true;
+    if (!modes_of(&c->scraper.response, s->output.sample_rate, p->arena, &m, e)) return false;
+    if (m.n) add_body(p, &m, NULL, fabs(c->gain * c->scraper.weight), arena_format(p->arena, "%s%s", tool, which));
+    return true;
+}
+
+static bool add_bodies(struct plot_page *p, const struct plot_summary *s, const char *effective, struct err *e)
+{
+    struct scene *scene = ARENA_TAKE(p->arena, struct scene, 1);
+    const char *messages;
+    char hex[HASH_TEXT];
+    struct err why = {0};
+    if (!*s->effective || access(effective, F_OK) != 0) return true;
+    if (!hash_file(effective, hex, e)) return false;
+    if (strcmp(hex, s->effective) != 0)
+        err_set(&why, ERR_SCENE, "it is of another render: %s gives another sha256", s->file);
+    else if (scene_read(effective, NULL, p->arena, scene, &messages, &why)) {
+        p->bodies = ARENA_TAKE(p->arena, struct plot_body, 2 * scene->n_contacts);
+        p->grounds = ARENA_TAKE(p->arena, struct plot_ground, scene->n_contacts);
+        for (int i = 0; i < scene->n_contacts && !why.kind; i++)
+            add_contact(p, scene, &scene->contacts[i], &why);
+    }
+    if (why.kind) {
+        tell_warning(p->call, effective, arena_format(p->call->arena, "what rings is not drawn: %s", why.text));
+        p->n_bodies = p->n_grounds = 0;
+    }
+    return true;
+}
+
 /* ------------------------------------------------------------------ tables */
 
 /* Column of a row at a time; -1: not shown. */
@@ -279,7 +466,7 @@ static bool table_rows(struct plot_page *p, const struct csv *csv, const double 
         }
         t->n++;
     }
-    return plot_bodies_way_table(p, t->name, csv, times, e);
+    return way_of_table(p, t->name, csv, times, e);
 }
 
 /* Times of the rows, and where the last one ends. */
@@ -330,7 +517,7 @@ static bool table_belongs(const struct plot_page *p, const struct plot_summary *
         tell_warning(p->call, path,
                      arena_format(p->call->arena, "%s %s: that the table is of the same render is assumed", s->file,
                                   s->there ? "does not say which files are of its render" : "is not there"));
-    if (!s->lists || plot_summary_has(s, path, contact, &why, e)) return true;
+    if (!s->lists || summary_has(s, path, contact, &why, e)) return true;
     if (e->kind == ERR_NONE)
         tell_warning(p->call, path,
                      arena_format(p->call->arena, "left out, as it is of another render: %s %s", s->file, why));
@@ -366,8 +553,8 @@ static bool table_alone(struct plot_page *p, struct err *e)
 {
     struct csv csv;
     if (!csv_table_read(p->file, p->arena, &csv, e)) return false;
-    if (plot_bodies_is_table(&csv))
-        return (isnan(p->from) && isnan(p->to)) ? plot_bodies_table(p, e)
+    if (is_mode_table(&csv))
+        return (isnan(p->from) && isnan(p->to)) ? modes_of_table(p, e)
                                                 : err_set(e, ERR_USAGE, "--%s: %s is a mode table, which has no time",
                                                           isnan(p->from) ? "to" : "from", p->file);
     if (csv_column(&csv, "stimulus_id") >= 0)
@@ -387,36 +574,29 @@ static bool anything(const struct plot_page *p, struct err *e)
                    plot_names[PLOT_PEAK], plot_names[PLOT_RMS], plot_names[PLOT_NORMAL], plot_names[PLOT_ALPHA]);
 }
 
-/* "glass_1Hz: a tool scraped back and forth": of a set every stimulus has the same title. */
-static const char *titled(const struct plot_page *p, const char *title)
-{
-    const char *slash = strrchr(p->file, '/'), *name = slash ? slash + 1 : p->file, *dot = strrchr(name, '.');
-    return arena_format(p->arena, "%.*s: %s", (int)(dot && dot > name ? (size_t)(dot - name) : strlen(name)), name,
-                        title);
-}
-
 bool plot_data(struct plot_page *p, struct err *e)
 {
-    size_t n = strlen(p->file);
-    bool table = n > 4 && (strcmp(p->file + n - 4, ".csv") == 0 || strcmp(p->file + n - 4, ".npy") == 0);
+    bool table = text_ends(p->file, ".csv") || text_ends(p->file, ".npy");
     struct plot_summary summary = plot_summary_read(beside(p, ".json"), p->arena);
     /* A summary of another render: what it says is not of the file that is shown, and is not used. */
     const char *why = p->silent ? "lists a sound" : "lists no sound";
-    bool ours =
-        !summary.lists || (table ? plot_summary_has((&summary), p->file, "", &why, e) : summary.sounds != p->silent);
+    bool ours = !summary.lists || (table ? summary_has(&summary, p->file, "", &why, e) : summary.sounds != p->silent);
     if (!ours && e->kind == ERR_NONE)
         tell_warning(
             p->call, p->file,
             arena_format(p->call->arena, "%s is of another render (it %s), and is not used", summary.file, why));
-    bool foreign = !ours;
-    const char *title = *summary.title && !foreign ? titled(p, summary.title) : p->file;
+    const char *slash = strrchr(p->file, '/'), *name = slash ? slash + 1 : p->file, *dot = strrchr(name, '.'),
+               *title = p->file; /* "glass_1Hz: a tool scraped back and forth": of a set every stimulus has the same */
+    if (*summary.title && ours)
+        title = arena_format(p->arena, "%.*s: %s", (int)(dot && dot > name ? (size_t)(dot - name) : strlen(name)), name,
+                             summary.title);
     if (e->kind != ERR_NONE) return false;
     if (table       ? !table_alone(p, e)
-        : p->silent ? !(tables_find(p, (&summary), e) && (p->n_tables || span_set(p, p->length, e)))
-                    : !sound_gather(p, e) || !(foreign || tables_find(p, &summary, e)))
+        : p->silent ? !(tables_find(p, &summary, e) && (p->n_tables || span_set(p, p->length, e)))
+                    : !sound_gather(p, e) || !(!ours || tables_find(p, &summary, e)))
         return false;
     if (!p->title) p->title = title;
-    if (!foreign && !p->table_of_modes && !plot_bodies(p, &summary, beside(p, ".scene.yaml"), e)) return false;
+    if (ours && !p->table_of_modes && !add_bodies(p, &summary, beside(p, ".scene.yaml"), e)) return false;
     return plot_panels_check(p, e) && anything(p, e);
 }
 
@@ -553,9 +733,9 @@ static int plot_run(struct cmd_call *c, struct err *e)
                                                    "motion",   "modes",       "decays"};
     const char *comma = "";
     for (int k = 0; k < PLOT_PANELS; k++)
-        if (plot_panels_there((&p), k)) {
+        if (plot_panels_there(&p, k)) {
             fprintf(stdout, "%s %s%s", comma, names[k],
-                    k == PLOT_HAND && plot_data_has((&p), PLOT_ALPHA) ? ", alpha" : "");
+                    k == PLOT_HAND && plot_data_has(&p, PLOT_ALPHA) ? ", alpha" : "");
             comma = ",";
         }
     fputc('\n', stdout);

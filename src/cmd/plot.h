@@ -4,8 +4,6 @@
 #include "base/arena.h"
 #include "base/err.h"
 #include "cmd/cmd.h"
-#include "cmd/plot.h"
-#include "file/csv.h"
 #include "output/gnuplot.h"
 #include "output/spectrogram.h"
 #include "scene/scene.h"
@@ -88,6 +86,7 @@ struct plot_page {
     struct cmd_call *call; /* for warnings                                         */
 };
 
+/* What the summary of a render beside a file says. */
 struct plot_summary {
     const char *file;
     const char *title;     /* the scene's; "": none                                  */
@@ -110,16 +109,6 @@ bool plot_data(struct plot_page *p, struct err *e);
 
 /* Does some table have the column? */
 bool plot_data_has(const struct plot_page *p, enum plot_column column);
-
-/* Where a contact was in the time shown, by its table or by the scene; one that stays has no way. */
-bool plot_bodies_way_table(struct plot_page *p, const char *name, const struct csv *csv, const double *times,
-                           struct err *e);
-
-/* plot_bodies.c: what rings, by the effective scene beside the sound (of the same render, else nothing), where the
- * motion goes; or a mode table. */
-bool plot_bodies(struct plot_page *p, const struct plot_summary *s, const char *effective, struct err *e);
-bool plot_bodies_table(struct plot_page *p, struct err *e);
-bool plot_bodies_is_table(const struct csv *csv);
 
 /* The panels. */
 extern const char *const plot_panels_words[PLOT_PANELS];

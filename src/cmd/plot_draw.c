@@ -8,8 +8,6 @@
 
 #include "num/real.h"
 
-static double bottom(const struct plot_page *p, double most);
-
 enum { FAR = 4 /* times the way's size */ };
 
 struct view {
@@ -65,15 +63,6 @@ static void data(const struct plot_page *p, double unit, const struct view *v, F
     }
 }
 
-static double fastest(const struct plot_page *p)
-{
-    double most = 0;
-    for (int i = 0; i < p->n_ways; i++)
-        for (int k = 0; k < p->ways[i].n; k++)
-            most = fmax(most, p->ways[i].at[k][2]);
-    return most > 0 ? most : 1;
-}
-
 /* Edges as objects, behind all else. */
 static void put_edges(const struct plot_page *p, double unit, FILE *f)
 {
@@ -115,6 +104,14 @@ static void put_curves(const struct plot_page *p, FILE *f)
     fputc('\n', f);
 }
 
+/* The colours' scale to the right of a panel, the key above it. */
+static void put_scale(const struct plot_place *at, const char *rows, FILE *f)
+{
+    fprintf(f, "set colorbox user origin screen %.5f, screen %.5f size screen %.5f, screen %.5f\n",
+            at->right + 14 / at->size[0], at->bottom, 14 / at->size[0], at->top - at->bottom);
+    fprintf(f, "set key at screen %.5f, screen %.5f right bottom%s\n", at->right, at->top + 3 / at->size[1], rows);
+}
+
 static void plot_motion(const struct plot_page *p, const struct plot_place *at, struct gnuplot *g)
 {
     struct view v = view_of(p);
@@ -127,20 +124,21 @@ static void plot_motion(const struct plot_page *p, const struct plot_place *at, 
         v.low[k] = middle - scale * pixels[k] / 2;
         v.high[k] = middle + scale * pixels[k] / 2;
     }
+    double fastest = 0;
+    for (int i = 0; i < p->n_ways; i++)
+        for (int k = 0; k < p->ways[i].n; k++)
+            fastest = fmax(fastest, p->ways[i].at[k][2]);
     bool small = v.high[0] - v.low[0] < 0.03;
     double unit = small ? 1e-3 : 1e-2;
     data(p, unit, &v, g->in);
     fprintf(g->in, "set xlabel 'x / %s'\nset ylabel 'y / %s'\nset format x '%%g'\n", small ? "mm" : "cm",
             small ? "mm" : "cm");
     fprintf(g->in, "set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\nset cbrange [0:%.6g]\n", v.low[0] / unit,
-            v.high[0] / unit, v.low[1] / unit, v.high[1] / unit, fastest(p));
+            v.high[0] / unit, v.low[1] / unit, v.high[1] / unit, fastest > 0 ? fastest : 1);
     fputs("set palette defined (0 '#0d0887', 1 '#7e03a8', 2 '#cc4778', 3 '#f0804e', 4 '#f9a242')\nset cblabel 'speed / "
           "(m/s)'\nset cbtics auto\n",
           g->in);
-    fprintf(g->in, "set colorbox user origin screen %.5f, screen %.5f size screen %.5f, screen %.5f\n",
-            at->right + 14 / at->size[0], at->bottom, 14 / at->size[0], at->top - at->bottom);
-    fprintf(g->in, "set key at screen %.5f, screen %.5f right bottom maxrows 1\n", at->right,
-            at->top + 3 / at->size[1]);
+    put_scale(at, " maxrows 1", g->in);
     put_edges(p, unit, g->in);
     put_curves(p, g->in);
     fputs("unset colorbox\nunset object\nset key default\nset key noenhanced top right inside horizontal samplen 2 "
@@ -271,9 +269,7 @@ static void plot_modes(const struct plot_page *p, const struct plot_place *at, s
     fputs("set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#4db84f', 4 '#b8c31f')\nset cblabel 'T60 / "
           "s' offset 0,0\n",
           g->in);
-    fprintf(g->in, "set key at screen %.5f, screen %.5f right bottom\n", at->right, at->top + 3 / at->size[1]);
-    fprintf(g->in, "set colorbox user origin screen %.5f, screen %.5f size screen %.5f, screen %.5f\n",
-            at->right + 14 / at->size[0], at->bottom, 14 / at->size[0], at->top - at->bottom);
+    put_scale(at, "", g->in);
     put_stems(p, bottom(p, most), g);
     fputs("unset colorbox\nunset logscale\nset xtics autofreq\n", g->in);
 }
@@ -318,8 +314,6 @@ static const int heights[PLOT_PANELS] = {
     [PLOT_WAVEFORM] = 180, [PLOT_SPECTROGRAM] = 340, [PLOT_FORCE] = 180, [PLOT_HAND] = 150,
     [PLOT_MOTION] = 300,   [PLOT_MODES] = 300,       [PLOT_DECAYS] = 220};
 
-static bool is_timed(int panel) { return panel < PLOT_MOTION; }
-
 /* Motion and modes share a row. */
 static bool has_row(const struct plot_page *p)
 {
@@ -329,7 +323,7 @@ static bool has_row(const struct plot_page *p)
 static int page_height(const struct plot_page *p)
 {
     int height = TOP, timed = 0;
-    for (int k = 0; is_timed(k); k++)
+    for (int k = 0; k < PLOT_MOTION; k++)
         timed += plot_panels_there(p, k) ? heights[k] + GAP : 0;
     height += timed ? timed - GAP + BOTTOM : 0;
     height += has_row(p) ? KEY + heights[PLOT_MOTION] + BOTTOM : 0;
@@ -337,16 +331,6 @@ static int page_height(const struct plot_page *p)
 }
 
 /* ------------------------------------------------------------------ data */
-
-static void data_sound(const struct plot_page *p, FILE *f)
-{
-    const struct plot_sound *o = p->sound;
-    double step = (p->to - p->from) / o->n;
-    fputs("$sound << END\n", f);
-    for (int c = 0; c < o->n; c++)
-        fprintf(f, "%.9g %.9g %.9g\n", p->from + (c + 0.5) * step, o->least[c], o->most[c]);
-    fputs("END\n", f);
-}
 
 static void data_table(const struct plot_table *t, int number, FILE *f)
 {
@@ -361,8 +345,6 @@ static void data_table(const struct plot_table *t, int number, FILE *f)
 }
 
 /* ------------------------------------------------------------------ panels */
-
-static double decibel(double x) { return 20 * real_log10(x); }
 
 /* Bins up to 20 kHz as 32-bit floats, what lies below the colours' range drawn as its lowest. */
 static void draw_spectrogram(const struct plot_page *p, double bottom, double height, struct gnuplot *g)
@@ -443,8 +425,8 @@ static void draw_timed(const struct plot_page *p, int panel, const double place[
             p->channels > 1 ? arena_format(p->arena, "channel %d of %d, ", p->channel, p->channels) : "";
         fprintf(g->in, "set ylabel 'amplitude / full scale'\nset yrange [%.6g:%.6g]\n", -most, most);
         if (o->peak > 0)
-            fprintf(g->in, "set key title '%speak %.1f dBFS, rms %.1f dBFS'\n", which, decibel(o->peak),
-                    decibel(o->rms));
+            fprintf(g->in, "set key title '%speak %.1f dBFS, rms %.1f dBFS'\n", which, 20 * real_log10(o->peak),
+                    20 * real_log10(o->rms));
         else
             fprintf(g->in, "set key title '%ssilent'\n", which);
         fputs("plot $sound using 1:2:3 with filledcurves fillcolor rgb '#0072b2' notitle, '' using 1:2 with lines "
@@ -472,7 +454,7 @@ static double draw_all_timed(const struct plot_page *p, double whole, struct gnu
 {
     double top = whole - TOP;
     int last = -1;
-    for (int k = 0; is_timed(k); k++)
+    for (int k = 0; k < PLOT_MOTION; k++)
         last = plot_panels_there(p, k) ? k : last;
     if (last >= 0) fprintf(g->in, "set xrange [%.9g:%.9g]\n", p->from, p->to);
     for (int k = 0; k <= last; k++) {
@@ -514,10 +496,14 @@ static void draw_row(const struct plot_page *p, double top, struct gnuplot *g)
 void plot_draw(const struct plot_page *p, struct gnuplot *g)
 {
     double whole = page_height(p), top;
-    if (p->sound) data_sound(p, g->in);
+    const struct plot_sound *o = p->sound;
+    if (o) fputs("$sound << END\n", g->in);
+    for (int c = 0; o && c < o->n; c++)
+        fprintf(g->in, "%.9g %.9g %.9g\n", p->from + (c + 0.5) * ((p->to - p->from) / o->n), o->least[c], o->most[c]);
+    if (o) fputs("END\n", g->in);
     for (int i = 0; i < p->n_tables; i++)
         data_table(&p->tables[i], i, g->in);
-    int height = page_height(p);
+    int height = (int)whole;
     gnuplot_page(g, p->svg, WIDTH, height);
     fputs("set palette defined (0 '#000004', 1 '#280b54', 2 '#65156e', 3 '#9f2a63', 4 '#d44842', 5 '#f57d15', 6 "
           "'#fac127', 7 '#fcffa4')\n"

@@ -14,6 +14,7 @@
 #include "base/relpath.h"
 #include "base/text.h"
 #include "cmd/plot.h"
+#include "file/csv.h"
 #include "output/gnuplot.h"
 #include "output/mark.h"
 

@@ -3,6 +3,7 @@
 #include "cmd/tell.h"
 
 #include <ctype.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -21,13 +22,6 @@ struct piece {
     size_t size;
     const char *colour;
 };
-
-/* A terminal, whose TERM is neither empty nor dumb, and NO_COLOR is not set or empty (no-color.org). */
-static bool tell_colours(FILE *f)
-{
-    const char *off = getenv("NO_COLOR"), *term = getenv("TERM");
-    return !(off && *off) && term && *term && strcmp(term, "dumb") != 0 && isatty(fileno(f));
-}
 
 /* The text in line[0..n), at its start or after ": ". */
 static const char *find(const char *line, size_t n, const char *text)
@@ -51,33 +45,21 @@ static struct piece piece_of(const char *line, size_t n)
     return warning ? (struct piece){warning, 8, MAGENTA} : (struct piece){NULL, 0, NULL};
 }
 
-static void print_line(FILE *f, const char *line, size_t n)
-{
-    const struct piece p = piece_of(line, n);
-    if (!p.at) {
-        fwrite(line, 1, n, f);
-        return;
-    }
-    size_t before = (size_t)(p.at - line);
-    fwrite(line, 1, before, f);
-    fprintf(f, "%s%.*s%s", p.colour, (int)p.size, p.at, PLAIN);
-    fwrite(p.at + p.size, 1, n - before - p.size, f);
-}
-
 void tell_paint(FILE *f, const char *lines)
 {
-    if (!tell_colours(f)) {
-        fputs(lines, f);
-        return;
-    }
-    while (*lines) {
-        size_t n = strcspn(lines, "\n");
-        print_line(f, lines, n);
-        lines += n;
-        if (*lines) {
-            fputc('\n', f);
-            lines++;
-        }
+    /* A terminal, whose TERM is neither empty nor dumb, and NO_COLOR is not set or empty (no-color.org). */
+    const char *off = getenv("NO_COLOR"), *term = getenv("TERM");
+    bool colours = !(off && *off) && term && *term && strcmp(term, "dumb") != 0 && isatty(fileno(f));
+    if (!colours) fputs(lines, f);
+    for (size_t n; colours && *lines; lines += n) {
+        n = strcspn(lines, "\n");
+        const struct piece p = piece_of(lines, n);
+        if (p.at)
+            fprintf(f, "%.*s%s%.*s%s%.*s", (int)(p.at - lines), lines, p.colour, (int)p.size, p.at, PLAIN,
+                    (int)(lines + n - p.at - (ptrdiff_t)p.size), p.at + p.size);
+        else
+            fwrite(lines, 1, n, f);
+        if (lines[n]) fputc(lines[n++], f);
     }
 }
 
@@ -174,13 +156,8 @@ static json_t *whole_or_null(int n) { return n > 0 ? json_integer(n) : json_null
 
 static json_t *object(const char *severity, enum err_kind kind)
 {
-    json_t *o = json_object();
-    json_object_set_new(o, "severity", json_string(severity));
-    for (const char *const *key = (const char *const[]){"file", "line", "column", "width", "message", "help", NULL};
-         *key; key++)
-        json_object_set_new(o, *key, json_null());
-    json_object_set_new(o, "code", whole_or_null((int)kind));
-    return o;
+    return json_pack("{s:s, s:n, s:n, s:n, s:n, s:n, s:n, s:o}", "severity", severity, "file", "line", "column",
+                     "width", "message", "help", "code", whole_or_null((int)kind));
 }
 
 static void set_place(json_t *o, int line, int column, int width)
@@ -200,24 +177,20 @@ static void set_source(json_t *o, const struct diag_place *at, struct arena *a)
     set_place(o, lines ? at->line : 0, at->column, at->width);
 }
 
-static json_t *named_at(const struct diag_source *source, struct arena *a)
-{
-    json_t *all = json_array();
-    for (const struct diag_place *at = &source->named; at->source && !at->source->made; at = &at->source->named) {
-        json_t *o = json_object();
-        set_source(o, at, a);
-        json_array_append_new(all, o);
-    }
-    return all;
-}
-
 static json_t *of_diag(const struct diag_error *x, enum err_kind kind, struct arena *a)
 {
     json_t *o = object("error", kind);
     set_source(o, &x->at, a);
     json_object_set_new(o, "message", text_or_null(x->text, strlen(x->text)));
     if (x->help) json_object_set_new(o, "help", text_or_null(x->help, strlen(x->help)));
-    if (x->at.source && x->at.source->named.source) json_object_set_new(o, "named_at", named_at(x->at.source, a));
+    if (!x->at.source || !x->at.source->named.source) return o;
+    json_t *named = json_array();
+    for (const struct diag_place *at = &x->at.source->named; at->source && !at->source->made; at = &at->source->named) {
+        json_t *one = json_object();
+        set_source(one, at, a);
+        json_array_append_new(named, one);
+    }
+    json_object_set_new(o, "named_at", named);
     return o;
 }
 
@@ -241,9 +214,8 @@ static void print(json_t *o)
 
 static void put(struct cmd_call *c, json_t *o)
 {
-    struct cmd_tell *t = of(c);
-    if (t->kept) json_array_append(t->kept, o);
-    if (t->json) print(o);
+    if (of(c)->kept) json_array_append(of(c)->kept, o);
+    if (of(c)->json) print(o);
     json_decref(o);
 }
 
@@ -350,23 +322,22 @@ static void warn_json(const struct warning *w)
     json_decref(o);
 }
 
-/* " (and of 2 other scenes: b.yaml, c.yaml)", or " (and, with other numbers, of ..." */
-static const char *others(struct cmd_call *c, const struct warning *w)
-{
-    const char *all = arena_format(c->arena, " (and%s of %d other scene%s:", w->numbers ? ", with other numbers," : "",
-                                   w->n - 1, w->n > 2 ? "s" : "");
-    for (int i = 1; i < w->n && i <= FILES_NAMED; i++)
-        all = arena_format(c->arena, "%s%s %s", all, i > 1 ? "," : "", w->files[i]);
-    return arena_format(c->arena, "%s%s)", all, w->n - 1 > FILES_NAMED ? ", ..." : "");
-}
-
+/* In text "... (and of 2 other scenes: b.yaml, c.yaml)", or "... (and, with other numbers, of ...". */
 static void warn(struct cmd_call *c, const struct warning *w)
 {
-    if (of(c)->json)
+    struct arena *a = c->arena;
+    if (of(c)->json) {
         warn_json(w);
-    else
-        tell_paint(stderr,
-                   arena_format(c->arena, "%s: warning: %s%s\n", w->files[0], w->text, w->n > 1 ? others(c, w) : ""));
+        return;
+    }
+    const char *all = arena_format(a, "%s: warning: %s", w->files[0], w->text);
+    if (w->n > 1)
+        all = arena_format(a, "%s (and%s of %d other scene%s:", all, w->numbers ? ", with other numbers," : "",
+                           w->n - 1, w->n > 2 ? "s" : "");
+    for (int i = 1; i < w->n && i <= FILES_NAMED; i++)
+        all = arena_format(a, "%s%s %s", all, i > 1 ? "," : "", w->files[i]);
+    if (w->n > 1) all = arena_format(a, "%s%s)", all, w->n - 1 > FILES_NAMED ? ", ..." : "");
+    tell_paint(stderr, arena_format(a, "%s\n", all));
 }
 
 static void warn_of(struct cmd_call *c, const char *name, const char *text, bool stimulus)
