@@ -673,8 +673,6 @@ static bool plot_spares(const struct plot_page *p, const char *target, struct er
     return true;
 }
 
-static void plot_page(void *self, struct gnuplot *g) { plot_draw(self, g); }
-
 static int gallery_run(struct cmd_call *c, struct err *e)
 {
     const char *panels = args_value(&c->args, "panels");
@@ -725,7 +723,7 @@ static int plot_run(struct cmd_call *c, struct err *e)
         o ? o : arena_format(c->arena, "%.*s.%s", (int)strlen(p.file) - 4, p.file, p.svg ? "svg" : "png");
     if (!plot_data(&p, e) || !plot_spares(&p, target, e) ||
         !mark_permits(target, NULL, args_given(&c->args, "force"), e) ||
-        !gnuplot_write(target, p.svg, plot_page, &p, e))
+        !gnuplot_write(target, p.svg, plot_draw, &p, e))
         return (int)e->kind;
     printf("%s ", target);
     /* what the page shows, as a line */

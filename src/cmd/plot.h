@@ -122,7 +122,7 @@ struct plot_place {
     double left, right, bottom, top;
     double size[2];
 };
-void plot_draw(const struct plot_page *p, struct gnuplot *g);
+void plot_draw(void *page, struct gnuplot *g);
 
 /* plot_gallery.c: a page of HTML for a folder or manifest. */
 struct plot_gallery {

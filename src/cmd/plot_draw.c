@@ -493,8 +493,9 @@ static void draw_row(const struct plot_page *p, double top, struct gnuplot *g)
         draw_apart(p, plot_modes, (const double[4]){motion ? middle + BETWEEN / 2.0 : LEFT, right, bottom, top}, g);
 }
 
-void plot_draw(const struct plot_page *p, struct gnuplot *g)
+void plot_draw(void *page, struct gnuplot *g)
 {
+    const struct plot_page *p = page;
     double whole = page_height(p), top;
     const struct plot_sound *o = p->sound;
     if (o) fputs("$sound << END\n", g->in);

@@ -119,22 +119,6 @@ static bool gather(struct page *g, struct err *e)
 
 /* ------------------------------------------------------------------ pictures */
 
-static void draw(void *self, struct gnuplot *g) { plot_draw(self, g); }
-
-/* Of what has no sound the panels that need none; where that leaves none of them, whatever there is. */
-static unsigned asked(const struct page *g, const struct item *item)
-{
-    return item->kind == SILENT ? g->of->asked & ~(1u << PLOT_WAVEFORM | 1u << PLOT_SPECTROGRAM) : g->of->asked;
-}
-
-/* s; 0: the manifest does not say. */
-static double length(const struct page *g, const struct item *item)
-{
-    int k = column(g, "duration_s");
-    double x;
-    return k >= 0 && text_double(cell(g, item->row, k), &x) ? x : 0;
-}
-
 /* A sound that cannot be drawn leaves a note on the page; what no picture could be drawn without ends all. */
 static bool draw_item(struct page *g, struct item *item, struct err *e)
 {
@@ -147,18 +131,23 @@ static bool draw_item(struct page *g, struct item *item, struct err *e)
                           .title = item->name,
                           .from = NAN,
                           .to = NAN,
-                          .asked = asked(g, item),
                           .svg = g->of->svg,
                           .channel = 1,
                           .arena = a,
                           .call = g->of->call,
                           .silent = item->kind == SILENT,
-                          .length = item->kind == SILENT ? length(g, item) : NAN};
+                          .asked = g->of->asked,
+                          .length = NAN};
+    if (p.silent) { /* the panels that need no sound; where that leaves none of them, whatever there is */
+        int k = column(g, "duration_s");
+        p.asked &= ~(1u << PLOT_WAVEFORM | 1u << PLOT_SPECTROGRAM);
+        if (k < 0 || !text_double(cell(g, item->row, k), &p.length)) p.length = 0; /* the manifest does not say */
+    }
     struct err why = {0};
     bool ok = plot_data(&p, &why);
     if (!ok)
         item->why = arena_text(g->arena, why.text);
-    else if (mark_permits(target, NULL, g->of->force, e) && gnuplot_write(target, p.svg, draw, &p, e))
+    else if (mark_permits(target, NULL, g->of->force, e) && gnuplot_write(target, p.svg, plot_draw, &p, e))
         item->picture = target;
     arena_close(a);
     return e->kind == ERR_NONE;
@@ -181,38 +170,31 @@ static bool draw_all(struct page *g, struct err *e)
 
 /* ------------------------------------------------------------------ the page */
 
-static void put(FILE *f, const char *text, struct arena *a)
+static const char *html(const struct page *g, const char *text)
 {
-    for (const char *p = text_shown(a, text); *p; p++) {
-        const char *name = *p == '<' ? "&lt;" : *p == '>' ? "&gt;" : *p == '&' ? "&amp;" : *p == '"' ? "&quot;" : NULL;
-        if (name)
-            fputs(name, f);
-        else
-            fputc(*p, f);
-    }
+    char *out = arena_take(g->arena, 6 * strlen(text = text_shown(g->arena, text)) + 1, 1), *to = out;
+    for (const char *p = text; *p; p++)
+        to = stpcpy(to, *p == '<'   ? "&lt;"
+                        : *p == '>' ? "&gt;"
+                        : *p == '&' ? "&amp;"
+                        : *p == '"' ? "&quot;"
+                                    : (const char[]){*p, '\0'});
+    return out;
 }
 
 /* A file as the page links it: relative, what is no plain character as %XX. */
-static void put_link(const struct page *g, const char *file, FILE *f)
+static const char *link_to(const struct page *g, const char *file)
 {
     static const char plain[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz-_.~/+";
-    const char *slash = strrchr(g->output, '/');
-    const char *from = relpath_make(
-        file,
-        slash ? arena_format(g->arena, "%.*s", slash == g->output ? 1 : (int)(slash - g->output), g->output) : NULL,
-        g->arena);
+    const char *slash = strrchr(g->output, '/'),
+               *folder =
+                   slash ? arena_format(g->arena, "%.*s", slash == g->output ? 1 : (int)(slash - g->output), g->output)
+                         : NULL,
+               *from = relpath_make(file, folder, g->arena);
+    char *out = arena_take(g->arena, 3 * strlen(from) + 1, 1), *to = out;
     for (const char *p = from; *p; p++)
-        fprintf(f, strchr(plain, *p) ? "%c" : "%%%02X", (unsigned char)*p);
-}
-
-/* Rounded: the manifest has all digits. */
-static void put_figure(const struct page *g, size_t row, int k, const char *name, const char *format, FILE *f)
-{
-    double x;
-    if (!text_double(cell(g, row, k), &x)) return;
-    fprintf(f, "<dt>%s</dt><dd>", name);
-    fprintf(f, format, x);
-    fputs("</dd>", f);
+        to += sprintf(to, strchr(plain, *p) ? "%c" : "%%%02X", (unsigned char)*p);
+    return out;
 }
 
 /* Over those that have it. */
@@ -237,72 +219,53 @@ static void put_facts(const struct page *g, const struct item *item, FILE *f)
                                           {"loudness_lufs", "loudness", "%.1f LUFS"}};
     int first = column(g, "scene_sha256"), text = column(g, "text");
     fputs("<dl>", f);
-    for (int k = first + 1; first >= 0 && k < text; k++) {
-        fputs("<dt>", f);
-        put(f, g->manifest.names[k], g->arena);
-        fputs("</dt><dd>", f);
-        put(f, cell(g, item->row, k), g->arena);
-        fputs("</dd>", f);
-    }
+    for (int k = first + 1; first >= 0 && k < text; k++)
+        fprintf(f, "<dt>%s</dt><dd>%s</dd>", html(g, g->manifest.names[k]), html(g, cell(g, item->row, k)));
     for (int i = 0; i < 5; i++) {
         int k = column(g, more[i][0]);
-        if (k >= 0 && (i > 0 || varies(g, k))) put_figure(g, item->row, k, more[i][1], more[i][2], f);
+        double x; /* rounded: the manifest has all digits */
+        if (k < 0 || !(i > 0 || varies(g, k)) || !text_double(cell(g, item->row, k), &x)) continue;
+        fprintf(f, "<dt>%s</dt><dd>", more[i][1]);
+        fprintf(f, more[i][2], x);
+        fputs("</dd>", f);
     }
     fputs("</dl>", f);
-    if (text >= 0 && is_there(cell(g, item->row, text))) {
-        fputs("<p>", f);
-        put(f, cell(g, item->row, text), g->arena);
-        fputs("</p>", f);
-    }
+    if (text >= 0 && is_there(cell(g, item->row, text))) fprintf(f, "<p>%s</p>", html(g, cell(g, item->row, text)));
 }
 
 static void put_item(const struct page *g, const struct item *item, FILE *f)
 {
-    fputs("<figure>\n<figcaption><h2>", f);
-    put(f, item->name, g->arena);
-    fputs("</h2>", f);
+    fprintf(f, "<figure>\n<figcaption><h2>%s</h2>", html(g, item->name));
     if (g->set) put_facts(g, item, f);
     fputs("</figcaption>\n", f);
-    if (item->kind == SOUND) {
-        fputs("<audio controls preload=\"none\" src=\"", f);
-        put_link(g, item->file, f);
-        fputs("\"></audio>\n", f);
-    }
+    if (item->kind == SOUND)
+        fprintf(f, "<audio controls preload=\"none\" src=\"%s\"></audio>\n", link_to(g, item->file));
     if (item->picture) {
-        fputs("<a href=\"", f);
-        put_link(g, item->picture, f);
-        fputs("\"><img loading=\"lazy\" alt=\"plot\" src=\"", f);
-        put_link(g, item->picture, f);
-        fputs("\"></a>\n", f);
+        const char *to = link_to(g, item->picture);
+        fprintf(f, "<a href=\"%s\"><img loading=\"lazy\" alt=\"plot\" src=\"%s\"></a>\n", to, to);
     } else {
         int status = g->set ? column(g, "status") : -1, error = g->set ? column(g, "error") : -1;
-        fputs("<p class=\"bad\">", f);
-        put(f, item->why ? item->why : status >= 0 ? cell(g, item->row, status) : "no sound", g->arena);
-        if (!item->why && error >= 0 && is_there(cell(g, item->row, error))) {
-            fputs(": ", f);
-            put(f, cell(g, item->row, error), g->arena);
-        }
-        fputs("</p>\n", f);
+        bool says = !item->why && error >= 0 && is_there(cell(g, item->row, error));
+        fprintf(f, "<p class=\"bad\">%s%s%s</p>\n",
+                html(g, item->why     ? item->why
+                        : status >= 0 ? cell(g, item->row, status)
+                                      : "no sound"),
+                says ? ": " : "", says ? html(g, cell(g, item->row, error)) : "");
     }
     fputs("</figure>\n", f);
-}
-
-static int count(const struct page *g, enum kind kind)
-{
-    int n = 0;
-    for (int i = 0; i < g->n; i++)
-        n += g->items[i].kind == kind;
-    return n;
 }
 
 /* "4 sounds, 2 without sound, 1 failed" */
 static const char *counted(const struct page *g)
 {
-    int sounds = count(g, SOUND), silent = count(g, SILENT), failed = count(g, FAILED);
-    const char *text =
-        sounds || !(silent || failed) ? arena_format(g->arena, "%d sound%s", sounds, sounds == 1 ? "" : "s") : "";
-    if (silent) text = arena_format(g->arena, "%s%s%d without sound", text, *text ? ", " : "", silent);
-    return failed ? arena_format(g->arena, "%s%s%d failed", text, *text ? ", " : "", failed) : text;
+    int n[] = {[SOUND] = 0, [SILENT] = 0, [FAILED] = 0};
+    for (int i = 0; i < g->n; i++)
+        n[g->items[i].kind]++;
+    const char *text = "";
+    if (n[SOUND] || !(n[SILENT] || n[FAILED]))
+        text = arena_format(g->arena, "%d sound%s", n[SOUND], n[SOUND] == 1 ? "" : "s");
+    if (n[SILENT]) text = arena_format(g->arena, "%s%s%d without sound", text, *text ? ", " : "", n[SILENT]);
+    return n[FAILED] ? arena_format(g->arena, "%s%s%d failed", text, *text ? ", " : "", n[FAILED]) : text;
 }
 
 static void put_page(const struct page *g, FILE *f)
@@ -313,7 +276,7 @@ static void put_page(const struct page *g, FILE *f)
     fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" MARK_PAGE
           "\n<meta name=\"viewport\" content=\"width=device-width\">\n<title>",
           f);
-    put(f, title, g->arena);
+    fputs(html(g, title), f);
     fputs("</title>\n<style>\n"
           "body { font: 15px/1.4 'DejaVu Sans', sans-serif; margin: 1.5em; color: #222; background: #fafafa }\n"
           "main { display: grid; grid-template-columns: repeat(auto-fill, minmax(26em, 1fr)); gap: 1.2em }\n"
@@ -325,8 +288,7 @@ static void put_page(const struct page *g, FILE *f)
           "img, audio { width: 100% } .bad { color: #b00020 }\n"
           "</style>\n</head>\n<body>\n<h1>",
           f);
-    put(f, title, g->arena);
-    fprintf(f, "</h1>\n<p>%s</p>\n<main>\n", counted(g));
+    fprintf(f, "%s</h1>\n<p>%s</p>\n<main>\n", html(g, title), counted(g));
     for (int i = 0; i < g->n; i++)
         put_item(g, &g->items[i], f);
     fputs("</main>\n</body>\n</html>\n", f);

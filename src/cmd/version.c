@@ -68,27 +68,6 @@ static void print_level(void)
         printf("hot loops    %s, as built\n", BUILT_FOR);
 }
 
-/* Of "sndfile 1.2.0;yaml-0.1 0.2.5;" the version of one, as a length and a text. */
-static const char *built_with(const char *package, int *length)
-{
-    size_t n = strlen(package);
-    for (const char *p = RASP_PACKAGES; *p; p += strcspn(p, ";") + !!p[strcspn(p, ";")])
-        if (!strncmp(p, package, n) && p[n] == ' ') {
-            *length = (int)strcspn(p + n + 1, ";");
-            return p + n + 1;
-        }
-    *length = 1;
-    return "?";
-}
-
-/* loaded NULL: it is headers, or does not say. */
-static void print_library(const char *name, const char *loaded, const char *package)
-{
-    int length;
-    const char *built = built_with(package, &length);
-    printf("%-12s %s%s(built with %.*s)\n", name, loaded ? loaded : "", loaded ? " " : "", length, built);
-}
-
 const char version_number[] = VERSION, version_revision[] = RASP_REVISION;
 
 void version_print(bool verbose)
@@ -106,18 +85,30 @@ void version_print(bool verbose)
     ebur128_get_version(&major, &minor, &patch);
     snprintf(ebur128, sizeof ebur128, "%d.%d.%d", major, minor, patch);
     snprintf(png, sizeof png, "%u.%u.%u", v / 10000, v / 100 % 100, v % 100);
-    print_library("libsndfile", sf_version_string(), "sndfile");
-    print_library("libyaml", yaml_get_version_string(), "yaml-0.1");
-    print_library("FFTW", fftw_version, "fftw3");
-    print_library("GSL", gsl_version, "gsl");
-    print_library("SLEEF", NULL, "sleef");
-    print_library("jansson", jansson_version_str(), "jansson");
-    print_library("libebur128", ebur128, "libebur128");
-    print_library("libcrypto", OpenSSL_version(OPENSSL_VERSION), "libcrypto");
-    print_library("libpng", png, "libpng");
-    print_library("libsoxr", soxr_version(), "soxr");
-    print_library("OpenBLAS", NULL, "openblas");
-    print_library("LAPACKE", NULL, "lapacke");
+    const char *const libraries[][3] = {
+        {"libsndfile", sf_version_string(), "sndfile"}, /* loaded; NULL: it is headers, or does not say */
+        {"libyaml", yaml_get_version_string(), "yaml-0.1"},
+        {"FFTW", fftw_version, "fftw3"},
+        {"GSL", gsl_version, "gsl"},
+        {"SLEEF", NULL, "sleef"},
+        {"jansson", jansson_version_str(), "jansson"},
+        {"libebur128", ebur128, "libebur128"},
+        {"libcrypto", OpenSSL_version(OPENSSL_VERSION), "libcrypto"},
+        {"libpng", png, "libpng"},
+        {"libsoxr", soxr_version(), "soxr"},
+        {"OpenBLAS", NULL, "openblas"},
+        {"LAPACKE", NULL, "lapacke"},
+    };
+    for (size_t i = 0; i < sizeof libraries / sizeof *libraries; i++) {
+        /* Of "sndfile 1.2.0;yaml-0.1 0.2.5;" the version of one. */
+        const char *loaded = libraries[i][1], *package = libraries[i][2], *built = ";" RASP_PACKAGES;
+        size_t n = strlen(package);
+        while ((built = strchr(built, ';')) && (strncmp(++built, package, n) != 0 || built[n] != ' '))
+            continue;
+        built = built ? built + n + 1 : "?";
+        printf("%-12s %s%s(built with %.*s)\n", libraries[i][0], loaded ? loaded : "", loaded ? " " : "",
+               (int)strcspn(built, ";"), built);
+    }
 }
 
 bool version_asked(int argc, char **argv)
