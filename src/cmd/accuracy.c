@@ -37,25 +37,6 @@
 
 /* --values KNOB=N,N... of `rasp accuracy`: which values of which knobs are rendered besides those of the presets. */
 
-static int knob_named(const char *name, size_t n)
-{
-    for (int k = 0; k < KNOBS; k++)
-        if (strlen(keys_knobs[k].name) == n && !strncmp(keys_knobs[k].name, name, n)) return k;
-    return -1;
-}
-
-static bool no_knob(const char *name, struct arena *a, struct err *e)
-{
-    const char **names = ARENA_TAKE(a, const char *, KNOBS + 1), *all = "";
-    for (int k = 0; k < KNOBS; k++) {
-        names[k] = keys_knobs[k].name;
-        all = arena_format(a, "%s%s%s", all, k ? ", " : "", names[k]);
-    }
-    const char *near = text_nearest(name, names);
-    return near ? err_set(e, ERR_USAGE, "--values: there is no knob '%s'; did you mean '%s'?", name, near)
-                : err_set(e, ERR_USAGE, "--values: there is no knob '%s'; there are %s", name, all);
-}
-
 static bool value_add(struct accuracy_values *to, int knob, const char *word, struct err *e)
 {
     const struct key_knob *k = &keys_knobs[knob];
@@ -76,18 +57,23 @@ static bool value_add(struct accuracy_values *to, int knob, const char *word, st
 
 static bool values_one(const char *given, struct arena *a, struct accuracy_values *to, struct err *e)
 {
-    const char *equals = strchr(given, '=');
+    const char *equals = strchr(given, '='), *names[KNOBS + 1] = {NULL}, *all = "";
     if (!equals || !equals[1])
         return err_set(e, ERR_USAGE, "--values: '%s' is not of the form KNOB=NUMBER,NUMBER..., as in oversampling=2,16",
                        given);
-    int knob = knob_named(given, (size_t)(equals - given));
-    if (knob < 0) return no_knob(arena_format(a, "%.*s", (int)(equals - given), given), a, e);
-    for (const char *p = equals + 1;; p++) {
-        size_t n = strcspn(p, ",");
-        if (!value_add(&to[knob], knob, arena_format(a, "%.*s", (int)n, p), e)) return false;
-        p += n;
-        if (!*p) return true;
+    const char *name = arena_format(a, "%.*s", (int)(equals - given), given), *word;
+    int knob = -1;
+    for (int k = 0; k < KNOBS; k++) {
+        names[k] = keys_knobs[k].name;
+        all = arena_format(a, "%s%s%s", all, k ? ", " : "", names[k]);
+        knob = strcmp(name, names[k]) ? knob : k;
     }
+    const char *near = knob < 0 ? text_nearest(name, names) : NULL;
+    if (near) return err_set(e, ERR_USAGE, "--values: there is no knob '%s'; did you mean '%s'?", name, near);
+    if (knob < 0) return err_set(e, ERR_USAGE, "--values: there is no knob '%s'; there are %s", name, all);
+    for (char *rest = arena_text(a, equals + 1); (word = strsep(&rest, ","));)
+        if (!value_add(&to[knob], knob, word, e)) return false;
+    return true;
 }
 
 static bool read_values(const struct args *args, struct arena *a, struct accuracy_values *to, struct err *e)
@@ -390,31 +376,9 @@ static _Noreturn void become(char **argv, int end, FILE *says, FILE *scene)
     _exit(127);
 }
 
-struct text {
-    char *x;
-    size_t n, room;
-};
-
-static void text_take(struct text *t, const char *from, size_t n)
-{
-    if (t->n + n + 1 > t->room) t->x = realloc(t->x, t->room = 2 * (t->n + n + 1));
-    if (!t->x) abort();
-    memcpy(t->x + t->n, from, n);
-    t->x[t->n += n] = '\0';
-}
-
-/* What it prints until it ends. */
-static void listen_to(int fd, struct text *t)
-{
-    char some[4096];
-    ssize_t n;
-    while ((n = read(fd, some, sizeof some)) > 0 || (n < 0 && errno == EINTR))
-        if (n > 0) text_take(t, some, (size_t)n);
-}
-
-/* Runs it; its standard output in *out (to be freed), its standard error in the file. The exit code, or -1: it was
+/* Runs it; its standard output in `out`, its standard error in the file. The exit code, or -1: it was
  * killed. */
-static int run_child(char **argv, FILE *says, FILE *scene, struct text *out, double *peak, struct err *e)
+static int run_child(char **argv, FILE *says, FILE *scene, FILE *out, double *peak, struct err *e)
 {
     struct rusage used;
     int ends[2], status = 0;
@@ -427,7 +391,10 @@ static int run_child(char **argv, FILE *says, FILE *scene, struct text *out, dou
     interrupt_child(pid);
     interrupt_go();
     close(ends[1]);
-    if (pid > 0) listen_to(ends[0], out);
+    char some[4096];
+    ssize_t n = 1;
+    while (pid > 0 && n != 0 && (n > 0 || errno == EINTR)) /* what it prints until it ends */
+        if ((n = read(ends[0], some, sizeof some)) > 0) fwrite(some, 1, (size_t)n, out);
     close(ends[0]);
     if (pid < 0) return err_set(e, ERR_CREATE, "a render cannot be started: %s", strerror(errno)), -1;
     interrupt_wait(pid, &status, &used);
@@ -440,9 +407,9 @@ static int run_child(char **argv, FILE *says, FILE *scene, struct text *out, dou
 
 /* ------------------------------------------------------------------ what it said */
 
-static bool summary_read(struct accuracy_render *r, const struct text *out, struct err *e)
+static bool summary_read(struct accuracy_render *r, const char *out, struct err *e)
 {
-    json_t *j = out->x ? json_loads(out->x, 0, NULL) : NULL, *cpu = json_object_get(j, "cpu_s"),
+    json_t *j = json_loads(out, 0, NULL), *cpu = json_object_get(j, "cpu_s"),
            *gain = json_object_get(json_object_get(j, "sound"), "gain"), *each;
     size_t i;
     if (json_is_number(cpu)) r->cpu = fmin(r->cpu, json_number_value(cpu));
@@ -474,19 +441,21 @@ bool accuracy_child(struct accuracy_sweep *s, int render, struct err *e)
 {
     struct accuracy_render *r = &s->renders[render];
     FILE *says = scratch_open();
-    struct text out = {0};
+    char *said = NULL;
+    size_t said_size;
+    FILE *out = open_memstream(&said, &said_size);
     struct err cause = {0};
     double peak = 0.0;
-    if (!says) return err_set(e, ERR_CREATE, "a render cannot be started: %s", strerror(errno));
+    if (!says || !out) return err_set(e, ERR_CREATE, "a render cannot be started: %s", strerror(errno));
     /* A scene that came through a pipe, for the child to read once more. NULL: it did not, or *e */
     size_t size;
     const char *text = bytes_piped(s->file) ? yaml_bytes_text(s->file, NULL, &size) : NULL;
     FILE *f = text ? scratch_open() : NULL;
     if (text && (!f || fwrite(text, 1, size, f) != size || fflush(f) != 0))
-        err_set((&cause), ERR_CREATE, "a render cannot be started: its scene cannot be kept in %s: %s",
-                scratch_folder(), strerror(errno));
+        err_set(&cause, ERR_CREATE, "a render cannot be started: its scene cannot be kept in %s: %s", scratch_folder(),
+                strerror(errno));
     FILE *scene = f;
-    r->code = cause.kind ? -1 : run_child(command_line(s, &r->set), says, scene, &out, &peak, &cause);
+    r->code = cause.kind ? -1 : run_child(command_line(s, &r->set), says, scene, out, &peak, &cause);
     if (scene) fclose(scene);
     r->peak = fmax(r->peak, peak);
     /* The first line that tells of an error. */
@@ -500,10 +469,11 @@ bool accuracy_child(struct accuracy_sweep *s, int render, struct err *e)
         !*line ? "it said nothing"
                : text_shown(s->call->arena, strncmp(line, mark, sizeof mark - 1) ? line : line + sizeof mark - 1);
     fclose(says);
+    fclose(out);
     bool ok = r->code < 0    ? err_set(e, interrupt_seen() ? ERR_INTERRUPTED : cause.kind, "%s", cause.text)
-              : r->code == 0 ? summary_read(r, &out, e)
+              : r->code == 0 ? summary_read(r, said, e)
                              : refused(s, render, words, e);
-    free(out.x);
+    free(said);
     return ok;
 }
 
@@ -685,19 +655,12 @@ static void told(const struct accuracy_sweep *s, int done, int all)
         fprintf(stderr, done < all ? "\r%s: render %d of %d " : "\r\033[K", s->file, done + 1, all);
 }
 
-/* How many renders there will be: each once, those whose cost counts again and again. */
-static int renders_in_all(const struct accuracy_sweep *s)
-{
-    int timed = 0;
-    for (int i = 0; i < s->n_renders; i++)
-        timed += s->renders[i].timed;
-    return s->n_renders + (s->runs - 1) * timed;
-}
-
 /* Runs of one setting lie apart, so that what slows the machine for a while slows one run of each. */
 static bool sweep(struct accuracy_sweep *s, struct err *e)
 {
-    int all = renders_in_all(s), done = 0;
+    int all = s->n_renders, done = 0; /* each once, those whose cost counts again and again */
+    for (int i = 0; i < s->n_renders; i++)
+        all += s->renders[i].timed ? s->runs - 1 : 0;
     bool ok = true;
     for (int run = 0; ok && run < s->runs; run++)
         for (int i = 0; ok && i < s->n_renders; i++) {

@@ -117,36 +117,26 @@ static const char *error_text(const struct accuracy_sweep *s, const struct accur
                : "same bits";
 }
 
-static double most_snr(const struct accuracy_sweep *s)
-{
-    double most = 1.0;
-    for (int i = 0; i < s->n_renders; i++)
-        if (s->renders[i].code == 0 && isfinite(s->renders[i].error.snr)) most = fmax(most, s->renders[i].error.snr);
-    return most;
-}
-
-static double most_cpu(const struct accuracy_sweep *s)
-{
-    double most = 0.0;
-    for (int i = 0; i < s->n_renders; i++)
-        if (s->renders[i].timed && isfinite(s->renders[i].cpu)) most = fmax(most, s->renders[i].cpu);
-    return most;
-}
-
 /* What a render sounds like, and what it costs. */
 static void print_total(struct report *out, const struct accuracy_sweep *s, const struct accuracy_render *r)
 {
     const struct accuracy_error *o = &r->error;
     report_text(out, "  %10s ", error_text(s, r));
     if (r->code != 0) return;
+    double snr = 1.0, cpu = 0.0; /* the most of all renders */
+    for (int i = 0; i < s->n_renders; i++) {
+        const struct accuracy_render *x = &s->renders[i];
+        if (x->code == 0 && isfinite(x->error.snr)) snr = fmax(snr, x->error.snr);
+        if (x->timed && isfinite(x->cpu)) cpu = fmax(cpu, x->cpu);
+    }
     report_text(out, "%s  %7.3f %8.3f",
-                r == &s->renders[s->reference] ? bar(s, 1.0) : bar(s, isnan(o->snr) ? 0.0 : o->snr / most_snr(s)),
-                o->third, o->spectral);
+                r == &s->renders[s->reference] ? bar(s, 1.0) : bar(s, isnan(o->snr) ? 0.0 : o->snr / snr), o->third,
+                o->spectral);
     if (isfinite(s->until))
         report_text(out, " %8.2f %6.3f s %8s", o->level, o->follows,
                     isnan(r->contact_share) ? "" : arena_format(s->call->arena, "%.1f %%", 100.0 * r->contact_share));
-    report_text(out, "  %7.4f s %s %7.4g  %6.1f MB", r->cpu, bar(s, r->cpu / most_cpu(s)),
-                o->length / fmax(r->cpu, 1e-9), r->peak / 1e6);
+    report_text(out, "  %7.4f s %s %7.4g  %6.1f MB", r->cpu, bar(s, r->cpu / cpu), o->length / fmax(r->cpu, 1e-9),
+                r->peak / 1e6);
 }
 
 /* JSON has no infinities: null. */

@@ -415,41 +415,30 @@ static bool find_options(struct cmd_call *c, struct analysis *a, struct err *e)
            args_number(&c->args, "silence", quiet, &g->options.quiet, e);
 }
 
-/* Is there a file of that kind, or, of NULL, one with a force? */
-static bool kind_read(const struct analysis *a, const char *kind)
-{
-    const struct analyse_source *s[2] = {&a->source, &a->single};
-    for (int i = 0; i < 2; i++)
-        if (s[i]->file && s[i]->has_force && (!kind || strcmp(s[i]->kind, kind) == 0)) return true;
-    return false;
-}
-
 /* An option that no file has a use for is an error. */
 static bool options_used(struct cmd_call *c, const struct analysis *a, struct err *e)
 {
     static const char *const options[][2] = {{"rate", "NPY"},   {"channel", "WAV"},  {"column", "CSV"},
                                              {"scale", NULL},   {"threshold", NULL}, {"prominence", NULL},
                                              {"silence", NULL}, {"signed", NULL}};
-    for (size_t i = 0; i < sizeof options / sizeof *options; i++)
-        if (args_given(&c->args, options[i][0]) && !kind_read(a, options[i][1]))
+    const struct analyse_source *s[2] = {&a->source, &a->single};
+    for (size_t i = 0; i < sizeof options / sizeof *options; i++) {
+        bool used = !args_given(&c->args, options[i][0]); /* by a file of that kind, or, of NULL, one with a force */
+        for (int k = 0; k < 2; k++)
+            used = used || (s[k]->file && s[k]->has_force && (!options[i][1] || !strcmp(s[k]->kind, options[i][1])));
+        if (!used)
             return err_set(e, ERR_USAGE, "--%s means nothing for %s, which is read as %s%s", options[i][0],
                            a->source.file, a->source.kind, a->source.has_force ? "" : " of impacts");
+    }
     return true;
-}
-
-static bool single_read(struct cmd_call *c, struct analysis *a, struct err *e)
-{
-    const char *file = args_value(&c->args, "single");
-    if (!file) return true;
-    if (args_given(&c->args, "theta")) return err_set(e, ERR_USAGE, "--single and --theta: give one of them");
-    return analyse_read(file, &a->given, a->arena, &a->single, e);
 }
 
 static bool analyse_all(struct cmd_call *c, struct analysis *a, struct err *e)
 {
-    if (!find_options(c, a, e) || !analyse_read(c->args.operands[0], &a->given, a->arena, &a->source, e) ||
-        !single_read(c, a, e) || !options_used(c, a, e))
-        return false;
+    if (!find_options(c, a, e) || !analyse_read(c->args.operands[0], &a->given, a->arena, &a->source, e)) return false;
+    const char *single = args_value(&c->args, "single");
+    if (single && args_given(&c->args, "theta")) return err_set(e, ERR_USAGE, "--single and --theta: give one of them");
+    if ((single && !analyse_read(single, &a->given, a->arena, &a->single, e)) || !options_used(c, a, e)) return false;
     if (a->source.has_force) analyse_notes_force(a, &a->source);
     if (a->single.file && a->single.has_force) analyse_notes_force(a, &a->single);
     const struct impact_events *v = &a->source.found.events;

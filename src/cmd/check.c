@@ -47,25 +47,23 @@ static bool look(void *context, int i)
     return true;
 }
 
-static void note(struct promises *p, const char *name, const struct err *e)
+/* A broken promise that many stimuli have is one fault. */
+static void took(void *context, int i)
 {
+    struct promises *p = context;
+    const struct err *e = p->broken[i];
     int k = 0;
+    if (!e) return;
     while (k < p->n && strcmp(p->faults[k].err->text, e->text) != 0)
         k++;
     if (k == p->n) {
         struct err *own = ARENA_TAKE(p->arena, struct err, 1);
         *own = *e;
-        p->faults[p->n++] = (struct set_fault){.messages = "", .err = own, .name = name};
+        p->faults[p->n++] = (struct set_fault){.messages = "", .err = own, .name = p->design->stimuli[i].name};
     }
     p->faults[k].n++;
     p->stimuli++;
     p->worst = (int)e->kind > p->worst ? (int)e->kind : p->worst;
-}
-
-static void took(void *context, int i)
-{
-    struct promises *p = context;
-    if (p->broken[i]) note(p, p->design->stimuli[i].name, p->broken[i]);
     free(p->broken[i]);
     p->broken[i] = NULL;
 }
@@ -85,19 +83,6 @@ static bool promises_kept(struct cmd_call *c, const char *file, const struct des
            err_set(e, (enum err_kind)p.worst, "%s: %d of %d stimuli cannot be rendered", file, p.stimuli, d->n_stimuli);
 }
 
-/* What is wrong is told, and what it comes to is set. */
-static void tell_wrong(struct cmd_call *c, const char *file, const struct batch_report *r, struct err *e)
-{
-    struct err cause = *e;
-    if (*r->messages) {
-        batch_tell_unread(c, file, r, e);
-        return;
-    }
-    batch_tell_faults(c, "check", file, &r->plan);
-    *e = (struct err){0};
-    err_set(e, cause.kind, "%s: %s", file, cause.text);
-}
-
 /* Reads the design and the scene of every stimulus, as far as can be known before rendering. A fault that many stimuli
    have is told once. *remark: what is worth knowing of a design without fault, or NULL. */
 static bool check_design(struct cmd_call *c, const char *file, const char **remark, struct err *e)
@@ -111,9 +96,14 @@ static bool check_design(struct cmd_call *c, const char *file, const char **rema
             .design = file, .program = "", .threads = batch_cores(), .shard = {1, 1}, .dry = true, .quiet = true},
         c->arena, &r, e);
     batch_tell_warnings(c, &r.plan);
-    if (!ok)
-        tell_wrong(c, file, &r, e);
-    else if ((ok = promises_kept(c, file, &r.design, e)))
+    if (!ok && *r.messages)
+        batch_tell_unread(c, file, &r, e);
+    else if (!ok) {
+        struct err cause = *e;
+        batch_tell_faults(c, "check", file, &r.plan);
+        *e = (struct err){0};
+        err_set(e, cause.kind, "%s: %s", file, cause.text);
+    } else if ((ok = promises_kept(c, file, &r.design, e)))
         *remark = set_lengths_text(&r.set, &r.plan, c->arena);
     batch_close(&r);
     return ok;

@@ -19,6 +19,7 @@
 #include "base/text.h"
 #include "cmd/tell.h"
 #include "file/yaml.h"
+#include "scene/keys_yaml.h"
 #include "scene/scene_read.h"
 #include "scene/units.h"
 
@@ -101,37 +102,20 @@ bool cmd_recipe_is_scene(struct cmd_call *c, const char *file, bool *is, struct 
     return true;
 }
 
-/* A double-quoted YAML string. */
-static const char *quoted(struct arena *a, const char *text)
-{
-    char *out = arena_take(a, 4 * strlen(text) + 4, 1), *p = out;
-    *p++ = '"';
-    for (; *text; text++) {
-        bool plain = (unsigned char)*text >= ' ' && *text != 0x7f && *text != '"' && *text != '\\';
-        p += snprintf(p, 5, plain ? "%c" : "\\x%02x", (unsigned char)*text);
-    }
-    *p++ = '"';
-    *p = '\0';
-    return out;
-}
-
-static bool read_recipe(struct cmd_call *c, const char *file, const char *rest, struct scene *s, struct err *e)
-{
-    int n;
-    const char **set = args_values(&c->args, "set", &n), *messages = "";
-    const char *text = arena_format(c->arena, "rasp: 1\nsurface: {recipe: %s}\n%s", quoted(c->arena, file), rest);
-    struct scene_overrides over = {.set = set, .n = n, .seed = args_value(&c->args, "seed")};
-    struct err cause = {0};
-    if (scene_read_made(text, file, &over, c->arena, s, &messages, &cause)) return true;
-    tell_scene(c, s->diag, messages, cause.kind);
-    return err_set(e, cause.kind, "%s %s", file, cause.kind == ERR_SCENE ? "is not a valid recipe" : "cannot be read");
-}
-
 bool cmd_recipe_read(struct cmd_call *c, const char *file, const char *rest, struct scene *s, struct err *e)
 {
     bool scene;
+    int n;
+    const char **set = args_values(&c->args, "set", &n), *messages = "";
+    struct scene_overrides over = {.set = set, .n = n, .seed = args_value(&c->args, "seed")};
+    struct err cause = {0};
     if (!cmd_recipe_is_scene(c, file, &scene, e)) return false;
-    return scene ? cmd_read_scene(c, file, s, e) : read_recipe(c, file, rest, s, e);
+    if (scene) return cmd_read_scene(c, file, s, e);
+    const char *text =
+        arena_format(c->arena, "rasp: 1\nsurface: {recipe: %s}\n%s", keys_yaml_quoted(file, c->arena), rest);
+    if (scene_read_made(text, file, &over, c->arena, s, &messages, &cause)) return true;
+    tell_scene(c, s->diag, messages, cause.kind);
+    return err_set(e, cause.kind, "%s %s", file, cause.kind == ERR_SCENE ? "is not a valid recipe" : "cannot be read");
 }
 
 const char *cmd_recipe_remark(struct cmd_call *c, const char *file, const char *key)
@@ -161,7 +145,7 @@ bool cmd_read_scene(struct cmd_call *c, const char *file, struct scene *s, struc
 {
     int n;
     const char **set = args_values(&c->args, "set", &n);
-    struct scene_overrides over = (struct scene_overrides){.set = set, .n = n, .seed = args_value(&c->args, "seed")};
+    struct scene_overrides over = {.set = set, .n = n, .seed = args_value(&c->args, "seed")};
     const char *messages = NULL;
     struct err cause = {0};
     if (scene_read(file, &over, c->arena, s, &messages, &cause)) return true;

@@ -477,41 +477,34 @@ static bool gather_tolerances(const struct args *g, const char *folder, struct c
     return true;
 }
 
-static bool gather_limits(const struct args *g, struct compare_ask *ask, struct err *e)
-{
-    static const double any[2] = {-HUGE_VAL, HUGE_VAL}, positive[2] = {0, HUGE_VAL};
-    return args_number(g, "snr", any, &ask->snr, e) && args_number(g, "lsb", positive, &ask->lsb, e) &&
-           args_number(g, "third-octave", positive, &ask->third_octave, e) &&
-           args_number(g, "within", positive, &ask->within, e);
-}
-
 bool compare_limits(const struct args *g, const char *folder, struct compare_ask *ask, struct err *e)
 {
     ask->snr = ask->lsb = ask->third_octave = NAN;
     ask->within = 60;
     if (args_given(g, "within") && !args_given(g, "third-octave"))
         return err_set(e, ERR_USAGE, "--within says which bands --third-octave compares: give both");
-    return gather_limits(g, ask, e) && gather_tolerances(g, folder, ask, e);
+    static const double any[2] = {-HUGE_VAL, HUGE_VAL}, positive[2] = {0, HUGE_VAL};
+    return args_number(g, "snr", any, &ask->snr, e) && args_number(g, "lsb", positive, &ask->lsb, e) &&
+           args_number(g, "third-octave", positive, &ask->third_octave, e) &&
+           args_number(g, "within", positive, &ask->within, e) && gather_tolerances(g, folder, ask, e);
 }
 
-/* The first of the options that was given, or NULL. */
-static const char *given_of(const struct args *g, const char *const *names)
+/* The first of those options that was given, or NULL. */
+static const char *given_of(const struct args *g, const char *const names[4])
 {
-    for (; *names; names++)
-        if (args_given(g, *names)) return *names;
+    for (int i = 0; i < 4; i++)
+        if (args_given(g, names[i])) return names[i];
     return NULL;
 }
 
 const char *compare_limit_of_sounds(const struct args *g)
 {
-    static const char *const names[] = {"snr", "lsb", "third-octave", "within", NULL};
-    return given_of(g, names);
+    return given_of(g, (const char *const[4]){"snr", "lsb", "third-octave", "within"});
 }
 
 const char *compare_limit_of_tables(const struct args *g)
 {
-    static const char *const names[] = {"tolerance", "column", "abs", "rel", NULL};
-    return given_of(g, names);
+    return given_of(g, (const char *const[4]){"tolerance", "column", "abs", "rel"});
 }
 
 /* FILE --hash HEX. */

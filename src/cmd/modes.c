@@ -111,9 +111,9 @@ struct body {
 };
 
 /* Of a scene that names a recipe of an object nothing else matters. */
-static const char rest[] = "scraper: {mass: 1 g}\nmotion: {path: still, duration: 1 s}\n"
-                           "contact: {model: strike, strike: {pulse: half_sine, speed: 1 m/s, stiffness: "
-                           "1e6}}\noutput: {diagnostics: {rate: 1 kHz}}\n";
+static const char frame[] = "scraper: {mass: 1 g}\nmotion: {path: still, duration: 1 s}\n"
+                            "contact: {model: strike, strike: {pulse: half_sine, speed: 1 m/s, stiffness: "
+                            "1e6}}\noutput: {diagnostics: {rate: 1 kHz}}\n";
 
 static bool body_read(struct cmd_call *c, const char *file, struct body *b, struct err *e)
 {
@@ -128,7 +128,7 @@ static bool body_read(struct cmd_call *c, const char *file, struct body *b, stru
         return err_set(e, ERR_USAGE,
                        "--body %s: %s is a recipe, which describes a surface; it needs a scene (with the key rasp: 1)",
                        b->key, file);
-    if (!cmd_recipe_read(c, file, rest, &b->scene, e)) return false;
+    if (!cmd_recipe_read(c, file, frame, &b->scene, e)) return false;
     if (b->scene.n_contacts > 1)
         return err_set(e, ERR_SCENE, "%s: has %d contacts; rasp modes takes a recipe, or a scene of one contact", file,
                        b->scene.n_contacts);
@@ -524,10 +524,8 @@ bool modes_lengths(struct cmd_call *c, const char *name, const char *form, int c
 {
     const char *text = args_value(&c->args, name);
     int n = 0;
-    for (char *p = text ? arena_text(c->arena, text) : NULL, *next; p; p = next, n++) {
+    for (char *rest = text ? arena_text(c->arena, text) : NULL, *p; (p = strsep(&rest, ",")); n++) {
         struct units_fault fault = {NULL, NULL};
-        next = strchr(p, ',');
-        if (next) *next++ = '\0';
         if (n < count && !units_read(p, KEY_LENGTH, &x[n], c->arena, &fault))
             return err_set(e, ERR_USAGE, "--%s: '%s': '%s' %s", name, text, p, fault.text);
     }

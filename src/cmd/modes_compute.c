@@ -87,9 +87,8 @@ static bool read_points(struct compute *k, const char *file, struct err *e)
     struct csv t;
     int column[5];
     if (!csv_read(file, k->c->arena, &t, e)) return false;
-    for (int i = 0; i < 5; i++) {
+    for (int i = 0; i < 5; i++)
         column[i] = csv_column(&t, names[i]);
-    }
     bool placed = column[3] >= 0 || column[4] >= 0;
     for (int i = 0; i < (placed ? 5 : 3); i++)
         if (column[i] < 0)
@@ -159,7 +158,7 @@ static double gains_at(const void *self, double x, double y, const struct modes_
 }
 
 /* Places of a list lie on the chart where the list says, and between them no point of the surface is known. */
-static bool modes_compute_places_settle(struct compute *k, struct err *e)
+static bool settle_places(struct compute *k, struct err *e)
 {
     const struct args *g = &k->c->args;
     struct modes_fit fit = {.self = k, .at = gains_at, .n = k->n, .shared = true, .arena = k->c->arena};
@@ -200,7 +199,7 @@ static bool read_listen(struct compute *k, struct err *e)
 }
 
 /* --face, --line ..., --points, --listen, --origin. */
-static bool modes_compute_places(struct compute *k, struct err *e)
+static bool read_all_places(struct compute *k, struct err *e)
 {
     static const char *const others[] = {"line", "circle", "grid", "at", "places", "face"};
     const char *points = args_value(&k->c->args, "points");
@@ -238,7 +237,7 @@ static void add_point(struct hash *h, const struct boundary_point *p)
 static void add_text(struct hash *h, const char *text) { hash_add(h, text ? text : "", text ? strlen(text) + 1 : 1); }
 
 /* SHA-256 of all that the table follows from. */
-static void modes_compute_write_inputs(const struct compute *k, char hex[HASH_TEXT])
+static void inputs_hash(const struct compute *k, char hex[HASH_TEXT])
 {
     const struct compute_material *m = &k->material;
     const double numbers[] = {m->alpha, m->beta, m->loss, m->elastic.density, k->top, k->origin[0], k->origin[1]};
@@ -287,7 +286,7 @@ static char *contents(const char *file, size_t *size)
 }
 
 /* Is the file a table made of these inputs and not changed since? */
-static bool modes_compute_write_is_current(const char *file, const char *inputs, struct arena *a)
+static bool is_current(const char *file, const char *inputs, struct arena *a)
 {
     size_t size = 0, head = sizeof first - 1 + HASH_TEXT; /* with its line's end in place of the hash's */
     char *text = contents(file, &size), hex[HASH_TEXT];
@@ -318,52 +317,37 @@ static void material(FILE *f, const struct compute_material *m)
     modes_damping_write(f, (const double[3]){m->alpha, m->beta, m->loss}, m->named, m->own, m->own_damping);
 }
 
-static void notes(FILE *f, const char *text, struct arena *a)
-{
-    while (text && *text) {
-        int n = (int)strcspn(text, "\n");
-        fprintf(f, "# note: %s\n", text_shown(a, arena_format(a, "%.*s", n, text)));
-        text += n + (text[n] == '\n');
-    }
-}
-
 /* ------------------------------------------------------------------ rows */
 
 /* Shapes in steps of 2^-23 (1.2e-7) of a mode's greatest, anywhere on the solid: what is left of a nodal line but
    rounding becomes 0. Up to 1e-9 of it depends on the order of additions, most of slender solids and of equal
    frequencies, whose basis is fixed (fem/solid_eigen.c). */
-static void settle(const struct compute *k, const double *step, double *phi)
+static void round_to(const struct compute *k, const double *step, double *phi)
 {
     for (int i = 0; i < k->modes.n; i++)
         phi[i] = rint(phi[i] / step[i]) * step[i];
-}
-
-static double *steps(const struct compute *k)
-{
-    double *step = ARENA_TAKE(k->c->arena, double, k->modes.n);
-    long wide = 3 * k->modes.nodes;
-    for (int i = 0; i < k->modes.n; i++) {
-        for (long j = 0; j < wide; j++)
-            step[i] = fmax(step[i], fabs(k->modes.shape[i * wide + j]));
-        step[i] = ldexp(1.0, ilogb(step[i]) - 23);
-    }
-    return step;
 }
 
 /* gain[places][n] phi(x) phi(l). */
 static double *gains(const struct compute *k)
 {
     const int all = k->modes.n;
-    const double *step = steps(k);
+    double *step = ARENA_TAKE(k->c->arena, double, all);
+    long wide = 3 * k->modes.nodes;
+    for (int i = 0; i < all; i++) {
+        for (long j = 0; j < wide; j++)
+            step[i] = fmax(step[i], fabs(k->modes.shape[i * wide + j]));
+        step[i] = ldexp(1.0, ilogb(step[i]) - 23);
+    }
     double *gain = ARENA_TAKE(k->c->arena, double, (long)k->places * k->n), *phi = ARENA_TAKE(k->c->arena, double, all),
            *ear = ARENA_TAKE(k->c->arena, double, all);
     if (k->elsewhere) {
         solid_participation(&k->modes, &k->ear, ear);
-        settle(k, step, ear);
+        round_to(k, step, ear);
     }
     for (int p = 0; p < k->places; p++) {
         solid_participation(&k->modes, &k->point[p], phi);
-        settle(k, step, phi);
+        round_to(k, step, phi);
         for (int i = 0; i < k->n; i++)
             gain[(long)p * k->n + i] = phi[k->mode[i]] * (k->elsewhere ? ear : phi)[k->mode[i]];
     }
@@ -391,7 +375,7 @@ static void rows(FILE *f, const struct compute *k)
     }
 }
 
-static bool modes_compute_write(const struct compute *k, const char *file, const char *inputs, struct err *e)
+static bool write_table(const struct compute *k, const char *file, const char *inputs, struct err *e)
 {
     struct outfile o;
     char *text = NULL, hex[HASH_TEXT];
@@ -427,7 +411,8 @@ static bool modes_compute_write(const struct compute *k, const char *file, const
             "# holds: linear elasticity by finite elements, %d tetrahedra of order %ld, %ld freedoms; no radiation\n",
             k->mesh.elements, k->order, k->modes.freedoms);
     modes_compute_solid_estimate_write(f, k);
-    notes(f, k->note, k->c->arena);
+    for (char *rest = k->note ? arena_text(k->c->arena, k->note) : NULL, *line; (line = strsep(&rest, "\n"));)
+        if (*line) fprintf(f, "# note: %s\n", text_shown(k->c->arena, line));
     fprintf(f, "%s%s\n", second, inputs);
     rows(f, k);
     bool whole = fclose(f) == 0;
@@ -459,15 +444,6 @@ static bool read_output(const struct compute *k, const char **file, struct err *
     return modes_output_spares(*file, mesh, e) && modes_output_spares(*file, args_value(g, "points"), e);
 }
 
-static void warn(struct cmd_call *c, const char *note)
-{
-    while (note && *note) {
-        int n = (int)strcspn(note, "\n");
-        tell_remark(c, "modes", arena_format(c->arena, "%.*s", n, note));
-        note += n + (note[n] == '\n');
-    }
-}
-
 int modes_compute_run(struct cmd_call *c, struct err *e)
 {
     struct compute k = {.c = c};
@@ -478,16 +454,15 @@ int modes_compute_run(struct cmd_call *c, struct err *e)
         puts(shapes_help());
         return 0;
     }
-    if (!read_output(&k, &file, e) || !modes_compute_solid_read(&k, e) || !modes_compute_places(&k, e))
-        return (int)e->kind;
-    modes_compute_write_inputs(&k, inputs);
-    if (access(file, F_OK) == 0 && modes_compute_write_is_current(file, inputs, c->arena)) {
+    if (!read_output(&k, &file, e) || !modes_compute_solid_read(&k, e) || !read_all_places(&k, e)) return (int)e->kind;
+    inputs_hash(&k, inputs);
+    if (access(file, F_OK) == 0 && is_current(file, inputs, c->arena)) {
         if (!quiet) printf("%s: up to date\n", text_shown(c->arena, file));
         return 0;
     }
     if (!mark_absent(file, args_given(&c->args, "force"), e) || !modes_output_possible(file, e) ||
-        !modes_compute_solid_solve(&k, e) || !modes_compute_solid_estimate(&k, e) ||
-        !modes_compute_places_settle(&k, e) || !modes_compute_write(&k, file, inputs, e))
+        !modes_compute_solid_solve(&k, e) || !modes_compute_solid_estimate(&k, e) || !settle_places(&k, e) ||
+        !write_table(&k, file, inputs, e))
         return (int)e->kind;
     if (!quiet) {
         k.laid.n = k.places;
@@ -498,8 +473,9 @@ int modes_compute_run(struct cmd_call *c, struct err *e)
             printf("%s: %s\n",
                    args_given(&k.c->args, "shape") ? "estimated error of frequencies"
                                                    : "frequencies of the order below are off by more than these, by",
-                   modes_compute_solid_estimate_says(&k));
-        warn(c, k.note);
+                   modes_compute_solid_error_text(&k));
+        for (char *rest = k.note ? arena_text(c->arena, k.note) : NULL, *line; (line = strsep(&rest, "\n"));)
+            if (*line) tell_remark(c, "modes", line);
         modes_places_warn(c, k.error, &k.laid);
     }
     return 0;

@@ -57,7 +57,7 @@ bool modes_compute_solid_solve(struct compute *k, struct err *e);
 
 /* --estimate: the modes once more, of a coarser mesh of the shape or, of a mesh file, of the order below. */
 bool modes_compute_solid_estimate(struct compute *k, struct err *e);
-const char *modes_compute_solid_estimate_says(const struct compute *k);    /* in a few words */
+const char *modes_compute_solid_error_text(const struct compute *k);       /* in a few words */
 void modes_compute_solid_estimate_write(FILE *f, const struct compute *k); /* "# ..." lines */
 
 #endif

@@ -32,22 +32,12 @@ static bool within(const struct compute *k, const char *option, double x, struct
                    x, unit, keys_text_range(key, k->c->arena), unit);
 }
 
-/* What is in the wrong unit, most likely: the material's figures, by the limits of the scene's keys, ERR_USAGE; size
- * (of a shape), ERR_SCENE; warnings of size, mass and stiffness. */
-static bool modes_compute_solid_limits_material(const struct compute *k, double density, struct err *e)
-{
-    const struct compute_material *m = &k->material;
-    bool wood = m->named && m->named->radial.youngs_modulus > 0;
-    return within(k, "youngs-modulus", m->youngs_modulus, e) && within(k, "density", density, e) &&
-           (wood || within(k, "poisson", m->poisson, e));
-}
-
 static void note(struct compute *k, const char *text)
 {
     k->note = k->note ? arena_format(k->c->arena, "%s\n%s", k->note, text) : text;
 }
 
-static bool modes_compute_solid_limits_solid(struct compute *k, struct err *e)
+static bool check_solid(struct compute *k, struct err *e)
 {
     const struct boundary *b = &k->boundary;
     const struct compute_material *m = &k->material;
@@ -184,7 +174,9 @@ static bool read_material(struct compute *k, struct err *e)
                        m->alpha + m->beta + m->loss == 0
                            ? "--alpha, --beta or --loss is needed: without damping a mode rings for ever"
                            : "--alpha and --beta must not be below 0");
-    if (!modes_compute_solid_limits_material(k, density, e)) return false;
+    if (!within(k, "youngs-modulus", m->youngs_modulus, e) || !within(k, "density", density, e) ||
+        !(wood || within(k, "poisson", m->poisson, e)))
+        return false;
     return wood ? wooden(m, m->youngs_modulus, density, e)
                 : solid_element_isotropic(m->youngs_modulus, m->poisson, density, &m->elastic, e);
 }
@@ -210,25 +202,20 @@ static bool plane(const struct compute *k, const char *word, struct solid_fixed 
     return true;
 }
 
-static bool group(const struct mesh *m, const char *word, struct solid_fixed *h)
-{
-    for (int i = 0; i < m->groups; i++)
-        if (!strcmp(m->group[i].name, word)) {
-            h->n = m->group[i].n;
-            h->corner = m->group[i].corner;
-            return true;
-        }
-    return false;
-}
-
 static bool hold(struct compute *k, const char *option, int how, struct err *e)
 {
     int n;
     const char **words = args_values(&k->c->args, option, &n);
     for (int i = 0; i < n; i++) {
         struct solid_fixed *h = &k->fixed[k->n_fixed];
+        int named = 0;
         h->hold = how;
-        if (!group(&k->mesh, words[i], h) && !plane(k, words[i], h)) {
+        while (named < k->mesh.groups && strcmp(k->mesh.group[named].name, words[i]) != 0)
+            named++;
+        if (named < k->mesh.groups) {
+            h->n = k->mesh.group[named].n;
+            h->corner = k->mesh.group[named].corner;
+        } else if (!plane(k, words[i], h)) {
             const char *list = "";
             for (int j = 0; j < k->mesh.groups; j++)
                 list = arena_format(k->c->arena, "%s%s%s", list, j ? ", " : "", k->mesh.group[j].name);
@@ -247,7 +234,7 @@ static bool hold(struct compute *k, const char *option, int how, struct err *e)
 }
 
 /* --clamp, --support: the faces of k->mesh into k->held. */
-static bool modes_compute_solid_fixed(struct compute *k, struct err *e)
+static bool read_fixed(struct compute *k, struct err *e)
 {
     int clamped, supported;
     args_values(&k->c->args, "clamp", &clamped);
@@ -269,9 +256,9 @@ bool modes_compute_solid_read(struct compute *k, struct err *e)
         return false;
     if (!(k->top > 0 && k->top <= 1e7))
         return err_set(e, ERR_USAGE, "--top: %g Hz is not above 0 and at most 10 MHz", k->top);
-    if (!read_material(k, e) || !read_mesh(k, e) || !modes_compute_solid_fixed(k, e)) return false;
+    if (!read_material(k, e) || !read_mesh(k, e) || !read_fixed(k, e)) return false;
     k->note = k->mesh.note;
-    return modes_compute_solid_limits_solid(k, e);
+    return check_solid(k, e);
 }
 
 bool modes_compute_solid_solve(struct compute *k, struct err *e)
@@ -326,7 +313,7 @@ static bool solve_coarse(struct compute *k, struct compute *c, struct err *e)
 {
     struct solid_ask ask = {
         .material = &k->material.elastic, .order = (int)c->order, .most = k->modes.n + BEYOND, .top = 3 * k->top};
-    if (c->mesh.at != k->mesh.at && !modes_compute_solid_fixed(c, e)) return false;
+    if (c->mesh.at != k->mesh.at && !read_fixed(c, e)) return false;
     ask.fixed = c->fixed;
     ask.n_fixed = c->n_fixed;
     return solid_modes(&c->mesh, &c->boundary, &ask, k->c->arena, &c->modes, e);
@@ -371,7 +358,7 @@ bool modes_compute_solid_estimate(struct compute *k, struct err *e)
                    text_shown(k->c->arena, k->mesh.name));
 }
 
-const char *modes_compute_solid_estimate_says(const struct compute *k)
+const char *modes_compute_solid_error_text(const struct compute *k)
 {
     const struct solid_estimate *s = &k->estimate;
     struct arena *a = k->c->arena;
@@ -400,7 +387,7 @@ void modes_compute_solid_estimate_write(FILE *f, const struct compute *k)
                 "# estimate: by how much frequencies of order %ld (%ld freedoms) are higher on the same mesh: the "
                 "error of that order, more than that of this one; ?: no mode of that order moves alike\n",
                 k->coarse_order, k->coarse_freedoms);
-    fprintf(f, "# estimate of all: %s\n", modes_compute_solid_estimate_says(k));
+    fprintf(f, "# estimate of all: %s\n", modes_compute_solid_error_text(k));
     /* Modes as the table counts them, ten a line. */
     for (int i = 0; i < k->n; i++) {
         double x = k->estimate.error[k->mode[i]];

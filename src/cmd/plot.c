@@ -285,11 +285,6 @@ enum { PLACES = 33 /* along the motion */ };
 
 /* ------------------------------------------------------------------ a mode table */
 
-static bool is_mode_table(const struct csv *csv)
-{
-    return csv_column(csv, "frequency_hz") >= 0 && csv_column(csv, "mode") >= 0;
-}
-
 static void count(struct plot_mode *m, double frequency, double decay, double gain)
 {
     if (gain > m->gain) *m = (struct plot_mode){frequency, decay, gain};
@@ -421,25 +416,6 @@ static bool add_bodies(struct plot_page *p, const struct plot_summary *s, const 
 
 /* ------------------------------------------------------------------ tables */
 
-/* Column of a row at a time; -1: not shown. */
-static int pixel_of(const struct plot_page *p, double time, int columns)
-{
-    double at = (time - p->from) / (p->to - p->from) * columns;
-    return at >= 0 && time <= p->to ? (int)fmin(at, columns - 1) : -1;
-}
-
-/* Adds one row to its column of pixels. */
-static bool row_add(struct plot_table *t, const struct csv *csv, size_t row, int at, struct err *e)
-{
-    for (int k = 0; k < PLOT_TABLE_COLUMNS; k++) {
-        double v;
-        if (!t->x[k]) continue;
-        if (!csv_number(csv, row, csv_column(csv, plot_names[k]), &v, e)) return false;
-        t->x[k][at] = k == PLOT_PEAK ? fmax(t->x[k][at], fabs(v)) : t->x[k][at] + (k == PLOT_RMS ? v * v : v);
-    }
-    return true;
-}
-
 static bool table_rows(struct plot_page *p, const struct csv *csv, const double *times, struct plot_table *t,
                        struct err *e)
 {
@@ -448,11 +424,17 @@ static bool table_rows(struct plot_page *p, const struct csv *csv, const double 
     for (int k = 0; k < PLOT_TABLE_COLUMNS; k++)
         if (csv_column(csv, plot_names[k]) >= 0) t->x[k] = ARENA_TAKE(p->arena, double, PLOT_COLUMNS);
     for (size_t row = 0; row < csv->rows; row++) {
-        int at = pixel_of(p, times[row], PLOT_COLUMNS);
-        if (at < 0) continue;
+        double share = (times[row] - p->from) / (p->to - p->from) * PLOT_COLUMNS;
+        if (!(share >= 0 && times[row] <= p->to)) continue;
+        int at = (int)fmin(share, PLOT_COLUMNS - 1);
         t->time[at] += times[row];
         rows[at]++;
-        if (!row_add(t, csv, row, at, e)) return false;
+        for (int k = 0; k < PLOT_TABLE_COLUMNS; k++) {
+            double v, *x = t->x[k] ? &t->x[k][at] : NULL;
+            if (!x) continue;
+            if (!csv_number(csv, row, csv_column(csv, plot_names[k]), &v, e)) return false;
+            *x = k == PLOT_PEAK ? fmax(*x, fabs(v)) : *x + (k == PLOT_RMS ? v * v : v);
+        }
     }
     /* Sums become means; columns of pixels without a row are left out. */
     for (int c = 0; c < PLOT_COLUMNS; c++) {
@@ -553,7 +535,7 @@ static bool table_alone(struct plot_page *p, struct err *e)
 {
     struct csv csv;
     if (!csv_table_read(p->file, p->arena, &csv, e)) return false;
-    if (is_mode_table(&csv))
+    if (csv_column(&csv, "frequency_hz") >= 0 && csv_column(&csv, "mode") >= 0)
         return (isnan(p->from) && isnan(p->to)) ? modes_of_table(p, e)
                                                 : err_set(e, ERR_USAGE, "--%s: %s is a mode table, which has no time",
                                                           isnan(p->from) ? "to" : "from", p->file);
@@ -637,32 +619,25 @@ static bool plot_format(struct cmd_call *c, struct plot_page *p, struct err *e)
            err_set(e, ERR_USAGE, "--output %s: does not end in .%s, the format that is asked for", o, formats[svg]);
 }
 
-/* Nor of the sound, or what lies beside it. */
-static bool plot_spares_drawn(const struct plot_page *p, const char *target, const struct stat *t, struct err *e)
-{
-    static const char *const endings[] = {".wav", ".csv", ".npy", ".json", ".scene.yaml"};
-    struct stat s;
-    for (int i = 0; i < 5; i++) {
-        const char *file = arena_format(p->arena, "%.*s%s", (int)strlen(p->file) - 4, p->file, endings[i]);
-        if (stat(file, &s) == 0 && s.st_dev == t->st_dev && s.st_ino == t->st_ino)
-            return err_set(e, ERR_CREATE,
-                           "%s: the picture would overwrite %s, which it shows; write elsewhere: -o OTHER.png", target,
-                           file);
-    }
-    return true;
-}
-
 /* A picture takes the place of no file that the sound was made from. */
 static bool plot_spares(const struct plot_page *p, const char *target, struct err *e)
 {
     struct scene scene;
     struct stat t;
     struct err unreadable = {0};
+    static const char *const endings[] = {".wav", ".csv", ".npy", ".json", ".scene.yaml"};
     const char *effective = arena_format(p->arena, "%.*s.scene.yaml", (int)strlen(p->file) - 4, p->file), *messages;
     int n = 0;
     const struct outputs_source *sources = NULL;
     if (stat(target, &t) != 0) return true;
-    if (!plot_spares_drawn(p, target, &t, e)) return false;
+    for (int i = 0; i < 5; i++) { /* nor of the sound, or what lies beside it */
+        const char *file = arena_format(p->arena, "%.*s%s", (int)strlen(p->file) - 4, p->file, endings[i]);
+        struct stat s;
+        if (stat(file, &s) == 0 && s.st_dev == t.st_dev && s.st_ino == t.st_ino)
+            return err_set(e, ERR_CREATE,
+                           "%s: the picture would overwrite %s, which it shows; write elsewhere: -o OTHER.png", target,
+                           file);
+    }
     if (access(effective, F_OK) == 0 && scene_read(effective, NULL, p->arena, &scene, &messages, &unreadable))
         sources = outputs_sources(&scene, &n, p->arena);
     for (int i = 0; i < n; i++)

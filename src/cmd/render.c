@@ -106,14 +106,6 @@ static bool summary_again(struct render_report *r, double measured, struct arena
     return ok;
 }
 
-static void note(struct render_report *r, const char *text, struct arena *a)
-{
-    const char **notes = ARENA_TAKE(a, const char *, r->n_notes + 1);
-    memcpy(notes, r->notes, (size_t)r->n_notes * sizeof *notes);
-    notes[r->n_notes++] = text;
-    r->notes = notes;
-}
-
 /* Renders the scene twice more, each in a process of its own and as doubles: with the knobs that it was rendered with,
    and with the reference's (preset reference, or twice as fine as those); adds a note and, in the summary on disk and
    in the report, accuracy.measured_db: their difference over the reference, rms, in dB. The note says of which knobs
@@ -149,12 +141,12 @@ static bool render_verify(struct cmd_call *c, const char *file, const struct sce
             text = arena_format(c->arena, "%s; %s of %s %.6g, as the reference has no finer than %.6g", text,
                                 than == own ? "nothing" : "less than all", keys_knobs[k].name, own, than);
     }
-    const char *less = text;
-    note(r,
-         isfinite(measured)
-             ? arena_format(c->arena, "accuracy: %.1f dB measured, against the reference%s", measured, less)
-             : arena_format(c->arena, "accuracy: measured: the same bits as the reference%s", less),
-         c->arena);
+    r->notes =
+        memcpy(ARENA_TAKE(c->arena, const char *, r->n_notes + 1), r->notes, (size_t)r->n_notes * sizeof *r->notes);
+    r->notes[r->n_notes++] =
+        isfinite(measured)
+            ? arena_format(c->arena, "accuracy: %.1f dB measured, against the reference%s", measured, text)
+            : arena_format(c->arena, "accuracy: measured: the same bits as the reference%s", text);
     return isnan(asked->accuracy.error) || measured <= asked->accuracy.error || err_about(e, NULL, "accuracy.error") ||
            err_set(e, ERR_DIFFERS,
                    "accuracy.error: %.6g dB is not kept: %.1f dB measured against the reference; the files stay as "

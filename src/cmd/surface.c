@@ -364,10 +364,8 @@ static bool read_crop(struct convert *v, struct err *e)
     int n = 0;
     v->cropped = text != NULL;
     if (!text) return true;
-    for (char *p = arena_text(v->c->arena, text), *next; p; p = next) {
+    for (char *rest = arena_text(v->c->arena, text), *p; (p = strsep(&rest, ","));) {
         struct units_fault fault = {NULL, NULL};
-        next = strchr(p, ',');
-        if (next) *next++ = '\0';
         if (n == 4 || !units_read(p, KEY_LENGTH, &x[n++], v->c->arena, &fault))
             return err_set(e, ERR_USAGE, "--crop: '%s': %s %s", text, fault.text ? p : "has",
                            fault.text ? fault.text : "more than four lengths");
@@ -462,15 +460,6 @@ static void report(const struct convert *v, const char *out, enum heightfile_for
     putchar('\n');
 }
 
-static bool pick_format(const struct cmd_call *c, enum heightfile_format *format, struct err *e)
-{
-    if (!heightfile_write_format(c->args.operands[1], format, e)) return false;
-    if (args_given(&c->args, "text") && *format != HEIGHTFILE_SDF)
-        return err_set(e, ERR_USAGE, "--text is for SDF, which has two forms");
-    if (args_given(&c->args, "text")) *format = HEIGHTFILE_SDF_TEXT;
-    return true;
-}
-
 static int surface_convert_run(struct cmd_call *c, struct err *e)
 {
     struct convert v = {.c = c};
@@ -478,7 +467,11 @@ static int surface_convert_run(struct cmd_call *c, struct err *e)
     struct heightfile_written w;
     enum heightfile_format format;
     const char *in = c->args.operands[0], *out = c->args.operands[1];
-    if (!pick_format(c, &format, e) || !cmd_spares(out, "the heights", in, "a file of another name", e) ||
+    if (!heightfile_write_format(out, &format, e)) return (int)e->kind;
+    if (args_given(&c->args, "text") && format != HEIGHTFILE_SDF)
+        return err_set(e, ERR_USAGE, "--text is for SDF, which has two forms"), (int)e->kind;
+    if (args_given(&c->args, "text")) format = HEIGHTFILE_SDF_TEXT;
+    if (!cmd_spares(out, "the heights", in, "a file of another name", e) ||
         !mark_absent(out, args_given(&c->args, "force"), e) || !surface_options(c, HEIGHTFILE_REFUSE, &o, e) ||
         !read_crop(&v, e) || !heightfile_load(in, &o, c->arena, &v.h, e) || !crop(&v, e) || !take_row(&v, e) ||
         !heightfile_write(out, &v.h, format, &w, e))

@@ -43,29 +43,23 @@
 #define BUILT_FOR "x86-64"
 #endif
 
-/* The best level this CPU has; functions with clones run at it, all with the same results to the bit. */
-static const char *cpu_level(void)
-{
-    __builtin_cpu_init();
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
-        return "x86-64-v4";
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return "x86-64-v3";
-    return __builtin_cpu_supports("sse4.2") ? "x86-64-v2" : "x86-64";
-}
-
-/* Which of the levels that hot functions are compiled for this CPU gets (num/lanes.h), or the one that all is compiled
- * for. */
+/* The best level this CPU has; functions with clones run at it, all with the same results to the bit: that which hot
+   functions are compiled for (num/lanes.h), or the one that all is compiled for. */
 static void print_level(void)
 {
 #define TEXT(...) #__VA_ARGS__
 #define TEXT_OF(...) TEXT(__VA_ARGS__)
-    const char *level = cpu_level();
-    printf("built for    %s\n", BUILT_FOR);
-    printf("this CPU     %s\n", level);
-    if (sizeof TEXT_OF(LANES_CLONES) > 1)
-        printf("hot loops    %s, picked at run time\n", strcmp(level, "x86-64-v2") ? level : "x86-64");
-    else
-        printf("hot loops    %s, as built\n", BUILT_FOR);
+    __builtin_cpu_init();
+    bool v4 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+              __builtin_cpu_supports("avx512vl"),
+         v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"), v2 = __builtin_cpu_supports("sse4.2"),
+         clones = sizeof TEXT_OF(LANES_CLONES) > 1;
+    const char *level = v4 ? "x86-64-v4" : v3 ? "x86-64-v3" : v2 ? "x86-64-v2" : "x86-64";
+    printf("built for    %s\nthis CPU     %s\nhot loops    %s, %s\n", BUILT_FOR, level,
+           !clones    ? BUILT_FOR
+           : v4 || v3 ? level
+                      : "x86-64",
+           clones ? "picked at run time" : "as built");
 }
 
 const char version_number[] = VERSION, version_revision[] = RASP_REVISION;
