@@ -56,4 +56,12 @@ struct distance_bands {
 void distance_bands(const struct wav *a, const struct wav *b, double range_db, struct arena *arena,
                     struct distance_bands *d);
 
+/* How long one sound follows another. */
+#define AGREEMENT_WINDOW 10e-3 /* s */
+
+/* Frames for which b follows a, the reference: up to the first window of 10 ms in which the difference's energy is a
+   quarter of the sound's or more, and in all that comes from there on as well; all that both have when there is none.
+   Same rate and number of channels. */
+size_t distance_agreement(const struct wav *a, const struct wav *b);
+
 #endif

@@ -2,7 +2,7 @@
    processes and their distributions, of amplitudes and intervals, with standard errors. */
 #ifndef ANALYSIS_IMPACT_STATISTICS_H
 #define ANALYSIS_IMPACT_STATISTICS_H
-#include "analysis/impact_events.h"
+#include "analysis/impact_find.h"
 #include "base/arena.h"
 #include "base/err.h"
 

@@ -14,10 +14,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "analysis/agreement.h"
-#include "analysis/convergence.h"
 #include "analysis/distance.h"
-#include "analysis/log_spectral.h"
+#include "analysis/convergence.h"
+#include "analysis/spectral_distance.h"
 #include "base/interrupt.h"
 #include "base/outfile.h"
 #include "base/scratch.h"
@@ -523,9 +522,9 @@ struct accuracy_error accuracy_child_distance(const struct wav *a, const struct 
     distance_bands(&rest[0], &rest[1], WITHIN, arena, &bands);
     o.third = bands.compared ? bands.worst_db : 0.0;
     o.third_hz = bands.compared ? distance_band_nominal(bands.band) : NAN;
-    o.spectral = log_spectral(&rest[0], &rest[1]);
+    o.spectral = spectral_distance_sounds(&rest[0], &rest[1]);
     o.level = level(&rest[1]) - level(&rest[0]);
-    o.follows = (double)agreement(a, b) / a->rate;
+    o.follows = (double)distance_agreement(a, b) / a->rate;
     arena_close(arena);
     return o;
 }
@@ -563,7 +562,7 @@ bool accuracy_child_compare(struct accuracy_sweep *s, int render, struct err *e)
     if (ok && !is && (a.channels != b.channels || a.rate != b.rate))
         ok = err_set(e, ERR_NUMBERS, "the renders differ in rate or channels and cannot be compared");
     if (ok && render == s->high && !is) {
-        size_t until = agreement(&a, &b);
+        size_t until = distance_agreement(&a, &b);
         s->until = until < a.frames && until < b.frames ? (double)until / a.rate : INFINITY;
     }
     if (ok) r->error = accuracy_child_distance(is ? &b : &a, &b, s->until);

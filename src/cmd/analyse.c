@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "analysis/frequency_polygon.h"
+#include "analysis/distribution_fit.h"
 #include "base/interrupt.h"
 #include "cmd/cmd.h"
 #include "file/bytes.h"
@@ -323,7 +323,7 @@ bool analyse_tabled(const struct analysis *a, int series)
     const struct series_statistics *s = &a->statistics.series[series];
     return !s->flat && a->distribution != ANALYSE_GAUSSIAN &&
            (a->distribution == ANALYSE_TABLE ||
-            frequency_polygon_needed(s->white.gaussian_distance, a->statistics.n - 1));
+            distribution_fit_polygon_needed(s->white.gaussian_distance, a->statistics.n - 1));
 }
 
 bool analyse_one_process(const struct analysis *a) { return a->statistics.one_process >= STATISTICS_ONE_PROCESS; }
@@ -344,11 +344,11 @@ static bool theta_find(struct cmd_call *c, struct analysis *a, struct err *e)
     if (args_given(&c->args, "theta")) return args_number(&c->args, "theta", (const double[2]){0, 2}, &d->theta, e);
     a->theta = ANALYSE_THETA_FILE;
     if (a->single.file)
-        return impact_duration_single(&a->single.found.events, true, d) ||
+        return impact_find_duration_single(&a->single.found.events, true, d) ||
                err_set(e, ERR_SCENE, "%s: %ld impact%s alone; theta takes at least %d, of different amplitudes",
                        a->single.file, d->singles, d->singles == 1 ? " stands" : "s stand", IMPACT_DURATION_LEAST);
     a->theta = ANALYSE_THETA_ALONE;
-    if (impact_duration_single(&a->source.found.events, true, d)) return true;
+    if (impact_find_duration_single(&a->source.found.events, true, d)) return true;
     a->theta = ANALYSE_THETA_NONE;
     d->theta = 0;
     return true;
@@ -362,7 +362,7 @@ static bool duration_find(struct cmd_call *c, struct analysis *a, struct err *e)
         analyse_note(a, "stronger impacts last longer here (theta %.3g); a scene's theta is 0 or more, and 0 is taken",
                      d->theta);
     d->theta = fmax(d->theta, 0);
-    a->lasts = impact_duration_series(&a->source.found.events, d);
+    a->lasts = impact_find_duration_series(&a->source.found.events, d);
     if (!a->lasts)
         analyse_note(a, "no duration is known: %s", analyse_notes_unknown(a));
     else {
@@ -372,7 +372,7 @@ static bool duration_find(struct cmd_call *c, struct analysis *a, struct err *e)
         double r2 = d->r2_log, theta = d->theta;
         bool given = a->theta == ANALYSE_THETA_GIVEN, few = d->n < IMPACT_DURATION_MANY;
         a->constant = !given && (a->theta == ANALYSE_THETA_NONE || few || (theta > 0 ? r2 < 0 : !isnan(r2)));
-        if (a->constant) impact_duration_constant(&a->source.found.events, a->arena, d);
+        if (a->constant) impact_find_duration_constant(&a->source.found.events, a->arena, d);
         const char *taken = given ? "and zeta means little" : "so the median is taken for all, and theta as 0";
         if (a->theta == ANALYSE_THETA_NONE)
             analyse_note(

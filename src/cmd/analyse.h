@@ -1,7 +1,6 @@
 /* What `rasp analyse` finds, and its parts: reading, the report as text and as JSON, the parameter file, the plots. */
 #ifndef CMD_ANALYSE_H
 #define CMD_ANALYSE_H
-#include "analysis/impact_duration.h"
 #include "analysis/impact_find.h"
 #include "analysis/impact_shape.h"
 #include "analysis/impact_statistics.h"

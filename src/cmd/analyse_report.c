@@ -7,7 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "analysis/frequency_polygon.h"
+#include "analysis/distribution_fit.h"
 #include "base/outfile.h"
 #include "base/wrap.h"
 #include "cmd/report.h"
@@ -476,7 +476,7 @@ static void put_table(const struct part *p, int k, FILE *f)
 {
     const struct analysis *a = p->a;
     struct frequency_polygon t;
-    frequency_polygon_make(a->statistics.white[k], a->statistics.n - 1, a->statistics.series[k].deviation.value,
+    distribution_fit_polygon(a->statistics.white[k], a->statistics.n - 1, a->statistics.series[k].deviation.value,
                            a->arena, &t);
     fprintf(f, "# density of the whitened %ss of %s, value in %s\nvalue,density\n", analyse_series_names[k],
             source_name(a), k ? "s" : "N");

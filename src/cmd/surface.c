@@ -4,8 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "analysis/surface_band.h"
-#include "analysis/surface_ends.h"
 #include "analysis/surface_heights.h"
 #include "base/text.h"
 #include "cmd/cmd.h"
@@ -67,9 +65,9 @@ struct surface_info {
     struct heightfile_plane tilt; /* of the map as it is in the file                     */
     struct surface_heights heights;
     struct surface_heights_steps steps;
-    struct surface_band band[2]; /* along the rows, down the columns (of a map)         */
-    struct surface_ends ends[2];
-    struct surface_ends_period period;
+    struct surface_heights_band band[2]; /* along the rows, down the columns (of a map)         */
+    struct surface_heights_ends ends[2];
+    struct surface_heights_period period;
     const char *notes[NOTES]; /* what looks like a fault; NULL-terminated     */
     int n_notes;
     struct arena *arena;
@@ -83,7 +81,7 @@ static const char *len(const struct surface_info *i, double x) { return heightfi
 static void note_ends(struct surface_info *i, bool down)
 {
     static const char *const ends[2][2] = {{"first", "last"}, {"top", "bottom"}};
-    const struct surface_ends *s = &i->ends[down];
+    const struct surface_heights_ends *s = &i->ends[down];
     for (int k = 0; k < 2; k++)
         if (s->fall[k])
             NOTE(i,
@@ -138,7 +136,7 @@ static void find_faults(struct surface_info *i)
         NOTE(i, "it is tilted by %s from end to end: surface.levelling: plane", len(i, fmax(x, y)));
     for (int down = 0; down < (i->h.rows > 1 ? 2 : 1); down++) {
         /* The limiter sees curvature, whatever makes it. */
-        const struct surface_band *b = &i->band[down];
+        const struct surface_heights_band *b = &i->band[down];
         if (b->beyond > 0.1)
             NOTE(i,
                  "%.0f %% of the mean square curvature%s lies above the band limit, where there is no surface: %s; "
@@ -150,7 +148,7 @@ static void find_faults(struct surface_info *i)
                  b->noise ? "noise of the measurement" : "artefacts of resampling", len(i, 0.25 / b->limit));
         note_ends(i, down);
     }
-    const struct surface_ends_period *p = &i->period;
+    const struct surface_heights_period *p = &i->period;
     if (p->stands_out)
         NOTE(i,
              "it resembles itself %zu samples (%s) further on (autocorrelation %.2f): rows of an image laid end to "
@@ -221,7 +219,7 @@ static void report_steps(struct report *r, const struct surface_info *i)
 /* Along the rows or down the columns; `where`: " in x" or " in y" of a map. */
 static void report_band(struct report *r, const struct surface_info *i, int down, const char *where)
 {
-    const struct surface_band *b = &i->band[down];
+    const struct surface_heights_band *b = &i->band[down];
     const char *label = arena_format(i->arena, "band limit%s", where);
     bool limit = !isnan(b->limit);
     if (b->segments == 0) {
@@ -247,7 +245,7 @@ static void report_band(struct report *r, const struct surface_info *i, int down
 
 static void report_surface(struct report *r, const struct surface_info *i)
 {
-    const struct surface_ends_period *p = &i->period;
+    const struct surface_heights_period *p = &i->period;
     report_object(r, NULL);
     const struct heightfile *h = &i->h;
     bool map = h->rows > 1;
@@ -276,7 +274,7 @@ static void report_surface(struct report *r, const struct surface_info *i)
     for (int down = 0; down < (i->h.rows > 1 ? 2 : 1); down++) {
         const char *where = i->h.rows == 1 ? "" : down ? " in y" : " in x";
         report_band(r, i, down, where);
-        const struct surface_ends *s = &i->ends[down];
+        const struct surface_heights_ends *s = &i->ends[down];
         report_object(r, down ? "ends_y" : "ends_x");
         report_set(r, "step_rms_m:n jump_repeated_m:n slope_jump_mirrored:n", s->step, s->jump, s->kink);
         report_list(r, "fall_samples");
@@ -314,10 +312,10 @@ static bool gather(struct surface_info *i, struct heightfile_options o, struct e
     i->h.levelled = heightfile_level(&i->h, (enum heightfile_levelling)i->levelling);
     surface_heights(&i->h, &i->heights);
     for (int down = 0; down < (i->h.rows > 1 ? 2 : 1); down++) {
-        surface_band(&i->h, down, &i->band[down]);
-        surface_ends(&i->h, down, &i->ends[down]);
+        surface_heights_band(&i->h, down, &i->band[down]);
+        surface_heights_ends(&i->h, down, &i->ends[down]);
     }
-    surface_ends_period(&i->h, &i->period);
+    surface_heights_period(&i->h, &i->period);
     find_faults(i);
     return true;
 }

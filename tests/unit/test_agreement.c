@@ -1,6 +1,6 @@
 /* Until when a sound follows another: differences that grow as exp(t), whose instant is known; what is no divergence.
  */
-#include "analysis/agreement.h"
+#include "analysis/distance.h"
 #include "unit.h"
 
 enum { RATE = 8000, N = 16000, CHANNELS = 2 };
@@ -15,7 +15,7 @@ static struct wav a_of(double *x, size_t frames)
 static double run(void)
 {
     struct wav a = a_of(a_x, N), b = a_of(b_x, N);
-    return (double)agreement(&a, &b) / RATE;
+    return (double)distance_agreement(&a, &b) / RATE;
 }
 
 /* A tone of rms 1, and one of the same power at another frequency, by which it differs. */
@@ -74,7 +74,7 @@ START_TEST(lengths)
 {
     struct wav a = a_of(a_x, N), b = a_of(b_x, N / 2 + 3);
     make(nothing);
-    ck_assert_uint_eq(agreement(&a, &b), N / 2 + 3);
+    ck_assert_uint_eq(distance_agreement(&a, &b), N / 2 + 3);
 }
 END_TEST
 

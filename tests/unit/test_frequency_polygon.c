@@ -3,7 +3,7 @@
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_randist.h>
 
-#include "analysis/frequency_polygon.h"
+#include "analysis/distribution_fit.h"
 #include "unit.h"
 
 static void moments(const struct frequency_polygon *t, double m[3])
@@ -39,7 +39,7 @@ START_TEST(moments_and_density)
         double m[3], worst = 0;
         for (int i = 0; i < N; i++)
             x[i] = 2e-3 * (kind ? gsl_ran_gamma(r, 3, 1) / sqrt(3) : gsl_ran_gaussian(r, 1)) + 5;
-        frequency_polygon_make(x, N, 2e-3, a, &t);
+        distribution_fit_polygon(x, N, 2e-3, a, &t);
         moments(&t, m);
         ck_assert_double_eq_tol(m[0], 1, 1e-9);
         ck_assert_double_eq_tol(m[1] / 2e-3, 0, 1e-9);
@@ -63,11 +63,11 @@ START_TEST(few_and_coarse)
     struct arena *a = arena_open();
     struct frequency_polygon t;
     double two[2] = {1, 3}, mass[100] = {0}, m[3];
-    frequency_polygon_make(two, 2, 0.5, a, &t);
+    distribution_fit_polygon(two, 2, 0.5, a, &t);
     moments(&t, m);
     ck_assert_double_eq_tol(sqrt(m[2]), 0.5, 1e-3);
     mass[99] = 1; /* quartiles alike: no width from them */
-    frequency_polygon_make(mass, 100, 0.1, a, &t);
+    distribution_fit_polygon(mass, 100, 0.1, a, &t);
     moments(&t, m);
     ck_assert_double_eq_tol(m[0], 1, 1e-6);
     ck_assert_double_eq_tol(m[1], 0, 1e-6);
@@ -77,8 +77,8 @@ END_TEST
 
 START_TEST(needed)
 {
-    ck_assert(frequency_polygon_needed(0.11, 100) && !frequency_polygon_needed(0.1, 100)); /* Lilliefors: 0.1031 */
-    ck_assert(!frequency_polygon_needed(0.019, 1000000) && frequency_polygon_needed(0.021, 1000000));
+    ck_assert(distribution_fit_polygon_needed(0.11, 100) && !distribution_fit_polygon_needed(0.1, 100)); /* Lilliefors: 0.1031 */
+    ck_assert(!distribution_fit_polygon_needed(0.019, 1000000) && distribution_fit_polygon_needed(0.021, 1000000));
 }
 END_TEST
 

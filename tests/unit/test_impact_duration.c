@@ -2,7 +2,6 @@
    that run into each other, what cannot be told; and a train of bounces, whose law is closed form. */
 #include <gsl/gsl_randist.h>
 
-#include "analysis/impact_duration.h"
 #include "analysis/impact_find.h"
 #include "contacts.h"
 #include "force/strike.h"
@@ -28,20 +27,20 @@ START_TEST(exact)
     gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
     struct impact_events v = events(7.88e-4, 0.29, 0, r);
     struct impact_duration d = {.theta = NAN};
-    ck_assert(impact_duration_single(&v, true, &d));
+    ck_assert(impact_find_duration_single(&v, true, &d));
     ck_assert_double_eq_tol(d.theta, 0.29, 1e-13);
     ck_assert_double_eq_tol(d.zeta_single / 7.88e-4, 1, 1e-13);
     ck_assert_double_eq_tol(d.r2_single, 1, 1e-12);
     ck_assert_double_eq_tol(d.r2_single_log, 1, 1e-12);
     ck_assert_int_eq(d.singles, N);
-    ck_assert(impact_duration_series(&v, &d));
+    ck_assert(impact_find_duration_series(&v, &d));
     ck_assert_double_eq_tol(d.zeta / 7.88e-4, 1, 1e-13);
     ck_assert_double_eq_tol(d.r2, 1, 1e-12);
     d.theta = 0; /* given: zeta is the geometric mean, and explains nothing of the logarithm */
     double sum = 0;
     for (int i = 0; i < N; i++)
         sum += log(duration[i]) / N;
-    ck_assert(impact_duration_series(&v, &d));
+    ck_assert(impact_find_duration_series(&v, &d));
     ck_assert_double_eq_tol(d.zeta / exp(sum), 1, 1e-13);
     ck_assert_double_eq_tol(d.r2_log, 0, 1e-12);
     gsl_rng_free(r);
@@ -56,7 +55,7 @@ START_TEST(scattered)
     for (int k = 0; k < 400; k++) {
         struct impact_events v = events(1e-3, 0.2, 0.1, r);
         struct impact_duration d = {.theta = NAN};
-        ck_assert(impact_duration_single(&v, true, &d));
+        ck_assert(impact_find_duration_single(&v, true, &d));
         sum += d.theta;
         squares += (d.theta - 0.2) * (d.theta - 0.2);
         errors += d.theta_error * d.theta_error;
@@ -80,13 +79,13 @@ START_TEST(outliers)
         duration[i] *= fabs(amplitude[i]) < 2 ? 5 : 1;
     }
     duration[3] = NAN;
-    ck_assert(impact_duration_single(&v, true, &d));
+    ck_assert(impact_find_duration_single(&v, true, &d));
     ck_assert_int_eq(d.singles, N - N / 4 - 1);
     ck_assert_double_eq_tol(d.theta, 0.25, 1e-12);
-    ck_assert(impact_duration_series(&v, &d));
+    ck_assert(impact_find_duration_series(&v, &d));
     ck_assert_int_eq(d.n, N - 1);
     ck_assert_double_lt(d.r2, 0.9);
-    ck_assert(impact_duration_single(&v, false, &d));
+    ck_assert(impact_find_duration_single(&v, false, &d));
     ck_assert_double_gt(d.theta, 0.3); /* both at once: spoilt */
     gsl_rng_free(r);
 }
@@ -98,21 +97,21 @@ START_TEST(untold)
     struct impact_events v = events(1e-3, 0.25, 0, r);
     struct impact_duration d = {.theta = NAN};
     v.n = IMPACT_DURATION_LEAST - 1;
-    ck_assert(!impact_duration_single(&v, true, &d));
+    ck_assert(!impact_find_duration_single(&v, true, &d));
     v.n = N;
     for (int i = 0; i < N; i++)
         amplitude[i] = 2 + 1e-3 * i / N;
-    ck_assert(!impact_duration_single(&v, true, &d));
+    ck_assert(!impact_find_duration_single(&v, true, &d));
     ck_assert_int_eq(d.singles, N);
     for (int i = 0; i < N; i++)
         duration[i] = NAN;
     d.theta = 0.2;
-    ck_assert(!impact_duration_series(&v, &d));
+    ck_assert(!impact_find_duration_series(&v, &d));
     struct arena *a = arena_open();
-    ck_assert(!impact_duration_constant(&v, a, &d));
+    ck_assert(!impact_find_duration_constant(&v, a, &d));
     for (int i = 0; i < 5; i++)
         duration[7 * i] = (const double[]){3, 1, 9, 2, 100}[i];
-    ck_assert(impact_duration_constant(&v, a, &d));
+    ck_assert(impact_find_duration_constant(&v, a, &d));
     ck_assert_int_eq(d.n, 5);
     ck_assert_double_eq(d.zeta, 3); /* the median, whatever the outlier */
     ck_assert_double_eq(d.theta, 0);
@@ -141,7 +140,7 @@ START_TEST(bounces)
         long n = (long)(1.9 * rate);
         struct impact_signal signal = {shot_decimated(&s, n), n, rate, 0};
         ck_assert(impact_find(&signal, &impact_find_options, s.arena, &f, &e));
-        ck_assert(impact_duration_single(&f.events, true, &d));
+        ck_assert(impact_find_duration_single(&f.events, true, &d));
         double zeta = 2.9432751843247045 * sqrt(1.25 * c.scraper.mass / stiffness) * pow(0.9 * stiffness, 1.0 / 6);
         double greatest = f.events.amplitude[0], law = d.zeta_single * pow(greatest, -d.theta);
         ck_assert_double_eq_tol(d.theta, 1.0 / 6, k ? 5e-4 : 3e-3);

@@ -1,5 +1,5 @@
-/* surface_band: heights made of cosines whose spectrum is known. */
-#include "analysis/surface_band.h"
+/* surface_heights_band: heights made of cosines whose spectrum is known. */
+#include "analysis/surface_heights.h"
 
 #include <stdint.h>
 
@@ -43,10 +43,10 @@ static void fractal(double a, double from, double to, double rms)
         z[i] *= rms / sqrt(0.5 * sum);
 }
 
-static struct surface_band of(struct heightfile h, bool down)
+static struct surface_heights_band of(struct heightfile h, bool down)
 {
-    struct surface_band b;
-    surface_band(&h, down, &b);
+    struct surface_heights_band b;
+    surface_heights_band(&h, down, &b);
     return b;
 }
 
@@ -61,7 +61,7 @@ START_TEST(power_law)
     static const double exponents[] = {-1.5, -2.4, -3};
     for (int j = 0; j < 3; j++) {
         fractal(exponents[j], 0.001, 0.06, 3e-6);
-        struct surface_band b = of(PROFILE, false);
+        struct surface_heights_band b = of(PROFILE, false);
         ck_assert(b.segments >= 8 && !b.noise);
         ck_assert_double_eq(b.nyquist, 0.5 / pitch);
         ck_assert_double_eq_tol(b.limit * pitch / 0.06, 1, 0.07);
@@ -80,7 +80,7 @@ START_TEST(noise_floor)
     fractal(-2.4, 0.001, 0.06, 3e-6);
     for (int i = 0; i < N; i++)
         z[i] += sigma * gauss();
-    struct surface_band b = of(PROFILE, false);
+    struct surface_heights_band b = of(PROFILE, false);
     ck_assert(b.noise);
     ck_assert_double_eq_tol(b.floor / (2 * pitch * sigma * sigma), 1, 0.1);
     ck_assert_double_eq_tol(b.limit * pitch / 0.06, 1, 0.07);
@@ -92,7 +92,7 @@ START_TEST(no_limit)
 {
     for (int i = 0; i < N; i++)
         z[i] = 1e-6 * gauss();
-    struct surface_band b = of(PROFILE, false);
+    struct surface_heights_band b = of(PROFILE, false);
     ck_assert(isnan(b.limit) && !b.noise && isnan(b.beyond));
     ck_assert_double_eq_tol(b.exponent, 0, 0.1);
     fractal(-1.8, 0.001, 0.5, 1e-6);
@@ -110,7 +110,7 @@ START_TEST(scratch_and_line)
 {
     fractal(-2, 0.001, 0.06, 3e-6);
     z[N / 2] += 1e-3;
-    struct surface_band b = of(PROFILE, false);
+    struct surface_heights_band b = of(PROFILE, false);
     ck_assert_double_eq_tol(b.limit * pitch / 0.06, 1, 0.07);
     z[N / 2] -= 1e-3;
     for (int i = 0; i < N; i++)
@@ -133,7 +133,7 @@ START_TEST(ridges)
         z[i] = 20e-6 * exp(-t * t / (2 * 0.02 * 0.02)); /* harmonic n falls as exp(-2 (pi 0.02 n)^2): 80 dB down at n =
                                                            34, and 8 dB less where a node holds gaps as well */
     }
-    struct surface_band b = of(PROFILE, false);
+    struct surface_heights_band b = of(PROFILE, false);
     ck_assert_double_eq_tol(b.limit * pitch * 500, 33, 2);
     for (int i = 0; i < N; i++) { /* lines far apart: five harmonics, each half the one before */
         z[i] = 0;
@@ -158,7 +158,7 @@ START_TEST(map)
             z[k] += 1e-7 * cos(2 * pi * (kx * (k % W) + ky * (k / W)) + phase);
     }
     z[100] = z[300 * 17 + 4] = NAN;
-    struct surface_band x = of(h, false), y = of(h, true);
+    struct surface_heights_band x = of(h, false), y = of(h, true);
     ck_assert(x.segments > 100 && y.segments > 100 && x.segment == 256 && y.segment == 128);
     ck_assert_double_eq_tol(x.limit * 1e-6 / 0.2, 1, 0.15); /* half the window's main lobe is 4 of 256 lines: 0.016 */
     ck_assert_double_eq_tol(y.limit * 5e-6 / 0.1, 1, 0.4);
@@ -171,4 +171,4 @@ START_TEST(map)
 }
 END_TEST
 
-UNIT("surface_band", power_law, noise_floor, no_limit, scratch_and_line, ridges, map)
+UNIT("surface_heights_band", power_law, noise_floor, no_limit, scratch_and_line, ridges, map)

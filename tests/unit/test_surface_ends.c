@@ -1,5 +1,5 @@
-/* surface_ends: seams, ends that fall away, rows laid end to end. */
-#include "analysis/surface_ends.h"
+/* surface_heights_ends: seams, ends that fall away, rows laid end to end. */
+#include "analysis/surface_heights.h"
 
 #include <stdint.h>
 
@@ -24,10 +24,10 @@ static double chance(void)
 START_TEST(seams)
 {
     struct heightfile h = PROFILE(101);
-    struct surface_ends s;
+    struct surface_heights_ends s;
     for (int i = 0; i <= 100; i++)
         z[i] = 1e-9 * i * i;
-    surface_ends(&h, false, &s);
+    surface_heights_ends(&h, false, &s);
     double sum = 0;
     for (int i = 0; i < 100; i++)
         sum += (2.0 * i + 1) * (2 * i + 1);
@@ -46,18 +46,18 @@ static void waves(int n)
 START_TEST(falling_ends)
 {
     struct heightfile h = PROFILE(5000);
-    struct surface_ends s;
+    struct surface_heights_ends s;
     waves(5000);
-    surface_ends(&h, false, &s);
+    surface_heights_ends(&h, false, &s);
     ck_assert(s.fall[0] == 0 && s.fall[1] == 0 && s.drop[0] == 0 && s.drop[1] == 0);
     for (int i = 4993; i < 5000; i++) /* the last seven fall to 1 um */
         z[i] += (1e-6 - z[4992]) * (i - 4992) / 7;
-    surface_ends(&h, false, &s);
+    surface_heights_ends(&h, false, &s);
     ck_assert(s.fall[0] == 0 && s.fall[1] == 7);
     ck_assert_double_eq_tol(s.drop[1], fabs(z[4999] - z[4992]), 1e-18);
     waves(5000);
     z[0] = z[1] = 0;
-    surface_ends(&h, false, &s);
+    surface_heights_ends(&h, false, &s);
     ck_assert(s.fall[0] == 2 && s.fall[1] == 0);
     ck_assert_double_eq_tol(s.drop[0], z[2], 1e-18);
 }
@@ -70,15 +70,15 @@ START_TEST(down_is_along_the_transpose)
     static double t[W * H];
     struct heightfile h = {.columns = W, .rows = H, .pitch_x = 1e-6, .pitch_y = 3e-6, .z = z},
                       turned = {.columns = H, .rows = W, .pitch_x = 3e-6, .pitch_y = 1e-6, .z = t};
-    struct surface_ends a, b;
+    struct surface_heights_ends a, b;
     state = 5;
     for (int k = 0; k < W * H; k++)
         t[k % W * H + k / W] = z[k] = 1e-6 * chance() + (k / W > 77 ? 5e-6 : 0);
-    surface_ends(&h, true, &a);
-    surface_ends(&turned, false, &b);
+    surface_heights_ends(&h, true, &a);
+    surface_heights_ends(&turned, false, &b);
     ck_assert_mem_eq(&a, &b, sizeof a);
     ck_assert(a.fall[1] == 2);
-    surface_ends(&h, false, &b);
+    surface_heights_ends(&h, false, &b);
     ck_assert(b.fall[0] == 0 && b.fall[1] == 0);
 }
 END_TEST
@@ -103,13 +103,13 @@ static void rows_end_to_end(void)
 START_TEST(flattened_rows)
 {
     struct heightfile h = PROFILE(N);
-    struct surface_ends_period p;
+    struct surface_heights_period p;
     rows_end_to_end();
-    surface_ends_period(&h, &p);
+    surface_heights_period(&h, &p);
     ck_assert(p.stands_out && p.lag == 500);
     ck_assert_double_eq_tol(p.peak, 0.8, 0.05);
     h.rows = 2, h.columns = N / 2;
-    surface_ends_period(&h, &p);
+    surface_heights_period(&h, &p);
     ck_assert(!p.stands_out && p.lag == 0 && isnan(p.peak));
 }
 END_TEST
@@ -118,25 +118,25 @@ END_TEST
 START_TEST(what_does_not_stand_out)
 {
     struct heightfile h = PROFILE(N);
-    struct surface_ends_period p;
+    struct surface_heights_period p;
     double s = 0;
     state = 11;
     for (int i = 0; i < N; i++)
         z[i] = s += chance() - 0.1 * s;
-    surface_ends_period(&h, &p);
+    surface_heights_period(&h, &p);
     ck_assert(!p.stands_out && p.peak < 0.2 && p.peak > 0);
     for (int i = 0; i < N; i++)
         z[i] = sin(i * 0.01);
-    surface_ends_period(&h, &p);
+    surface_heights_period(&h, &p);
     ck_assert(!p.stands_out && p.peak <= 1);
     for (int i = 0; i < N; i++)
         z[i] = i % 100 < 30;
-    surface_ends_period(&h, &p);
+    surface_heights_period(&h, &p);
     ck_assert(!p.stands_out && p.peak <= 1.000000001);
     memset(z, 0, sizeof z);
-    surface_ends_period(&h, &p);
+    surface_heights_period(&h, &p);
     ck_assert(!p.stands_out);
 }
 END_TEST
 
-UNIT("surface_ends", seams, falling_ends, down_is_along_the_transpose, flattened_rows, what_does_not_stand_out)
+UNIT("surface_heights_ends", seams, falling_ends, down_is_along_the_transpose, flattened_rows, what_does_not_stand_out)

@@ -17,7 +17,7 @@ static struct rig *force(const char *along, int heights)
     return rig_record(&s, ITEM_FORCE, 2400, 1024);
 }
 
-static double agreement(int heights)
+static double distance_agreement(int heights)
 {
     struct rig *x = force("x", heights), *plane = force("plane", heights);
     double all = 0, off = 0;
@@ -34,7 +34,7 @@ static double agreement(int heights)
  * less where kinks meet. */
 START_TEST(denser_heights_agree_better)
 {
-    double once = agreement(1), twice = agreement(2), four = agreement(4);
+    double once = distance_agreement(1), twice = distance_agreement(2), four = distance_agreement(4);
     ck_assert_double_gt(once, 34);
     ck_assert_double_gt(twice, once + 8);
     ck_assert_double_gt(four, twice + 8);
