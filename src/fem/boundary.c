@@ -27,17 +27,6 @@ void boundary_face_at(const struct mesh *m, const int face[6], const double uv[2
     }
 }
 
-/* d2x/du2, d2x/dudv, d2x/dv2: the same in all of the face. */
-static void face_bend(const struct mesh *m, const int face[6], double bend[3][3])
-{
-    static const double second[3][6] = {{4, 4, 0, -8, 0, 0}, {4, 0, 0, -4, 4, -4}, {4, 0, 4, 0, 0, -8}};
-    memset(bend, 0, 9 * sizeof(double));
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < 6; i++)
-            for (int c = 0; c < 3; c++)
-                bend[k][c] += second[k][i] * m->at[face[i]][c];
-}
-
 /* The box of the face's control points as a Bezier triangle, in whose hull it lies. */
 static void face_box(const struct mesh *m, const int face[6], double low[3], double high[3])
 {
@@ -175,9 +164,13 @@ static double squared(const struct mesh *m, const int face[6], const double uv[2
 static struct model model_make(const struct mesh *m, const int face[6], const double uv[2], const double place[3])
 {
     struct boundary_face_at x;
-    double bend[3][3];
+    static const double second[3][6] = {{4, 4, 0, -8, 0, 0}, {4, 0, 0, -4, 4, -4}, {4, 0, 4, 0, 0, -8}};
+    double bend[3][3] = {{0}};
     boundary_face_at(m, face, uv, &x);
-    face_bend(m, face, bend);
+    for (int k = 0; k < 3; k++) /* d2x/du2, d2x/dudv, d2x/dv2: the same in all of the face */
+        for (int i = 0; i < 6; i++)
+            for (int c = 0; c < 3; c++)
+                bend[k][c] += second[k][i] * m->at[face[i]][c];
     double d[3] = {x.at[0] - place[0], x.at[1] - place[1], x.at[2] - place[2]};
     struct model q = {{boundary_dot(d, x.du), boundary_dot(d, x.dv)},
                       {boundary_dot(x.du, x.du), boundary_dot(x.du, x.dv), boundary_dot(x.dv, x.dv)}},

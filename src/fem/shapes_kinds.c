@@ -55,8 +55,6 @@ static int cells_across(const struct shapes_ask *q, double thickness)
 
 /* A box: x in [0, length], y in [0, width], z in [0, thickness]. Cells are about square in the plane. */
 
-enum { BOX_LENGTH, BOX_WIDTH, BOX_THICKNESS };
-
 struct box {
     double size[3];
     int n[3];

@@ -511,13 +511,12 @@ const char *heightfile_length_text(double x, struct arena *a)
 /* Root mean square about the mean, and of the slope along rows; holes (NaN) are left out. */
 static void figures(const struct heightfile *h, double *rms, double *slope)
 {
-    double n = 0, sum = 0, square = 0, steps = 0, rise = 0, low = HUGE_VAL, high = -HUGE_VAL;
+    double n = 0, sum = 0, square = 0, steps = 0, rise = 0, low, high;
+    extremes(h, &low, &high);
     for (size_t i = 0; i < h->rows * h->columns; i++)
         if (!isnan(h->z[i])) {
             n++;
             sum += h->z[i];
-            low = fmin(low, h->z[i]);
-            high = fmax(high, h->z[i]);
         }
     for (size_t j = 0; j < h->rows; j++)
         for (size_t i = 0; i < h->columns; i++) {

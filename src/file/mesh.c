@@ -261,7 +261,7 @@ static void make_groups(struct mesh_raw *r, const int *number, const struct mesh
         struct mesh_group *g = &m->group[m->groups++];
         for (end = i; end < n && r->face[end].group == r->face[i].group;)
             end++;
-        g->name = names->name(names->self, r->face[i].group);
+        g->name = names ? names->name(names->self, r->face[i].group) : NULL;
         g->name = g->name ? g->name : arena_format(r->arena, "%" PRId64, r->face[i].group);
         g->corner = arena_take(r->arena, end - i, sizeof *g->corner);
         for (size_t k = i; k < end; k++, g->n++)
@@ -406,12 +406,6 @@ static bool read_faces(struct mesh_raw *r, struct mesh_source *s)
     return true;
 }
 
-static const char *no_name(const void *self, int64_t number)
-{
-    (void)self, (void)number;
-    return NULL;
-}
-
 bool mesh_tetgen_read(const char *path, double unit, struct arena *a, struct mesh *m, struct err *e)
 {
     struct mesh_raw r = {.arena = a};
@@ -422,7 +416,7 @@ bool mesh_tetgen_read(const char *path, double unit, struct arena *a, struct mes
         !read_nodes(&r, &nodes) || !read_elements(&r, &elements))
         return false;
     if (access(face, F_OK) == 0 && (!open_part(&faces, path, ".face", a, e) || !read_faces(&r, &faces))) return false;
-    return mesh_raw_finish(&r, path, unit, &(struct mesh_raw_names){no_name, NULL}, m, e);
+    return mesh_raw_finish(&r, path, unit, NULL, m, e);
 }
 
 void mesh_note(struct mesh *m, struct arena *a, const char *text)

@@ -70,8 +70,8 @@ bool mesh_raw_element(struct mesh_raw *r, int corners, const int node[10], const
 
 void mesh_raw_face(struct mesh_raw *r, int64_t group, const int corner[3]);
 
-/* Nodes that are used, in metres; groups by rising number, called name(self, number), or its number where that is NULL.
- * Errors: no elements, coordinates that are not finite in metres. */
+/* Nodes that are used, in metres; groups by rising number, called name(self, number), or its number where that (or
+ * names) is NULL. Errors: no elements, coordinates that are not finite in metres. */
 struct mesh_raw_names {
     const char *(*name)(const void *self, int64_t number);
     const void *self;

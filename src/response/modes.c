@@ -403,27 +403,6 @@ struct shape_work {
     struct modes_point point;  /* of a table: work                                         */
 };
 
-/* ------------------------------------------------------------------ objects */
-
-static void of_object(const struct modes *m, struct arena *a, struct shape_work *self)
-{
-    const struct object *o = m->object;
-    double *scale = ARENA_TAKE(a, double, o->n);
-    const double *origin = object_modes_origin(m);
-    for (int i = 0; i < o->n; i++)
-        scale[i] = 1 / sqrt(o->mass[i]);
-    *self = (struct shape_work){.scale = scale, .origin = {origin[0], origin[1]}, .family = o->shape == OBJECT_SHELL};
-}
-
-static void object_phi(const struct modes_shapes *s, const struct modes_where *where, double *phi)
-{
-    const struct shape_work *self = s->self;
-    const struct object *o = s->modes->object;
-    if (!self->family) o->shapes(o, where->x - self->origin[0], where->y - self->origin[1], phi);
-    for (int i = 0; i < s->n; i++)
-        phi[i] = (self->family ? 1 : phi[i]) * self->scale[i];
-}
-
 /* ------------------------------------------------------------------ tables */
 
 static void of_table(const struct modes *m, struct arena *a, struct shape_work *self)
@@ -443,24 +422,6 @@ static void of_table(const struct modes *m, struct arena *a, struct shape_work *
     }
 }
 
-static void table_phi(const struct modes_shapes *s, const struct modes_where *where, double *phi)
-{
-    const struct shape_work *self = s->self;
-    const struct modes_point *p = &self->point;
-    modes_at(s->modes, where, p);
-    for (int i = 0; i < s->n; i++)
-        phi[i] = sqrt(fmax(p->re[i] * self->turn_re[i] - p->im[i] * self->turn_im[i], 0));
-}
-
-static bool gains_elsewhere(const struct modes *m, int i, struct err *e)
-{
-    return err_set(e, ERR_SCENE,
-                   "%s: its gains are those of another listening place than the one that is touched (that of the mode "
-                   "at %.6g Hz is no driving point's), and do not say how the surface gives way under the ball; give "
-                   "surface.object, or contact.roll.ground: rigid",
-                   m->name, m->frequency[i]);
-}
-
 /* Of one mode: at every row. */
 static bool row_gains(const struct modes *m, const struct shape_work *self, int rows, const double *re,
                       const double *im, struct err *e)
@@ -475,21 +436,15 @@ static bool row_gains(const struct modes *m, const struct shape_work *self, int 
             double x = re[row * m->n + i], y = im[row * m->n + i], across = x * turn_im + y * turn_re,
                    along = x * turn_re - y * turn_im;
             if (along < -FLOOR * largest || fabs(across) > PHASE * fmax(along, 0) + FLOOR * largest)
-                return gains_elsewhere(m, i, e);
+                return err_set(e, ERR_SCENE,
+                               "%s: its gains are those of another listening place than the one that is touched (that "
+                               "of the mode at %.6g Hz is no driving point's), and do not say how the surface gives "
+                               "way under the ball; give surface.object, or contact.roll.ground: rigid",
+                               m->name, m->frequency[i]);
         }
     }
     return true;
 }
-
-static bool table_is_driving(const struct modes *m, const struct shape_work *self, struct err *e)
-{
-    const struct morph *p = m->self;
-    if (m->at == morph_complex) return row_gains(m, self, p->rows, p->re, p->im, e);
-    modes_at(m, &(struct modes_where){m->home[0], m->home[1], 0}, &self->point);
-    return row_gains(m, self, 1, self->point.re, self->point.im, e);
-}
-
-/* ------------------------------------------------------------------ both */
 
 bool modes_shapes_make(const struct modes *m, const char *key, struct arena *a, struct modes_shapes *s, struct err *e)
 {
@@ -504,7 +459,13 @@ bool modes_shapes_make(const struct modes *m, const char *key, struct arena *a, 
             m->travels ? "its modes change over time" : "its frequencies and decays differ from place to place", key);
     s->moves = m->moves;
     if (m->object) {
-        of_object(m, a, self);
+        const struct object *o = m->object;
+        const double *origin = object_modes_origin(m);
+        double *scale = ARENA_TAKE(a, double, o->n);
+        for (int i = 0; i < o->n; i++)
+            scale[i] = 1 / sqrt(o->mass[i]);
+        *self =
+            (struct shape_work){.scale = scale, .origin = {origin[0], origin[1]}, .family = o->shape == OBJECT_SHELL};
         return true;
     }
     if (m->quantity > MODES_ACCELERATION)
@@ -512,13 +473,24 @@ bool modes_shapes_make(const struct modes *m, const char *key, struct arena *a, 
                        "%s: it is of no motion of the surface; give %s.object, or contact.roll.ground: rigid", m->name,
                        key);
     of_table(m, a, self);
-    return table_is_driving(m, self, e);
+    const struct morph *p = m->self;
+    if (m->at == morph_complex) return row_gains(m, self, p->rows, p->re, p->im, e);
+    modes_at(m, &(struct modes_where){m->home[0], m->home[1], 0}, &self->point);
+    return row_gains(m, self, 1, self->point.re, self->point.im, e);
 }
 
 void modes_shapes_at(const struct modes_shapes *s, const struct modes_where *where, double *phi)
 {
-    if (s->modes->object)
-        object_phi(s, where, phi);
-    else
-        table_phi(s, where, phi);
+    const struct shape_work *self = s->self;
+    const struct modes_point *p = &self->point;
+    const struct object *o = s->modes->object;
+    if (!o) {
+        modes_at(s->modes, where, p);
+        for (int i = 0; i < s->n; i++)
+            phi[i] = sqrt(fmax(p->re[i] * self->turn_re[i] - p->im[i] * self->turn_im[i], 0));
+        return;
+    }
+    if (!self->family) o->shapes(o, where->x - self->origin[0], where->y - self->origin[1], phi);
+    for (int i = 0; i < s->n; i++)
+        phi[i] = (self->family ? 1 : phi[i]) * self->scale[i];
 }

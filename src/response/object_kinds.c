@@ -14,7 +14,7 @@
 static double given_or(double given, double material) { return isnan(given) ? material : given; }
 
 /* Isotropic materials follow youngs_modulus and poisson wherever those come from. */
-static void elasticity(struct object_body *b, const struct material *m)
+static void material_figures(struct object_body *b, const struct material *m)
 {
     const struct object_given *g = b->given;
     bool wood = m && !isnan(m->across) && m->across != m->youngs_modulus;
@@ -23,11 +23,6 @@ static void elasticity(struct object_body *b, const struct material *m)
     b->across = given_or(g->youngs_modulus_across, wood ? m->across : b->youngs_modulus);
     double mean = sqrt(b->youngs_modulus * b->across), nu = b->poisson * sqrt(b->across / b->youngs_modulus);
     b->shear = given_or(g->shear_modulus, wood ? m->shear : mean / (2.0 * (1.0 + nu)));
-}
-
-static void damping(struct object_body *b, const struct material *m)
-{
-    const struct object_given *g = b->given;
     bool any = m || !isnan(g->alpha) || !isnan(g->beta) || !isnan(g->loss);
     b->alpha = given_or(g->alpha, m ? m->alpha : any ? 0.0 : NAN);
     b->beta = given_or(g->beta, m ? m->beta : any ? 0.0 : NAN);
@@ -44,30 +39,29 @@ struct need {
 #define STIFF (ON(BAR) | ON(ROD) | ON(STRING) | ON(PLATE) | ON(DISK) | ON(SHELL))
 #define SHEET (ON(BAR) | ON(PLATE) | ON(DISK) | ON(MEMBRANE) | ON(DRUM) | ON(SHELL))
 
+enum { SIZES = 6 }; /* of the needs below: the first, what follows is the material */
+
 static bool all_there(const struct object_body *b, struct err *e)
 {
     const struct object_given *g = b->given;
-    const struct need sizes[] = {
+    const struct need needs[] = {
         {"length", g->length, ON(BAR) | ON(ROD) | ON(STRING) | ON(PLATE) | ON(MEMBRANE)},
         {"width", g->width, ON(BAR) | ON(PLATE) | ON(MEMBRANE)},
         {"diameter", g->diameter, ON(ROD) | ON(STRING) | ON(DISK) | ON(DRUM) | ON(SHELL)},
         {"thickness", g->thickness, SHEET},
         {"tension", g->tension, ON(STRING)},
         {"surface_tension", g->surface_tension, ON(MEMBRANE) | ON(DRUM)},
-    };
-    const struct need figures[] = {
         {"density", b->density, ~0u},
         {"youngs_modulus", b->youngs_modulus, STIFF},
         {"poisson", b->poisson, ON(PLATE) | ON(DISK) | ON(SHELL)},
         {"alpha, beta or loss", b->alpha, ~0u},
     };
-    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
-        if ((sizes[i].shapes >> g->shape & 1u) && isnan(sizes[i].value))
-            return err_set(e, ERR_SCENE, "%s.%s is missing", b->key, sizes[i].name);
-    for (size_t i = 0; i < sizeof figures / sizeof *figures; i++)
-        if ((figures[i].shapes >> g->shape & 1u) && isnan(figures[i].value))
-            return err_set(e, ERR_SCENE, "%s: a custom material needs %s (or name one: %s.material)", b->key,
-                           figures[i].name, b->key);
+    for (size_t i = 0; i < sizeof needs / sizeof *needs; i++) {
+        if (!(needs[i].shapes >> g->shape & 1u) || !isnan(needs[i].value)) continue;
+        if (i < SIZES) return err_set(e, ERR_SCENE, "%s.%s is missing", b->key, needs[i].name);
+        return err_set(e, ERR_SCENE, "%s: a custom material needs %s (or name one: %s.material)", b->key, needs[i].name,
+                       b->key);
+    }
     return true;
 }
 
@@ -99,8 +93,7 @@ const struct object_body *object_kinds_body(const struct object_given *given, co
     *copy = *given;
     *b = (struct object_body){
         .given = copy, .key = arena_text(a, key), .density = given_or(given->density, m ? m->density : NAN)};
-    elasticity(b, m);
-    damping(b, m);
+    material_figures(b, m);
     return all_there(b, e) && fits(b, e) ? b : NULL;
 }
 
