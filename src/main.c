@@ -7,7 +7,7 @@
 static int unknown_command(const char *word)
 {
     struct err e = {0};
-    const char *meant = commands_nearest(word);
+    const char *meant = cmd_nearest(word);
     if (meant)
         err_set(&e, ERR_USAGE, "no command '%s'; did you mean '%s'?", word, meant);
     else
@@ -19,14 +19,14 @@ static int unknown_command(const char *word)
 static int run_help(int argc, char **argv)
 {
     if (argc == 0) {
-        commands_print(stdout);
+        cmd_print(stdout);
         return 0;
     }
-    const struct command *m = commands_find(argv[0]);
+    const struct command *m = cmd_find(argv[0]);
     if (!strcmp(argv[0], "--man"))
-        commands_print_man(stdout);
+        cmd_print_man(stdout);
     else if (m)
-        commands_print_help(m);
+        cmd_print_help(m);
     else
         return unknown_command(argv[0]);
     return 0;
@@ -46,7 +46,7 @@ static int run_bare(int argc, char **argv)
     if (!args_parse(&g, options, argc, argv, a, &e))
         code = cmd_complain("", &e);
     else if (g.help)
-        commands_print(stdout);
+        cmd_print(stdout);
     else if (args_given(&g, "version"))
         version_print(args_given(&g, "verbose"));
     else {
@@ -60,12 +60,12 @@ static int run_bare(int argc, char **argv)
 static int run(int argc, char **argv)
 {
     if (argc < 2) {
-        commands_print(stderr);
+        cmd_print(stderr);
         return ERR_USAGE;
     }
     if (argv[1][0] == '-') return run_bare(argc - 1, argv + 1);
     if (!strcmp(argv[1], "help")) return run_help(argc - 2, argv + 2);
-    const struct command *m = commands_find(argv[1]);
+    const struct command *m = cmd_find(argv[1]);
     return m ? cmd_run(m, argc - 2, argv + 2) : unknown_command(argv[1]);
 }
 

@@ -3,7 +3,7 @@
 #define BASE_LASTWORDS_H
 #include "base/err.h"
 
-/* From now on that line is a JSON object, as of rasp's --diagnostics=json (cmd/tell.h). Before there are threads. */
+/* From now on that line is a JSON object, as of rasp's --diagnostics=json (cmd/message.h). Before there are threads. */
 void lastwords_as_json(void);
 
 /* "rasp: error: text". Standard error that takes nothing for 0.1 s gets nothing. */

@@ -440,9 +440,9 @@ bool accuracy_child(struct accuracy_sweep *s, int render, struct err *e)
 {
     struct accuracy_render *r = &s->renders[render];
     FILE *says = scratch_open();
-    char *said = NULL;
-    size_t said_size;
-    FILE *out = open_memstream(&said, &said_size);
+    char *output = NULL;
+    size_t output_size;
+    FILE *out = open_memstream(&output, &output_size);
     struct err cause = {0};
     double peak = 0.0;
     if (!says || !out) return err_set(e, ERR_CREATE, "a render cannot be started: %s", strerror(errno));
@@ -470,9 +470,9 @@ bool accuracy_child(struct accuracy_sweep *s, int render, struct err *e)
     fclose(says);
     fclose(out);
     bool ok = r->code < 0    ? err_set(e, interrupt_seen() ? ERR_INTERRUPTED : cause.kind, "%s", cause.text)
-              : r->code == 0 ? summary_read(r, said, e)
+              : r->code == 0 ? summary_read(r, output, e)
                              : refused(s, render, words, e);
-    free(said);
+    free(output);
     return ok;
 }
 

@@ -12,6 +12,7 @@
 
 #include "analysis/distribution_fit.h"
 #include "base/interrupt.h"
+#include "base/text.h"
 #include "cmd/cmd.h"
 #include "file/bytes.h"
 #include "file/csv.h"
@@ -20,13 +21,10 @@
 #include "file/wav.h"
 #include "force/impact_series.h"
 #include "num/real.h"
+#include "output/mark.h"
 #include "scene/rules.h"
 
 #define MOST 1e50
-
-static double scale_of(const struct analyse_given *g) { return isnan(g->scale) ? 1 : g->scale; }
-
-static void analyse_note(struct analysis *a, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* ------------------------------------------------------------------ samples */
 
@@ -59,7 +57,7 @@ static bool npy_take(struct analyse_source *s, const struct bytes *b, const stru
         return err_set(e, ERR_USAGE, "--rate must be given: %s does not say how many samples a second has", s->file);
     for (size_t i = 0; i < h.columns; i++) {
         if (!isfinite(h.z[i])) return err_set(e, ERR_SCENE, "%s: element %zu is not a finite number", s->file, i);
-        h.z[i] *= scale_of(g);
+        h.z[i] *= (isnan(g->scale) ? 1 : g->scale);
     }
     s->signal = (struct impact_signal){h.z, (long)h.columns, g->rate, 0};
     return true;
@@ -160,7 +158,7 @@ static bool force_take(struct analyse_source *s, const struct csv *t, const stru
                        s->file);
     if (!times_take(t, a, &time, e) || !column_take(t, column, a, &force, e) || !evenly(t, time, a, e)) return false;
     for (size_t i = 0; i < t->rows; i++)
-        force[i] *= scale_of(g);
+        force[i] *= (isnan(g->scale) ? 1 : g->scale);
     s->signal =
         (struct impact_signal){force, (long)t->rows, (double)(t->rows - 1) / (time[t->rows - 1] - time[0]), time[0]};
     return true;
@@ -226,6 +224,17 @@ bool analyse_read(const char *file, const struct analyse_given *g, struct arena 
 
 /* What makes the estimates of `rasp analyse` doubtful. */
 
+static void __attribute__((format(printf, 2, 3))) note(struct analysis *a, const char *format, ...)
+{
+    char text[600];
+    va_list list;
+    if (a->n_notes == ANALYSE_NOTES) return;
+    va_start(list, format);
+    vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    a->notes[a->n_notes++] = arena_text(a->arena, text);
+}
+
 const char *analyse_notes_unknown(const struct analysis *a)
 {
     const struct impact_events *v = &a->source.found.events;
@@ -245,78 +254,67 @@ static int levels(const struct impact_signal *s, double x)
 }
 
 /* Of a force, of an impact that outweighs all others (in squares), of the fitted shapes, of the series. */
-static void analyse_notes_force(struct analysis *a, const struct analyse_source *s)
+static void notes_force(struct analysis *a, const struct analyse_source *s)
 {
     const struct impact_found *f = &s->found;
     const struct impact_events *v = &f->events;
     double n = v->n, samples = 0, known = 0;
     if (!a->given.options.both && f->least < -0.3 * f->greatest)
-        analyse_note(a, "%s: the force falls to %.4g N: only impacts above 0 are looked for unless --signed is given",
-                     s->file, f->least);
+        note(a, "%s: the force falls to %.4g N: only impacts above 0 are looked for unless --signed is given", s->file,
+             f->least);
     for (int i = 0; i < v->n; i++)
         if (!isnan(v->duration[i])) {
             samples += real_log(v->duration[i] * s->signal.rate);
             known++;
         }
     if (known > 0 && real_exp(samples / known) < 6)
-        analyse_note(a,
-                     "%s: impacts last %.2g samples: the low-pass of the sample rate widens them, and its ripples may "
-                     "count as impacts: use a higher rate, or raise --prominence to 0.25",
-                     s->file, real_exp(samples / known));
+        note(a,
+             "%s: impacts last %.2g samples: the low-pass of the sample rate widens them, and its ripples may "
+             "count as impacts: use a higher rate, or raise --prominence to 0.25",
+             s->file, real_exp(samples / known));
     if ((double)f->ripples > 10 * n)
-        analyse_note(a,
-                     "%s: %ld maxima are left out as not prominent, against %.0f impact%s: a force that ripples "
-                     "without falling between, as of a contact that never parts, is no series of impacts; a lower "
-                     "--prominence takes the ripples",
-                     s->file, f->ripples, n, v->n == 1 ? "" : "s");
+        note(a,
+             "%s: %ld maxima are left out as not prominent, against %.0f impact%s: a force that ripples "
+             "without falling between, as of a contact that never parts, is no series of impacts; a lower "
+             "--prominence takes the ripples",
+             s->file, f->ripples, n, v->n == 1 ? "" : "s");
     if ((double)f->touching > 0.05 * n)
-        analyse_note(a, "%s: %.0f %% of the impacts run into a neighbour: amplitudes and widths are those of sums",
-                     s->file, 100 * (double)f->touching / n);
+        note(a, "%s: %.0f %% of the impacts run into a neighbour: amplitudes and widths are those of sums", s->file,
+             100 * (double)f->touching / n);
     if ((double)f->merged > 0.01 * n)
-        analyse_note(a, "%s: %.1f %% of the impacts have a shoulder: two that made one maximum, and were taken as one",
-                     s->file, 100 * (double)f->merged / n);
+        note(a, "%s: %.1f %% of the impacts have a shoulder: two that made one maximum, and were taken as one", s->file,
+             100 * (double)f->merged / n);
     /* A recording that clips stands still at its greatest value, again and again. */
 
     int runs = levels(&s->signal, f->greatest) + (a->given.options.both ? levels(&s->signal, f->least) : 0);
     if (runs > 1)
-        analyse_note(a,
-                     "%s: the force stands still at its greatest value, %.4g N, %d times, as where a recording clips: "
-                     "how strong those impacts were is lost, and theta with it",
-                     s->file, f->greatest, runs);
+        note(a,
+             "%s: the force stands still at its greatest value, %.4g N, %d times, as where a recording clips: "
+             "how strong those impacts were is lost, and theta with it",
+             s->file, f->greatest, runs);
     /* Are contact times what they seem? */
 
     if (f->feet == 0)
-        analyse_note(a,
-                     "%s: no impact of 12 samples and more stands alone: contact times are taken as twice the widths "
-                     "at half height, as raised cosines have them",
-                     s->file);
+        note(a,
+             "%s: no impact of 12 samples and more stands alone: contact times are taken as twice the widths "
+             "at half height, as raised cosines have them",
+             s->file);
     else if (f->feet < IMPACT_FEET_MANY)
-        analyse_note(a,
-                     "%s: contact times rest on the ends of %ld impact%s: at least %d are wanted, and single merged "
-                     "ones may have spoilt them",
-                     s->file, f->feet, f->feet == 1 ? "" : "s", IMPACT_FEET_MANY);
+        note(a,
+             "%s: contact times rest on the ends of %ld impact%s: at least %d are wanted, and single merged "
+             "ones may have spoilt them",
+             s->file, f->feet, f->feet == 1 ? "" : "s", IMPACT_FEET_MANY);
     if (f->stretch < 1.7 || f->stretch > 2.1)
-        analyse_note(a,
-                     "%s: contact times come out as %.3g times the widths at half height, where raised cosines have 2 "
-                     "and Hertz's impacts 1.82: many of those that stand alone are merged, or of another shape; zeta "
-                     "is as wrong as that",
-                     s->file, f->stretch);
+        note(a,
+             "%s: contact times come out as %.3g times the widths at half height, where raised cosines have 2 "
+             "and Hertz's impacts 1.82: many of those that stand alone are merged, or of another shape; zeta "
+             "is as wrong as that",
+             s->file, f->stretch);
 }
 
 /* rasp analyse: the impacts in a force, their statistics, and the scene part that draws impacts like them. */
 
 const char *const analyse_series_names[STATISTICS_SERIES] = {"amplitude", "interval"};
-
-static void analyse_note(struct analysis *a, const char *format, ...)
-{
-    char text[600];
-    va_list list;
-    if (a->n_notes == ANALYSE_NOTES) return;
-    va_start(list, format);
-    vsnprintf(text, sizeof text, format, list);
-    va_end(list);
-    a->notes[a->n_notes++] = arena_text(a->arena, text);
-}
 
 bool analyse_tabled(const struct analysis *a, int series)
 {
@@ -359,12 +357,12 @@ static bool duration_find(struct cmd_call *c, struct analysis *a, struct err *e)
     struct impact_duration *d = &a->duration;
     if (!theta_find(c, a, e)) return false;
     if (d->theta < -0.01 && d->theta < -2 * d->theta_error)
-        analyse_note(a, "stronger impacts last longer here (theta %.3g); a scene's theta is 0 or more, and 0 is taken",
-                     d->theta);
+        note(a, "stronger impacts last longer here (theta %.3g); a scene's theta is 0 or more, and 0 is taken",
+             d->theta);
     d->theta = fmax(d->theta, 0);
     a->lasts = impact_find_duration_series(&a->source.found.events, d);
     if (!a->lasts)
-        analyse_note(a, "no duration is known: %s", analyse_notes_unknown(a));
+        note(a, "no duration is known: %s", analyse_notes_unknown(a));
     else {
         /* A law that does not hold gives way to a constant, the durations' median; so does a theta of 0, which is one,
    unless all durations are alike. A theta that was asked for stays. */
@@ -375,21 +373,20 @@ static bool duration_find(struct cmd_call *c, struct analysis *a, struct err *e)
         if (a->constant) impact_find_duration_constant(&a->source.found.events, a->arena, d);
         const char *taken = given ? "and zeta means little" : "so the median is taken for all, and theta as 0";
         if (a->theta == ANALYSE_THETA_NONE)
-            analyse_note(
-                a, "too few impacts stand alone, or amplitudes are all alike, to tell how durations depend on them: "
-                   "the median is taken for all, and theta as 0. Single impacts (--single) help, or --theta");
+            note(a, "too few impacts stand alone, or amplitudes are all alike, to tell how durations depend on them: "
+                    "the median is taken for all, and theta as 0. Single impacts (--single) help, or --theta");
         else if (few)
-            analyse_note(a, "the duration of only %ld of %d impacts is known, where %d tell a law, %s", d->n,
-                         a->source.found.events.n, IMPACT_DURATION_MANY, taken);
+            note(a, "the duration of only %ld of %d impacts is known, where %d tell a law, %s", d->n,
+                 a->source.found.events.n, IMPACT_DURATION_MANY, taken);
         else if (a->constant && theta > 0)
-            analyse_note(a, "theta %.3g does not hold here (R2 of the logarithm %.4g: a constant does better), %s",
-                         theta, r2, taken);
+            note(a, "theta %.3g does not hold here (R2 of the logarithm %.4g: a constant does better), %s", theta, r2,
+                 taken);
     }
     if (a->lasts && !a->constant && d->theta > 0 && d->r2 < -0.05)
-        analyse_note(a,
-                     "theta %.3g does not hold here (R2 %.4g: a constant duration would do better). Where outliers "
-                     "made it, as impacts that run into each other do, single impacts (--single) help, or --theta",
-                     d->theta, d->r2);
+        note(a,
+             "theta %.3g does not hold here (R2 %.4g: a constant duration would do better). Where outliers "
+             "made it, as impacts that run into each other do, single impacts (--single) help, or --theta",
+             d->theta, d->r2);
     return true;
 }
 
@@ -439,45 +436,45 @@ static bool analyse_all(struct cmd_call *c, struct analysis *a, struct err *e)
     const char *single = args_value(&c->args, "single");
     if (single && args_given(&c->args, "theta")) return err_set(e, ERR_USAGE, "--single and --theta: give one of them");
     if ((single && !analyse_read(single, &a->given, a->arena, &a->single, e)) || !options_used(c, a, e)) return false;
-    if (a->source.has_force) analyse_notes_force(a, &a->source);
-    if (a->single.file && a->single.has_force) analyse_notes_force(a, &a->single);
+    if (a->source.has_force) notes_force(a, &a->source);
+    if (a->single.file && a->single.has_force) notes_force(a, &a->single);
     const struct impact_events *v = &a->source.found.events;
     double squares = 0;
     int most = 0;
     /* A force in which one maximum, of which the threshold is a share, hides the others. */
     const struct impact_found *f = &a->source.found;
     if (f->events.n < STATISTICS_LEAST && f->low >= STATISTICS_LEAST)
-        analyse_note(a,
-                     "%s: %ld maxima lie below the threshold, %.3g of the greatest force, %.4g N. If they are the "
-                     "impacts, it outweighs them all: is it one? Leave it out of the file, or lower --threshold",
-                     a->source.file, f->low, a->given.options.threshold,
-                     fmax(f->greatest, a->given.options.both ? -f->least : 0));
+        note(a,
+             "%s: %ld maxima lie below the threshold, %.3g of the greatest force, %.4g N. If they are the "
+             "impacts, it outweighs them all: is it one? Leave it out of the file, or lower --threshold",
+             a->source.file, f->low, a->given.options.threshold,
+             fmax(f->greatest, a->given.options.both ? -f->least : 0));
     for (int i = 1; i < v->n; i++)
         most = fabs(v->amplitude[i]) > fabs(v->amplitude[most]) ? i : most;
     for (int i = 0; i < v->n; i++)
         squares += i == most ? 0 : v->amplitude[i] / v->amplitude[most] * (v->amplitude[i] / v->amplitude[most]);
     if (v->n >= STATISTICS_LEAST && squares < 1)
-        analyse_note(a,
-                     "%s: one impact, of %.4g N at %.6g s, outweighs all others together: the amplitudes' mean, "
-                     "deviation and filter are its own. Is it one? Leave it out of the file",
-                     a->source.file, v->amplitude[most], v->time[most]);
+        note(a,
+             "%s: one impact, of %.4g N at %.6g s, outweighs all others together: the amplitudes' mean, "
+             "deviation and filter are its own. Is it one? Leave it out of the file",
+             a->source.file, v->amplitude[most], v->time[most]);
     if (!duration_find(c, a, e)) return false;
     if (a->source.has_force) impact_shape_make(&a->source.signal, &a->source.found, a->arena, &a->shape);
     /* Of raised cosines 1; of Hertz's impacts, to which a raised cosine is fitted, 1.1. */
     const struct impact_shape *h = &a->shape;
     if (h->fitted > 0 && (h->stretch < 0.95 || h->stretch > 1.15))
-        analyse_note(a,
-                     "fitted raised cosines last %.3g times the contact times, where it is 1 if the impacts are raised "
-                     "cosines and 1.1 if they are Hertz's",
-                     h->stretch);
+        note(a,
+             "fitted raised cosines last %.3g times the contact times, where it is 1 if the impacts are raised "
+             "cosines and 1.1 if they are Hertz's",
+             h->stretch);
     a->counted = a->source.found.events.n >= STATISTICS_LEAST;
     if (!a->counted)
-        analyse_note(a, "%d impact%s: statistics of the series take at least %d, and are left out",
-                     a->source.found.events.n, a->source.found.events.n == 1 ? "" : "s", STATISTICS_LEAST);
+        note(a, "%d impact%s: statistics of the series take at least %d, and are left out", a->source.found.events.n,
+             a->source.found.events.n == 1 ? "" : "s", STATISTICS_LEAST);
     else if (impact_statistics_make(&a->source.found.events, !args_given(&c->args, "keep-modulation"), a->arena,
                                     &a->statistics, e)) {
         for (int i = 0; i < STATISTICS_WARNINGS && a->statistics.warnings[i]; i++)
-            analyse_note(a, "%s", a->statistics.warnings[i]);
+            note(a, "%s", a->statistics.warnings[i]);
     } else
         return err_at(e, "%s", a->source.file);
     return true;
@@ -516,9 +513,10 @@ static int analyse_run(struct cmd_call *c, struct err *e)
     int svg = 0;
     a->arena = c->arena;
     a->force = args_given(&c->args, "force");
-    if (!cmd_either(c, "format", formats, &svg, e) || (output && !analyse_report_free(a, output, e)) ||
-        !analyse_all(c, a, e))
-        return (int)e->kind;
+    if (!cmd_either(c, "format", formats, &svg, e)) return (int)e->kind;
+    if (output && !text_ends(output, ".yaml"))
+        return err_set(e, ERR_USAGE, "--output %s: must end in .yaml", output), (int)e->kind;
+    if ((output && !mark_absent(output, a->force, e)) || !analyse_all(c, a, e)) return (int)e->kind;
     analyse_write(c, a, svg, e);
     analyse_report(a, json, e);
     return (int)e->kind;

@@ -72,9 +72,6 @@ struct analyse_files {
     int n;
 };
 
-/* ERR_CREATE: the file exists and a->force is false; ERR_USAGE: its name does not end in .yaml. */
-bool analyse_report_free(const struct analysis *a, const char *file, struct err *e);
-
 /* The parameter file and the tables that it needs beside it. ERR_CREATE (also: one of them is what was analysed),
    ERR_IO, ERR_SCENE (a value that no scene may have). */
 bool analyse_report_part(struct analysis *a, const char *file, struct analyse_files *all, struct err *e);

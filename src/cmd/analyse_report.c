@@ -264,24 +264,24 @@ bool analyse_report(const struct analysis *a, bool json, struct err *e)
                                            [ANALYSE_THETA_NONE] = ""};
         const struct impact_duration *d = &a->duration;
         const char *whose = a->theta == ANALYSE_THETA_ALONE && !a->source.has_force ? "all" : from[a->theta];
-        report_text((&r), "\n");
-        line((&r), "duration, step 1");
+        report_text(&r, "\n");
+        line(&r, "duration, step 1");
         if (d->singles && a->theta != ANALYSE_THETA_NONE) {
-            report_text((&r), "%.4g ms", 1e3 * d->zeta_single);
+            report_text(&r, "%.4g ms", 1e3 * d->zeta_single);
             if (isnan(d->r2_single))
-                report_text((&r), ", all alike");
+                report_text(&r, ", all alike");
             else
-                report_text((&r), " A^%.4f (+- %.4f), R2 %.4f, of its logarithm %.4f", -d->theta_single, d->theta_error,
+                report_text(&r, " A^%.4f (+- %.4f), R2 %.4f, of its logarithm %.4f", -d->theta_single, d->theta_error,
                             d->r2_single, d->r2_single_log);
-            report_text((&r), ", over %ld impact%s: %s\n", d->singles, plural(d->singles), whose);
+            report_text(&r, ", over %ld impact%s: %s\n", d->singles, plural(d->singles), whose);
         } else
-            report_text((&r), "theta %.4g, %s\n", d->theta,
+            report_text(&r, "theta %.4g, %s\n", d->theta,
                         a->theta == ANALYSE_THETA_GIVEN ? "given" : "since it cannot be told");
-        line((&r), "duration, step 2");
-        report_text((&r), "%.4g ms", 1e3 * d->zeta);
+        line(&r, "duration, step 2");
+        report_text(&r, "%.4g ms", 1e3 * d->zeta);
         if (d->theta > 0)
-            report_text((&r), " A^-%.4f, A in N, R2 %.4f, of its logarithm %.4f", d->theta, d->r2, d->r2_log);
-        report_text((&r), a->constant ? ", the median of %ld impact%s\n" : ", over %ld impact%s\n", d->n, plural(d->n));
+            report_text(&r, " A^-%.4f, A in N, R2 %.4f, of its logarithm %.4f", d->theta, d->r2, d->r2_log);
+        report_text(&r, a->constant ? ", the median of %ld impact%s\n" : ", over %ld impact%s\n", d->n, plural(d->n));
     }
     if (a->shape.fitted > 0) set_shape(&r, &a->shape);
     print_shape(&r, a);
@@ -295,31 +295,6 @@ bool analyse_report(const struct analysis *a, bool json, struct err *e)
 }
 
 /* The parameter file of `rasp analyse`: a scene part that a scene includes, and tables of density beside it. */
-
-static bool name_free(const struct analysis *a, const char *file, struct err *e)
-{
-    return mark_absent(file, a->force, e);
-}
-
-bool analyse_report_free(const struct analysis *a, const char *file, struct err *e)
-{
-    size_t n = strlen(file);
-    if (n < 6 || strcmp(file + n - 5, ".yaml") != 0)
-        return err_set(e, ERR_USAGE, "--output %s: must end in .yaml", file);
-    return name_free(a, file, e);
-}
-
-/* What was read is never replaced, whatever its name. */
-static bool name_other(const struct analysis *a, const char *file, struct err *e)
-{
-    const char *const read[2] = {a->source.file, a->single.file};
-    struct stat there, was;
-    for (int i = 0; i < 2; i++)
-        if (read[i] && stat(file, &there) == 0 && stat(read[i], &was) == 0 && there.st_dev == was.st_dev &&
-            there.st_ino == was.st_ino)
-            return err_set(e, ERR_CREATE, "%s is what was analysed; give --output another name", file);
-    return true;
-}
 
 /* ------------------------------------------------------------------ values */
 
@@ -490,9 +465,17 @@ static void put_table(const struct part *p, int k, FILE *f)
 
 /* ------------------------------------------------------------------ files */
 
+/* What was read is never replaced, whatever its name. */
 static FILE *files_open(const struct analysis *a, struct analyse_files *all, const char *file, struct err *e)
 {
-    if (!name_free(a, file, e) || !name_other(a, file, e) || !outfile_open(&all->o[all->n], file, e)) return NULL;
+    const char *const read[2] = {a->source.file, a->single.file};
+    struct stat there, was;
+    if (!mark_absent(file, a->force, e)) return NULL;
+    for (int i = 0; i < 2; i++)
+        if (read[i] && stat(file, &there) == 0 && stat(read[i], &was) == 0 && there.st_dev == was.st_dev &&
+            there.st_ino == was.st_ino)
+            return err_set(e, ERR_CREATE, "%s is what was analysed; give --output another name", file), NULL;
+    if (!outfile_open(&all->o[all->n], file, e)) return NULL;
     all->name[all->n] = file;
     return all->o[all->n++].stream;
 }
@@ -645,32 +628,26 @@ static void plot_distribution(const struct values *v, const char *what, const ch
     fputc('\n', g->in);
 }
 
-static double spread(double deviation) { return deviation > 0 ? deviation : 1; }
-
-static const double *intervals(const struct analysis *a)
-{
-    const struct impact_events *v = &a->source.found.events;
-    double *x = ARENA_TAKE(a->arena, double, v->n);
-    for (int i = 0; i + 1 < v->n; i++)
-        x[i] = v->time[i + 1] - v->time[i];
-    return x;
-}
-
 static void draw_distributions(void *self, struct gnuplot *g)
 {
     const struct picture *p = self;
     const struct impact_statistics *t = &p->a->statistics;
-    const double *itself[STATISTICS_SERIES] = {t->demodulated, intervals(p->a)};
+    const struct impact_events *events = &p->a->source.found.events;
+    double *interval = ARENA_TAKE(p->a->arena, double, events->n);
+    for (int i = 0; i + 1 < events->n; i++)
+        interval[i] = events->time[i + 1] - events->time[i];
+    const double *itself[STATISTICS_SERIES] = {t->demodulated, interval};
     head(p, 1000, 840, g);
     title(p, "multiplot layout 2,2 title", "distributions", g);
     for (int panel = 0; panel < 2 * STATISTICS_SERIES; panel++) {
         int k = panel % STATISTICS_SERIES;
         bool white = panel < STATISTICS_SERIES;
         const struct series_statistics *s = &t->series[k];
+        double deviation = white ? s->deviation.value : sqrt(s->variance);
         struct values v = {white ? t->white[k] : itself[k],
                            white || k ? t->n - 1 : t->n,
                            white ? 0 : s->mean.value,
-                           spread(white ? s->deviation.value : sqrt(s->variance)),
+                           deviation > 0 ? deviation : 1,
                            k ? 1e3 : 1,
                            white ? &s->white : &s->itself};
         plot_distribution(&v, analyse_series_names[k], k ? "ms" : "N", white, g);

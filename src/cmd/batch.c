@@ -1,6 +1,4 @@
 /* rasp batch: a design into a set of stimuli. */
-#include "cmd/batch.h"
-
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -9,14 +7,15 @@
 #include <unistd.h>
 
 #include "base/hash.h"
+#include "batch/batch.h"
 #include "batch/progress.h"
 #include "cmd/cmd.h"
+#include "cmd/message.h"
 #include "cmd/report.h"
-#include "cmd/tell.h"
 #include "file/json_value.h"
 #include "scene/keys_yaml.h"
 
-enum { TOLD = 20 /* failures that are told one by one */, STALE_TOLD = 6 /* files of earlier states */ };
+enum { FAULTS_SHOWN = 20 /* failures that are told one by one */, STALE_NAMED = 6 /* files of earlier states */ };
 
 static const struct args_option batch_options[] = {
     {"output", 'o', "FOLDER", false, "where the set goes; it is made if its parent is there"},
@@ -65,82 +64,82 @@ static const char *program_of(struct arena *a, struct err *e)
 
 /* ------------------------------------------------------------------ what went wrong */
 
-static void tell_more(struct cmd_call *c, const char *command, enum err_kind kind, const char *text)
+static void report_more(struct cmd_call *c, const char *command, enum err_kind kind, const char *text)
 {
-    struct err told = {0};
-    err_set(&told, kind, "%s", text);
-    tell_error(c, command, &told);
+    struct err shown = {0};
+    err_set(&shown, kind, "%s", text);
+    message_error(c, command, &shown);
 }
 
-void batch_tell_unread(struct cmd_call *c, const char *file, const struct batch_report *r, struct err *e)
+void batch_message_unread(struct cmd_call *c, const char *file, const struct batch_report *r, struct err *e)
 {
     enum err_kind kind = e->kind;
     if (!*r->messages) return;
-    tell_scene(c, r->design.diag, r->messages, kind);
+    message_scene(c, r->design.diag, r->messages, kind);
     *e = (struct err){0};
     err_set(e, kind, "%s %s", file, kind == ERR_SCENE ? "is not a valid design" : "cannot be read");
 }
 
-void batch_tell_faults(struct cmd_call *c, const char *command, const char *file, const struct set_plan *p)
+void batch_message_faults(struct cmd_call *c, const char *command, const char *file, const struct set_plan *p)
 {
-    for (int k = 0; k < p->n_faults && k < TOLD; k++) {
+    for (int k = 0; k < p->n_faults && k < FAULTS_SHOWN; k++) {
         const struct set_fault *f = &p->faults[k];
         const char *whose = f->n > 1 ? arena_format(c->arena, "%s and %d more", f->name, f->n - 1) : f->name;
-        struct err told = {0};
+        struct err shown = {0};
         if (*f->messages) {
-            tell_scene(c, f->diag, f->messages, f->err->kind);
-            err_set(&told, f->err->kind, "%s: the scene of %s is not valid", file, whose);
+            message_scene(c, f->diag, f->messages, f->err->kind);
+            err_set(&shown, f->err->kind, "%s: the scene of %s is not valid", file, whose);
         } else
-            err_set(&told, f->err->kind, "%s (%s)", f->err->text, whose);
-        told.place = *f->messages ? told.place : f->err->place;
-        tell_error(c, command, &told);
+            err_set(&shown, f->err->kind, "%s (%s)", f->err->text, whose);
+        shown.place = *f->messages ? shown.place : f->err->place;
+        message_error(c, command, &shown);
     }
-    if (p->n_faults > TOLD)
-        tell_more(c, command, p->faults[TOLD].err->kind,
-                  arena_format(c->arena, p->n_faults > SET_FAULTS ? "and many more errors" : "and %d more errors",
-                               p->n_faults - TOLD));
+    if (p->n_faults > FAULTS_SHOWN)
+        report_more(c, command, p->faults[FAULTS_SHOWN].err->kind,
+                    arena_format(c->arena, p->n_faults > SET_FAULTS ? "and many more errors" : "and %d more errors",
+                                 p->n_faults - FAULTS_SHOWN));
 }
 
-void batch_tell_warnings(struct cmd_call *c, const struct set_plan *p)
+void batch_message_warnings(struct cmd_call *c, const struct set_plan *p)
 {
     for (int k = 0; k < p->n_warnings; k++)
-        tell_stimulus_warning(c, p->warnings[k].name, p->warnings[k].text);
+        message_stimulus_warning(c, p->warnings[k].name, p->warnings[k].text);
 }
 
 /* Failures of single stimuli, each error once, and warnings of those that were rendered now. */
-static void tell_stimuli(struct cmd_call *c, const struct batch_ask *ask, const struct batch_report *r)
+static void report_stimuli(struct cmd_call *c, const struct batch_ask *ask, const struct batch_report *r)
 {
     int failed = 0;
     enum err_kind worst = ERR_NONE;
     for (int i = 0; i < r->set.n; i++) {
         const struct tables_row *o = &r->rows[i];
         const char *name = r->design.stimuli[i].name;
-        struct err told = {0};
+        struct err shown = {0};
         struct arena *a = arena_open();
         struct record record;
         if (o->there && o->made && record_read(ask->folder, name, a, &record))
             for (int k = 0; record.warnings[k]; k++)
-                tell_stimulus_warning(c, name, record.warnings[k]);
+                message_stimulus_warning(c, name, record.warnings[k]);
         arena_close(a);
         if (!o->kind) continue;
-        err_set(&told, o->kind, "%s", o->text);
-        if (++failed <= TOLD)
-            tell_stimulus(c, "batch", name, ask->design, &told);
+        err_set(&shown, o->kind, "%s", o->text);
+        if (++failed <= FAULTS_SHOWN)
+            message_stimulus(c, "batch", name, ask->design, &shown);
         else
             worst = o->kind > worst ? o->kind : worst;
     }
-    if (worst) tell_more(c, "batch", worst, arena_format(c->arena, "and %d more that failed", failed - TOLD));
+    if (worst) report_more(c, "batch", worst, arena_format(c->arena, "and %d more that failed", failed - FAULTS_SHOWN));
 }
 
-static void tell_stale(struct cmd_call *c, const char *folder, const struct folder_stale *l)
+static void report_stale(struct cmd_call *c, const char *folder, const struct folder_stale *l)
 {
     const char *list = "";
     if (!l->n_files) return;
-    for (int i = 0; i < l->n_files && i < STALE_TOLD; i++)
+    for (int i = 0; i < l->n_files && i < STALE_NAMED; i++)
         list = arena_format(c->arena, "%s%s%s", list, i ? ", " : "", l->files[i]);
-    if (l->n_files > STALE_TOLD) list = arena_format(c->arena, "%s and %d more", list, l->n_files - STALE_TOLD);
+    if (l->n_files > STALE_NAMED) list = arena_format(c->arena, "%s and %d more", list, l->n_files - STALE_NAMED);
     bool one = l->n_files == 1;
-    tell_warning(
+    message_warning(
         c, folder,
         arena_format(c->arena,
                      "%d file%s of an earlier state of the set %s still there, outside the manifest: %s; rasp batch "
@@ -289,14 +288,14 @@ static int batch_command_run(struct cmd_call *c, struct err *e)
     struct batch_ask ask;
     struct batch_report r;
     if (!read_ask(c, &ask, e)) return (int)e->kind;
-    tell_group(c);
+    message_group(c);
     bool ok = batch_run(&ask, c->arena, &r, e);
-    batch_tell_unread(c, ask.design, &r, e);
-    batch_tell_faults(c, "batch", ask.design, &r.plan);
-    if (ask.dry) batch_tell_warnings(c, &r.plan);
-    if (r.rendering) tell_stimuli(c, &ask, &r);
-    if (*r.no_effect) tell_warning(c, ask.design, r.no_effect);
-    tell_stale(c, ask.folder, &r.stale);
+    batch_message_unread(c, ask.design, &r, e);
+    batch_message_faults(c, "batch", ask.design, &r.plan);
+    if (ask.dry) batch_message_warnings(c, &r.plan);
+    if (r.rendering) report_stimuli(c, &ask, &r);
+    if (*r.no_effect) message_warning(c, ask.design, r.no_effect);
+    report_stale(c, ask.folder, &r.stale);
     batch_close(&r);
     if (!r.rows) return (int)e->kind;
     if (args_given(&c->args, "json"))

@@ -10,10 +10,9 @@
 #include "batch/batch.h"
 #include "batch/design.h"
 #include "batch/pool.h"
-#include "cmd/batch.h"
 #include "cmd/cmd.h"
+#include "cmd/message.h"
 #include "cmd/report.h"
-#include "cmd/tell.h"
 #include "num/resample.h"
 #include "pipeline/plan_scene.h"
 #include "pipeline/promise.h"
@@ -28,7 +27,7 @@ struct promises {
 };
 
 /* Whether the promise of stimulus i can be kept; its error is told with its place. */
-static bool is_kept(const struct design *d, int i, struct arena *a, struct err *e)
+static bool holds(const struct design *d, int i, struct arena *a, struct err *e)
 {
     struct scene s, kept;
     const char *messages;
@@ -42,7 +41,7 @@ static bool look(void *context, int i)
     struct promises *p = context;
     struct err e = {0};
     struct arena *a = arena_open();
-    if (!p->design->stimuli[i].recording && !is_kept(p->design, i, a, &e)) *(p->broken[i] = memory_take(sizeof e)) = e;
+    if (!p->design->stimuli[i].recording && !holds(p->design, i, a, &e)) *(p->broken[i] = memory_take(sizeof e)) = e;
     arena_close(a);
     return true;
 }
@@ -69,7 +68,7 @@ static void took(void *context, int i)
 }
 
 /* Each is looked at, replicates too: an error is measured with the noise that is there. */
-static bool promises_kept(struct cmd_call *c, const char *file, const struct design *d, struct err *e)
+static bool all_hold(struct cmd_call *c, const char *file, const struct design *d, struct err *e)
 {
     struct promises p = {.design = d,
                          .broken = ARENA_TAKE(c->arena, struct err *, d->n_stimuli),
@@ -78,7 +77,7 @@ static bool promises_kept(struct cmd_call *c, const char *file, const struct des
     resample_prepare();
     pool_run(
         &(struct pool_work){.n = d->n_stimuli, .threads = batch_cores(), .context = &p, .job = look, .took = took});
-    batch_tell_faults(c, "check", file, &(struct set_plan){.faults = p.faults, .n_faults = p.n});
+    batch_message_faults(c, "check", file, &(struct set_plan){.faults = p.faults, .n_faults = p.n});
     return !p.stimuli ||
            err_set(e, (enum err_kind)p.worst, "%s: %d of %d stimuli cannot be rendered", file, p.stimuli, d->n_stimuli);
 }
@@ -95,15 +94,15 @@ static bool check_design(struct cmd_call *c, const char *file, const char **rema
         &(struct batch_ask){
             .design = file, .program = "", .threads = batch_cores(), .shard = {1, 1}, .dry = true, .quiet = true},
         c->arena, &r, e);
-    batch_tell_warnings(c, &r.plan);
+    batch_message_warnings(c, &r.plan);
     if (!ok && *r.messages)
-        batch_tell_unread(c, file, &r, e);
+        batch_message_unread(c, file, &r, e);
     else if (!ok) {
         struct err cause = *e;
-        batch_tell_faults(c, "check", file, &r.plan);
+        batch_message_faults(c, "check", file, &r.plan);
         *e = (struct err){0};
         err_set(e, cause.kind, "%s: %s", file, cause.text);
-    } else if ((ok = promises_kept(c, file, &r.design, e)))
+    } else if ((ok = all_hold(c, file, &r.design, e)))
         *remark = set_lengths_text(&r.set, &r.plan, c->arena);
     batch_close(&r);
     return ok;
@@ -119,22 +118,22 @@ static bool check_scene(struct cmd_call *c, const char *file, const char **remar
     if (!promise_keep(&s, c->arena, &kept, NULL, e) || !plan_scene(&kept, c->arena, &warnings, e))
         return scene_places_tell(&s, e);
     for (int i = 0; warnings[i]; i++)
-        tell_warning(c, file, warnings[i]);
+        message_warning(c, file, warnings[i]);
     return true;
 }
 
-static void check_told(struct cmd_call *c, const char *file, struct report *r, struct err *e)
+static void check_one(struct cmd_call *c, const char *file, struct report *r, struct err *e)
 {
     const char *remark = NULL, *name = text_shown(c->arena, file);
-    if (r->json) tell_keep(c);
+    if (r->json) message_collect(c);
     if (!check_scene(c, file, &remark, e))
-        tell_error(c, "check", e);
+        message_error(c, "check", e);
     else
         report_text(r, "%s: ok\n", name);
     if (remark) report_text(r, "%s: %s\n", name, remark);
     if (!r->json) return;
     report_object(r, NULL);
-    report_set(r, "file:s ok:b code:i errors:o", name, e->kind == ERR_NONE, (int)e->kind, tell_kept(c));
+    report_set(r, "file:s ok:b code:i errors:o", name, e->kind == ERR_NONE, (int)e->kind, message_collected(c));
     report_end(r);
 }
 
@@ -144,7 +143,7 @@ static int check_run(struct cmd_call *c, struct err *e)
     struct report r = report_open_list(stdout, args_given(&c->args, "json"));
     for (int i = 0; i < c->args.n_operands; i++) {
         struct err mine = {0};
-        check_told(c, c->args.operands[i], &r, &mine);
+        check_one(c, c->args.operands[i], &r, &mine);
         worst = (int)mine.kind > worst ? (int)mine.kind : worst;
     }
     return !report_close(&r, 0, e) ? (int)e->kind : worst;

@@ -1,6 +1,8 @@
-/* See cmd.h: commands of several actions, recipes, scenes with the changes of the command line; running a command. */
+/* See cmd.h: the table of commands, commands of several actions, recipes, scenes with the changes of the command line,
+   running a command. */
 #include "cmd/cmd.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <gsl/gsl_errno.h>
@@ -17,7 +19,8 @@
 #include "base/lastwords.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "cmd/tell.h"
+#include "base/wrap.h"
+#include "cmd/message.h"
 #include "file/yaml.h"
 #include "scene/keys_yaml.h"
 #include "scene/scene_read.h"
@@ -114,7 +117,7 @@ bool cmd_recipe_read(struct cmd_call *c, const char *file, const char *rest, str
     const char *text =
         arena_format(c->arena, "rasp: 1\nsurface: {recipe: %s}\n%s", keys_yaml_quoted(file, c->arena), rest);
     if (scene_read_made(text, file, &over, c->arena, s, &messages, &cause)) return true;
-    tell_scene(c, s->diag, messages, cause.kind);
+    message_scene(c, s->diag, messages, cause.kind);
     return err_set(e, cause.kind, "%s %s", file, cause.kind == ERR_SCENE ? "is not a valid recipe" : "cannot be read");
 }
 
@@ -150,7 +153,7 @@ bool cmd_read_scene(struct cmd_call *c, const char *file, struct scene *s, struc
     struct err cause = {0};
     if (scene_read(file, &over, c->arena, s, &messages, &cause)) return true;
     if (!messages || !*messages) return err_set(e, cause.kind, "%s", cause.text);
-    tell_scene(c, s->diag, messages, cause.kind);
+    message_scene(c, s->diag, messages, cause.kind);
     return err_set(e, cause.kind, "%s %s", file,
                    cause.kind == ERR_SCENE ? "is not a valid scene" : "or a file it includes cannot be read");
 }
@@ -172,6 +175,114 @@ const struct args_option *cmd_options(const struct command *m, struct arena *a)
     if (n) memcpy(all, m->options, (size_t)n * sizeof *all);
     all[n] = shared;
     return all;
+}
+
+/* ------------------------------------------------------------------ every command, in the order of the usage */
+
+const struct command *const cmd_table[] = {
+    &render_command,  &plan_command,    &batch_command,      &batch_merge_command,
+    &new_command,     &explain_command, &check_command,      &compare_command,
+    &golden_command,  &plot_command,    &accuracy_command,   &analyse_command,
+    &surface_command, &modes_command,   &completion_command, NULL};
+
+const struct command *cmd_find(const char *name)
+{
+    const struct command *const *m = cmd_table;
+    while (*m && strcmp((*m)->name, name) != 0)
+        m++;
+    return *m;
+}
+
+const char *cmd_nearest(const char *word)
+{
+    const char *names[sizeof cmd_table / sizeof *cmd_table + 1] = {"help"};
+    for (int i = 0; cmd_table[i]; i++)
+        names[i + 1] = cmd_table[i]->name;
+    return text_nearest(word, names);
+}
+
+void cmd_print(FILE *f)
+{
+    fputs("rasp: the sound of things that scrape, from a description of objects and motion\n\n"
+          "Examples:\n"
+          "  rasp new -o scrape.yaml          # a starter scene, with comments\n"
+          "  rasp render scrape.yaml          # its physics, and its sound if anything rings\n"
+          "  rasp explain motion.rate         # what a key means, its unit, range and default\n\n"
+          "Usage: rasp COMMAND [OPTION]... [OPERAND]...\n",
+          f);
+    for (const struct command *const *m = cmd_table; *m; m++) {
+        if ((*m)->group) fprintf(f, "\n%s:\n", (*m)->group);
+        fprintf(f, "  %-10s %s\n", (*m)->name, (*m)->summary);
+    }
+    fputs("\n`rasp help COMMAND` explains a command; `rasp --version --verbose` belongs in bug reports.\n"
+          "Manual: man rasp, man rasp-scene, man rasp-design\n",
+          f);
+}
+
+/* ------------------------------------------------------------------ man rasp(1) */
+
+static void man_command(FILE *f, const struct command *m)
+{
+    fprintf(f, ".It Nm Cm %s Oo Ar OPTION Oc ...%s%s\n%c%s.\n", m->name, *m->operands ? " " : "", m->operands,
+            toupper((unsigned char)m->summary[0]), m->summary + 1);
+    /* A full stop ends a sentence and so a line, as mdoc asks for. */
+    for (const char *p = m->does; *p; p++) {
+        bool ends = *p == '.' && p[1] == ' ';
+        fputc(*p, f);
+        if (ends) fputc('\n', f);
+        p += ends;
+    }
+    fputc('\n', f);
+    struct arena *a = arena_open();
+    fputs(".Bl -tag -width Ds\n", f);
+    for (const struct args_option *o = cmd_options(m, a); o->name; o++) {
+        fputs(".It ", f);
+        if (o->letter) fprintf(f, "Fl %c , ", o->letter);
+        fprintf(f, "Fl \\-%s", o->name);
+        if (o->value) fprintf(f, " Ns = Ns Ar %s", o->value);
+        fprintf(f, "\n%c%s.\n", toupper((unsigned char)o->help[0]), o->help + 1);
+    }
+    fputs(".El\n", f);
+    arena_close(a);
+}
+
+void cmd_print_man(FILE *f)
+{
+    for (const struct command *const *m = cmd_table; *m; m++) {
+        if ((*m)->group) fprintf(f, "%s.Ss %s\n.Bl -tag -width Ds\n", m == cmd_table ? "" : ".El\n", (*m)->group);
+        man_command(f, *m);
+    }
+    fputs(".El\n", f);
+}
+
+/* ------------------------------------------------------------------ help */
+
+static void print_option(const struct args_option *o)
+{
+    char head[96], letter[8] = "    ";
+    if (o->letter) snprintf(letter, sizeof letter, "-%c, ", o->letter);
+    int n = snprintf(head, sizeof head, "  %s--%s%s%s", letter, o->name, o->value ? "=" : "", o->value ? o->value : "");
+    printf("%-26s  ", head);
+    wrap_print(stdout, o->help, n > 26 ? n + 2 : 28, "                            ");
+}
+
+void cmd_print_help(const struct command *m)
+{
+    static const struct args_option help = {"help", 'h', NULL, false, "this text"};
+    printf("rasp %s: %s\n\nExamples:\n", m->name, m->summary);
+    for (const char *p = m->examples; *p;) {
+        size_t n = strcspn(p, "\n");
+        printf("  %.*s\n", (int)n, p);
+        p += n + (p[n] == '\n');
+    }
+    printf("\nUsage: rasp %s [OPTION]...%s%s\n\n", m->name, *m->operands ? " " : "", m->operands);
+    wrap_print(stdout, m->does, 0, "");
+    printf("\nOptions:\n");
+    struct arena *a = arena_open();
+    for (const struct args_option *o = cmd_options(m, a); o->name; o++)
+        print_option(o);
+    arena_close(a);
+    print_option(&help);
 }
 
 /* ------------------------------------------------------------------ running a command */
@@ -196,7 +307,7 @@ int cmd_complain(const char *command, const struct err *e)
 {
     char line[sizeof e->text + 64];
     snprintf(line, sizeof line, "rasp%s%s: error: %s\n", *command ? " " : "", command, e->text);
-    tell_paint(stderr, line);
+    message_paint(stderr, line);
     if (e->kind == ERR_USAGE) fprintf(stderr, "Try: rasp %s%s--help\n", command, *command ? " " : "");
     return (int)e->kind;
 }
@@ -217,13 +328,13 @@ int cmd_run(const struct command *m, int argc, char **argv)
     if (json) lastwords_as_json();
     struct err e = {0};
     struct cmd_call c = {.arena = arena_open(), .argc = argc, .argv = argv};
-    if (json) tell_as_json(&c);
+    if (json) message_as_json(&c);
     int code = 0;
     if (!args_parse(&c.args, cmd_options(m, c.arena), argc, argv, c.arena, &e))
         code = (int)e.kind;
     else if (c.args.help)
-        commands_print_help(m);
-    else if (!tell_begin(&c, &e))
+        cmd_print_help(m);
+    else if (!message_begin(&c, &e))
         code = (int)e.kind;
     else if (c.args.n_operands < m->least)
         err_set(&e, ERR_USAGE, "%s missing; usage: rasp %s [OPTION]... %s",
@@ -233,10 +344,10 @@ int cmd_run(const struct command *m, int argc, char **argv)
                 m->operands);
     else
         code = m->run(&c, &e);
-    tell_end(&c);
+    message_end(&c);
     if (e.kind == ERR_INTERRUPTED) interrupt_tell();
     if (e.kind) {
-        tell_error(&c, m->name, &e);
+        message_error(&c, m->name, &e);
         code = (int)e.kind;
     }
     arena_close(c.arena);

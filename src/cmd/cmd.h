@@ -13,17 +13,20 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-struct cmd_tell; /* cmd/tell.c */
+struct messages; /* cmd/message.c */
 
 struct cmd_call {
     struct args args;    /* options and operands, their number already checked */
     struct arena *arena; /* lives until the command ends                       */
     int argc;            /* the words behind the command's name, as they came  */
     char **argv;
-    struct cmd_tell *tell; /* how errors and warnings are told; NULL: as text, at once */
+    struct messages *messages; /* how errors and warnings are told; NULL: as text, at once */
 };
 
 struct action; /* below */
+struct batch_report;
+struct keys_line;
+struct set_plan;
 
 struct command {
     const char *name;
@@ -53,7 +56,7 @@ extern const struct command check_command, explain_command, new_command, render_
 /* Is it an option that every command and action has besides its own? */
 bool cmd_shared(const struct args_option *o);
 
-/* The command's options and those that every command has (cmd/tell.h heeds them); ends with {0}. */
+/* The command's options and those that every command has (cmd/message.h heeds them); ends with {0}. */
 const struct args_option *cmd_options(const struct command *m, struct arena *a);
 
 /* scene_read with the command line's --set and --seed. Prints the scene's messages on stderr; then *e holds their kind
@@ -106,13 +109,13 @@ int cmd_run(const struct command *m, int argc, char **argv);
 /* Prints "rasp COMMAND: error: text" ("": of rasp itself) and returns the exit code. */
 int cmd_complain(const char *command, const struct err *e);
 
-/* commands.c: the table of subcommands, in groups as the usage shows them. */
-extern const struct command *const commands_table[];   /* in the order of the usage, ends with NULL */
-const struct command *commands_find(const char *name); /* NULL: none */
-const char *commands_nearest(const char *word);        /* NULL: nothing like it */
-void commands_print(FILE *f);                          /* the usage with all commands */
-void commands_print_man(FILE *f);                      /* the commands and their options, in mdoc */
-void commands_print_help(const struct command *m);     /* --help: summary, examples, usage, options */
+/* The table of subcommands, in groups as the usage shows them. */
+extern const struct command *const cmd_table[];   /* in the order of the usage, ends with NULL */
+const struct command *cmd_find(const char *name); /* NULL: none */
+const char *cmd_nearest(const char *word);        /* NULL: nothing like it */
+void cmd_print(FILE *f);                          /* the usage with all commands */
+void cmd_print_man(FILE *f);                      /* the commands and their options, in mdoc */
+void cmd_print_help(const struct command *m);     /* --help: summary, examples, usage, options */
 
 /* version.c: `rasp --version`, and with --verbose what a bug report needs. */
 void version_print(bool verbose);
@@ -121,5 +124,40 @@ void version_print(bool verbose);
 bool version_asked(int argc, char **argv);
 /* "0.1.0", and of what state of the source the program was built: "f650ae05d2ab"; "unknown". */
 extern const char version_number[], version_revision[];
+
+/* new.c: the starter scenes and designs. */
+struct new_starter {
+    const char *name, *summary;
+    const char *about; /* the comment at its head */
+    const char *text;  /* "KEY VALUE; #KEY VALUE; ": see new.c; NULL: it is a design */
+};
+
+extern const struct new_starter new_starters[]; /* the first is the default; ends with name NULL */
+
+/* What a starter's text says, ends with path NULL; "-": a contact begins; ".": the contacts are over. */
+struct keys_line *new_lines(const char *text, struct arena *a);
+
+/* irs: the folder of the shipped responses, as the scene is to call it. */
+void new_print(FILE *f, const struct new_starter *s, const char *irs, struct arena *a);
+
+/* batch.c: what `rasp batch` and `rasp check` say of a design. */
+/* What is wrong with the design's own text, if anything is: *e then says that it cannot be used. */
+void batch_message_unread(struct cmd_call *c, const char *file, const struct batch_report *r, struct err *e);
+
+/* What renders will warn of, as far as it is known beforehand. */
+void batch_message_warnings(struct cmd_call *c, const struct set_plan *p);
+
+/* What is wrong with scenes and recordings of a set, found before any was rendered: each fault once. file: the design.
+ */
+void batch_message_faults(struct cmd_call *c, const char *command, const char *file, const struct set_plan *p);
+
+/* How many threads do best, 1 to 256. */
+int batch_cores(void);
+
+/* --jobs: none: as many as there are cores. ERR_USAGE */
+bool batch_threads(const struct cmd_call *c, int *threads, struct err *e);
+
+/* The folder of -o, without a slash at its end. */
+const char *batch_folder(struct arena *a, const char *given);
 
 #endif

@@ -10,7 +10,6 @@
 
 #include "base/arena.h"
 #include "cmd/cmd.h"
-#include "cmd/new.h"
 #include "cmd/plot.h"
 #include "scene/keys_text.h"
 
@@ -117,8 +116,8 @@ static void put_list(FILE *f, const char *between, const char *const *words)
 /* The names of commands, or of a command's actions. */
 static void put_names(FILE *f, const struct command *m)
 {
-    for (int i = 0; !m && commands_table[i]; i++)
-        fprintf(f, "%s%s", i ? " " : "", commands_table[i]->name);
+    for (int i = 0; !m && cmd_table[i]; i++)
+        fprintf(f, "%s%s", i ? " " : "", cmd_table[i]->name);
     for (const struct action *x = NULL; m && (x = next_action(m, x));)
         fprintf(f, "%s%s", x == m->actions ? "" : " ", x->name);
 }
@@ -315,7 +314,7 @@ static void bash(FILE *f, struct arena *a)
         }
     fprintf(f, end, ":");
     fprintf(f, begin, "_rasp_actions", "$1");
-    for (const struct command *const *m = commands_table; *m; m++)
+    for (const struct command *const *m = cmd_table; *m; m++)
         if ((*m)->actions) {
             fprintf(f, "        %s) echo '", (*m)->name);
             put_names(f, *m);
@@ -323,7 +322,7 @@ static void bash(FILE *f, struct arena *a)
         }
     fprintf(f, end, ":");
     fprintf(f, begin, "_rasp_options", "$1");
-    for (const struct command *const *m = commands_table; *m; m++) {
+    for (const struct command *const *m = cmd_table; *m; m++) {
         const struct action *x = NULL;
         do {
             bash_case(f, *m, x);
@@ -338,7 +337,7 @@ static void bash(FILE *f, struct arena *a)
     fputs("        '') echo '-h --help -V --version -v --verbose' ;;\n", f);
     fprintf(f, end, ":");
     fprintf(f, begin, "_rasp_operands", "$1");
-    for (const struct command *const *m = commands_table; *m; m++) {
+    for (const struct command *const *m = cmd_table; *m; m++) {
         const struct action *x = (*m)->actions;
         do {
             bash_case(f, *m, x);
@@ -349,7 +348,7 @@ static void bash(FILE *f, struct arena *a)
     fprintf(f, end, ":");
     fputs("# _rasp_value COMMAND OPTION: what the option takes; exit code 1: nothing.\n", f);
     fprintf(f, begin, "_rasp_value", "\"$1 $2\"");
-    for (const struct command *const *m = commands_table; *m; m++)
+    for (const struct command *const *m = cmd_table; *m; m++)
         for (const struct args_option *o = cmd_options(*m, a); o->name; o++) {
             if (!o->value) continue;
             fprintf(f, "        '%s --%s'", (*m)->name, o->name);
@@ -460,7 +459,7 @@ static void zsh(FILE *f, struct arena *a)
     const struct setting *s = settings(&keys, a);
     fputs(head, f);
     fputs("\n_rasp_tables()\n{\n    _rasp_commands=(\n", f);
-    for (const struct command *const *m = commands_table; *m; m++)
+    for (const struct command *const *m = cmd_table; *m; m++)
         fprintf(f, "        %s\n", quoted_as(arena_format(a, "%s:%s", (*m)->name, (*m)->summary), "", "'\\''", a));
     fputs("        'help:explains a command'\n    )\n    _rasp_keys=( ", f);
     put_list(f, " ", keys);
@@ -474,7 +473,7 @@ static void zsh(FILE *f, struct arena *a)
             fputs("'\n", f);
         }
     fputs("    )\n}\n\n_rasp_name()\n{\n    compadd -a _rasp_names\n    _files -g \"*.(yaml|yml)(-.)\"\n}\n", f);
-    for (const struct command *const *m = commands_table; *m; m++) {
+    for (const struct command *const *m = cmd_table; *m; m++) {
         fprintf(f, "\n_rasp_of_%s()\n{\n", (*m)->name);
         if ((*m)->actions) {
             fputs("    local state\n    local -a line\n    _arguments -C '1:action:(", f);
@@ -585,7 +584,7 @@ static void fish(FILE *f, struct arena *a)
           f);
     put_names(f, NULL);
     fputs("'\n", f);
-    for (const struct command *const *m = commands_table; *m; m++) {
+    for (const struct command *const *m = cmd_table; *m; m++) {
         fprintf(f, "\ncomplete -c rasp -f -n __rasp_in -a %s -d %s\n", (*m)->name, fish_quoted((*m)->summary, a));
         if (!(*m)->actions) fish_group(f, *m, NULL, a);
         for (const struct action *x = NULL; (x = next_action(*m, x));) {

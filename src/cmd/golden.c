@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 
 #include "base/text.h"
-#include "cmd/batch.h"
+#include "batch/batch.h"
 #include "cmd/cmd.h"
 #include "file/bytes.h"
 
@@ -46,7 +46,7 @@ bool golden_has(const struct golden *g, const char *name, size_t n)
     return false;
 }
 
-bool golden_kept_read(struct golden *g, struct err *e)
+bool golden_read_hashes(struct golden *g, struct err *e)
 {
     struct bytes b;
     size_t n = HASH_TEXT - 1;
@@ -67,7 +67,7 @@ bool golden_kept_read(struct golden *g, struct err *e)
     return true;
 }
 
-static bool is_kept(const char *name)
+static bool is_output(const char *name)
 {
     const char *dot = strrchr(name, '.');
     return *name != '.' && dot && (!strcmp(dot, ".wav") || !strcmp(dot, ".csv") || !strcmp(dot, ".npy"));
@@ -79,13 +79,13 @@ static struct golden_files in_folder(const char *folder, struct arena *a)
     struct golden_files files = {NULL, 0};
     DIR *d = opendir(folder);
     for (struct dirent *entry; d && (entry = readdir(d));)
-        if (is_kept(entry->d_name)) golden_add(&files, arena_text(a, entry->d_name), a);
+        if (is_output(entry->d_name)) golden_add(&files, arena_text(a, entry->d_name), a);
     if (d) closedir(d);
     golden_sort(&files);
     return files;
 }
 
-struct golden_files golden_kept_of(const struct golden *g, const char *scene, struct arena *a, struct err *e)
+struct golden_files golden_files_of(const struct golden *g, const char *scene, struct arena *a, struct err *e)
 {
     struct golden_files files = {NULL, 0};
     if (g->kept) {
@@ -105,14 +105,14 @@ struct golden_files golden_kept_of(const struct golden *g, const char *scene, st
     return files;
 }
 
-const char **golden_kept_strays(const struct golden *g, struct arena *a)
+const char **golden_strays(const struct golden *g, struct arena *a)
 {
     struct golden_files all = {NULL, 0};
     struct dirent **entries;
     int n = g->kept ? scandir(g->kept, &entries, NULL, alphasort) : -1;
     for (int i = 0; i < n; i++) {
         const char *name = entries[i]->d_name;
-        if (*name != '.' && is_kept(name)) golden_add(&all, arena_text(a, name), a);
+        if (*name != '.' && is_output(name)) golden_add(&all, arena_text(a, name), a);
         if (*name != '.' && !golden_has(g, name, strlen(name))) {
             struct golden_files files = in_folder(arena_format(a, "%s/%s", g->kept, name), a);
             for (int k = 0; k < files.n; k++)

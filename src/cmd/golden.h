@@ -51,10 +51,10 @@ struct golden {
 };
 
 /* What is kept. */
-bool golden_kept_read(struct golden *g, struct err *e); /* the file of hashes. ERR_INPUT, ERR_SCENE */
-struct golden_files golden_kept_of(const struct golden *g, const char *scene, struct arena *a,
-                                   struct err *e);                        /* ERR_INPUT */
-const char **golden_kept_strays(const struct golden *g, struct arena *a); /* NAME/FILE of no scene; ends with NULL */
+bool golden_read_hashes(struct golden *g, struct err *e); /* the file of hashes. ERR_INPUT, ERR_SCENE */
+struct golden_files golden_files_of(const struct golden *g, const char *scene, struct arena *a,
+                                    struct err *e);                  /* ERR_INPUT */
+const char **golden_strays(const struct golden *g, struct arena *a); /* NAME/FILE of no scene; ends with NULL */
 
 struct golden_file *golden_add(struct golden_files *files, const char *name, struct arena *a);
 const struct golden_file *golden_find(const struct golden_files *files, const char *name);

@@ -16,7 +16,7 @@
 #include "base/scratch.h"
 #include "base/text.h"
 #include "batch/pool.h"
-#include "cmd/tell.h"
+#include "cmd/message.h"
 #include "file/bytes.h"
 #include "output/mark.h"
 #include "pipeline/render.h"
@@ -171,7 +171,7 @@ static void judge_bytes(struct golden_scene *s, const char *name, const char *co
 }
 
 /* Is the kept file the one that was written? */
-static void judge_kept(const struct golden *g, struct golden_scene *s, const struct golden_file *kept)
+static void judge_hash(const struct golden *g, struct golden_scene *s, const struct golden_file *kept)
 {
     const struct golden_file *sum =
         g->hashes && g->kept ? golden_find(&g->sums, arena_format(s->arena, "%s/%s", s->name, kept->name)) : NULL;
@@ -186,7 +186,7 @@ static void judge_file(const struct golden *g, struct golden_scene *s, const str
 {
     const struct golden_file *made = golden_find(&s->made[pass], kept->name);
     const char *new = path_of(g, s, pass, kept->name, s->arena);
-    if (pass == 0) judge_kept(g, s, kept);
+    if (pass == 0) judge_hash(g, s, kept);
     if (!made)
         problem(s, kept->name, NULL, "is kept, but not made any more");
     else if (strcmp(made->sha256, kept->sha256) == 0)
@@ -206,7 +206,7 @@ static void judge_file(const struct golden *g, struct golden_scene *s, const str
 static void judge(const struct golden *g, struct golden_scene *s, int pass)
 {
     struct err why = {0};
-    struct golden_files kept = golden_kept_of(g, s->name, s->arena, &why);
+    struct golden_files kept = golden_files_of(g, s->name, s->arena, &why);
     if (why.kind)
         problem(s, "", NULL, "%s", why.text);
     else if (s->made[pass].n == 0)
@@ -275,7 +275,7 @@ static void check_took(void *self, int i)
 int golden_run_check(struct golden *g, struct err *e)
 {
     int points = g->n + g->whole, good = 0, code = 0;
-    if (!golden_kept_read(g, e)) return (int)e->kind;
+    if (!golden_read_hashes(g, e)) return (int)e->kind;
     if (g->tap) printf("TAP version 13\n1..%d\n", points);
     if (pool_run(&(struct pool_work){
             .n = g->n, .threads = g->threads, .context = g, .job = check_scene, .took = check_took}) < g->n ||
@@ -288,7 +288,7 @@ int golden_run_check(struct golden *g, struct err *e)
         code = code ? code : (int)g->scenes[i].failed.kind;
     }
     if (g->whole) {
-        const char **strays = golden_kept_strays(g, g->call->arena);
+        const char **strays = golden_strays(g, g->call->arena);
         golden_report_strays(g, strays, points);
         good += !*strays;
     }
@@ -357,8 +357,8 @@ struct writing {
     struct golden *g;
     struct outfile *files; /* [n]: of what changes */
     int n;
-    const char **gone; /* ends with NULL: kept so far, and not made any more */
-    int n_gone, changed;
+    const char **removed; /* ends with NULL: kept so far, and not made any more */
+    int n_removed, changed;
     const char **made; /* [n_made]: folders that were not there; until the commit they go with the program */
     int n_made;
 };
@@ -431,7 +431,7 @@ static bool write_scene(struct writing *w, const struct golden_scene *s, struct 
 {
     struct golden *g = w->g;
     struct arena *a = g->call->arena;
-    struct golden_files kept = golden_kept_of(g, s->name, a, e);
+    struct golden_files kept = golden_files_of(g, s->name, a, e);
     const char *folder = arena_format(a, "%s/%s", g->kept ? g->kept : "", s->name);
     if (e->kind || (g->kept && !make_folder(w, folder, e))) return false;
     for (int i = 0; i < s->made[0].n; i++) {
@@ -447,7 +447,7 @@ static bool write_scene(struct writing *w, const struct golden_scene *s, struct 
         if (!golden_find(&s->made[0], kept.list[i].name)) {
             w->changed++;
             say(g, "removed", s->name, kept.list[i].name);
-            if (g->kept) w->gone[w->n_gone++] = arena_format(a, "%s/%s", folder, kept.list[i].name);
+            if (g->kept) w->removed[w->n_removed++] = arena_format(a, "%s/%s", folder, kept.list[i].name);
         }
     return true;
 }
@@ -479,14 +479,14 @@ static bool write_hashes(struct writing *w, struct err *e)
 static bool write_all(struct golden *g, struct writing *w, struct err *e)
 {
     struct arena *a = g->call->arena;
-    int most = 1, gone = 1;
+    int most = 1, removed = 1;
     for (int i = 0; i < g->n; i++) {
         most += g->scenes[i].made[0].n;
-        gone += golden_kept_of(g, g->scenes[i].name, a, e).n;
+        removed += golden_files_of(g, g->scenes[i].name, a, e).n;
     }
     *w = (struct writing){.g = g,
                           .files = ARENA_TAKE(a, struct outfile, most),
-                          .gone = ARENA_TAKE(a, const char *, gone),
+                          .removed = ARENA_TAKE(a, const char *, removed),
                           .made = ARENA_TAKE(a, const char *, g->n + 1)};
     for (int i = 0; i < most; i++)
         w->files[i].fd = -1;
@@ -504,8 +504,9 @@ static bool write_all(struct golden *g, struct writing *w, struct err *e)
     if (ok) forget_folders(w);
     for (int i = 0; ok && i < files; i++)
         ok = outfile_commit(&w->files[i], e);
-    for (int i = 0; ok && i < w->n_gone; i++)
-        ok = unlink(w->gone[i]) == 0 || err_set(e, ERR_IO, "%s: cannot be removed: %s", w->gone[i], strerror(errno));
+    for (int i = 0; ok && i < w->n_removed; i++)
+        ok = unlink(w->removed[i]) == 0 ||
+             err_set(e, ERR_IO, "%s: cannot be removed: %s", w->removed[i], strerror(errno));
     if (ok && g->hashes) ok = outfile_commit(&w->files[files], e);
     interrupt_go();
     for (int i = 0; i < w->n; i++)
@@ -519,13 +520,13 @@ static bool write_all(struct golden *g, struct writing *w, struct err *e)
 int golden_run_update(struct golden *g, struct err *e)
 {
     struct writing w;
-    if (g->hashes && access(g->hashes, F_OK) == 0 && !golden_kept_read(g, e)) return (int)e->kind;
+    if (g->hashes && access(g->hashes, F_OK) == 0 && !golden_read_hashes(g, e)) return (int)e->kind;
     if (!none_failed(g, e) || !render_twice(g, e) || !same_twice(g, e) || !write_all(g, &w, e)) return (int)e->kind;
     if (!g->quiet)
         printf("%d scene%s rendered twice; %d file%s changed\n", g->n, g->n == 1 ? "" : "s", w.changed,
                w.changed == 1 ? "" : "s");
-    const char **strays = g->whole ? golden_kept_strays(g, g->call->arena) : NULL;
+    const char **strays = g->whole ? golden_strays(g, g->call->arena) : NULL;
     for (; g->kept && strays && *strays; strays++)
-        tell_warning(g->call, *strays, "no scene makes it; rasp golden check will fail until it is removed");
+        message_warning(g->call, *strays, "no scene makes it; rasp golden check will fail until it is removed");
     return 0;
 }

@@ -14,7 +14,7 @@
 #include "base/outfile.h"
 #include "base/text.h"
 #include "cmd/cmd.h"
-#include "cmd/tell.h"
+#include "cmd/message.h"
 #include "num/real.h"
 #include "output/mark.h"
 #include "response/mode_table.h"
@@ -209,7 +209,7 @@ struct job {
     struct modes_places places;
     double error; /* dB, of interpolation between the places; NAN: of none */
     double listen[2];
-    bool heard_elsewhere;
+    bool listens_elsewhere;
     double load; /* kg */
     double *phi; /* [modes.n] */
     const char *note;
@@ -262,16 +262,16 @@ static bool make(struct job *j, struct err *e)
     const struct object *o = &j->object;
     for (const char *const *s = (const char *const *)j->body.scene.sources; s && *s; s++) /* what a scene includes */
         if (!modes_output_spares(args_value(&j->c->args, "output"), *s, e)) return false;
-    j->heard_elsewhere = args_given(&j->c->args, "listen");
+    j->listens_elsewhere = args_given(&j->c->args, "listen");
     if (!args_whole(&j->c->args, "modes", counts, &most, e) || !modes_lengths(j->c, "listen", "X,Y", 2, j->listen, e) ||
         !body_object(j->c, &j->body, &j->object, &j->note, e))
         return false;
     double off =
-        j->heard_elsewhere ? o->shapes(o, j->listen[0], j->listen[1], ARENA_TAKE(j->c->arena, double, o->n)) : 0.0;
+        j->listens_elsewhere ? o->shapes(o, j->listen[0], j->listen[1], ARENA_TAKE(j->c->arena, double, o->n)) : 0.0;
     if (off > 1e-9)
         return err_set(e, ERR_SCENE, "--listen: the place (%.9g, %.9g) m lies %.3g m off the object", j->listen[0],
                        j->listen[1], off);
-    object_modes(o, j->body.response->object.origin, j->heard_elsewhere ? j->listen : NULL, (int)most, j->c->arena,
+    object_modes(o, j->body.response->object.origin, j->listens_elsewhere ? j->listen : NULL, (int)most, j->c->arena,
                  &j->modes);
     j->phi = ARENA_TAKE(j->c->arena, double, j->modes.n);
     j->fit =
@@ -287,7 +287,7 @@ static void comments(FILE *f, const struct job *j)
     fprintf(f, "# poles: %s\n%s# quantity: %s\n# normalisation: %s, physical; heard at ",
             j->load > 0.0 ? "separate" : "shared", j->load > 0.0 ? "# gains: complex\n" : "",
             modes_quantity_name(j->quantity), modes_per_impulse(j->quantity));
-    if (j->heard_elsewhere)
+    if (j->listens_elsewhere)
         fprintf(f, "x = %.12g m, y = %.12g m\n", j->listen[0] + origin[0], j->listen[1] + origin[1]);
     else
         fputs("the place that is touched\n", f);
@@ -343,7 +343,7 @@ static int modes_object_run(struct cmd_call *c, struct err *e)
         modes_places_report(file, &j.places, "object", j.error, m->n,
                             (const double[2]){f[j.order[0]], f[j.order[m->n - 1]]}, c->arena);
         putchar('\n');
-        if (j.note) tell_remark(c, "modes", j.note);
+        if (j.note) message_remark(c, "modes", j.note);
     }
     modes_places_warn(c, j.error, &j.places);
     return 0;
@@ -394,7 +394,7 @@ static bool from_table(struct list *l, const char *file, struct err *e)
             count(&l->line[v->mode], &(struct line){0, v->frequency, v->slope[i].decay, fabs(v->slope[i].gain),
                                                     t.xy[2 * v->place], t.xy[2 * v->place + 1]});
     }
-    if (t.note) tell_remark(l->c, "modes", t.note);
+    if (t.note) message_remark(l->c, "modes", t.note);
     return true;
 }
 
@@ -417,7 +417,7 @@ static bool from_object(struct list *l, const struct body *b, struct err *e)
     const double *origin = b->response->object.origin;
     const char *note;
     if (!body_object(l->c, b, &o, &note, e) || !body_places(l->c, b, &o, NULL, &places, e)) return false;
-    if (note) tell_remark(l->c, "modes", note);
+    if (note) message_remark(l->c, "modes", note);
     object_modes(&o, origin, NULL, o.n, l->c->arena, &m);
     start(l, m.n, m.quantity);
     l->places = places.n;

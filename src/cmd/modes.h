@@ -40,7 +40,7 @@ struct modes_ground {
 };
 bool modes_places(struct cmd_call *c, const struct modes_ground *g, struct modes_places *p, struct err *e);
 /* No two are at one point, to a nanometre: a scene takes no table of such. *bad: the second of two. ERR_SCENE */
-bool modes_places_apart(const struct modes_places *p, struct arena *a, int *bad, struct err *e);
+bool modes_places_distinct(const struct modes_places *p, struct arena *a, int *bad, struct err *e);
 /* The lines of the table's head that tell damping and sources of a material; NULL: all figures are given. */
 void modes_damping_write(FILE *f, const double damping[3], const struct material *m, bool own, bool own_damping);
 

@@ -11,8 +11,8 @@
 #include "base/outfile.h"
 #include "base/text.h"
 #include "cmd/cmd.h"
+#include "cmd/message.h"
 #include "cmd/modes.h"
-#include "cmd/tell.h"
 #include "fem/shapes.h"
 #include "fem/solid.h"
 #include "file/csv.h"
@@ -104,7 +104,8 @@ static bool read_points(struct compute *k, const char *file, struct err *e)
         if (!point_row(k, &t, column, i, e)) return false;
     struct err why = {0};
     int bad;
-    if (modes_places_apart(&(struct modes_places){.n = k->places, .xy = k->xy}, k->c->arena, &bad, &why)) return true;
+    if (modes_places_distinct(&(struct modes_places){.n = k->places, .xy = k->xy}, k->c->arena, &bad, &why))
+        return true;
     return err_set(e, ERR_SCENE,
                    "%s:%d: another point has the same place (%.9g, %.9g) m; a scene tells points by their places: give "
                    "each its own u_m,v_m",
@@ -158,7 +159,7 @@ static double gains_at(const void *self, double x, double y, const struct modes_
 }
 
 /* Places of a list lie on the chart where the list says, and between them no point of the surface is known. */
-static bool settle_places(struct compute *k, struct err *e)
+static bool choose_places(struct compute *k, struct err *e)
 {
     const struct args *g = &k->c->args;
     struct modes_fit fit = {.self = k, .at = gains_at, .n = k->n, .shared = true, .arena = k->c->arena};
@@ -461,7 +462,7 @@ int modes_compute_run(struct cmd_call *c, struct err *e)
         return 0;
     }
     if (!mark_absent(file, args_given(&c->args, "force"), e) || !modes_output_possible(file, e) ||
-        !modes_compute_solid_solve(&k, e) || !modes_compute_solid_estimate(&k, e) || !settle_places(&k, e) ||
+        !modes_compute_solid_solve(&k, e) || !modes_compute_solid_estimate(&k, e) || !choose_places(&k, e) ||
         !write_table(&k, file, inputs, e))
         return (int)e->kind;
     if (!quiet) {
@@ -475,7 +476,7 @@ int modes_compute_run(struct cmd_call *c, struct err *e)
                                                    : "frequencies of the order below are off by more than these, by",
                    modes_compute_solid_error_text(&k));
         for (char *rest = k.note ? arena_text(c->arena, k.note) : NULL, *line; (line = strsep(&rest, "\n"));)
-            if (*line) tell_remark(c, "modes", line);
+            if (*line) message_remark(c, "modes", line);
         modes_places_warn(c, k.error, &k.laid);
     }
     return 0;

@@ -18,7 +18,7 @@
 #include <stdlib.h>
 
 #include "base/text.h"
-#include "cmd/tell.h"
+#include "cmd/message.h"
 #include "num/real.h"
 #include "response/morph.h"
 
@@ -116,11 +116,12 @@ void modes_places_report(const char *file, const struct modes_places *p, const c
 void modes_places_warn(struct cmd_call *c, double db, const struct modes_places *p)
 {
     if (p->chosen && db > MODES_FIT_GOAL && !args_given(&c->args, "quiet"))
-        tell_remark(c, "modes",
-                    arena_format(c->arena,
-                                 "between the places gains are off by %s, and %g dB would take more than %d places or "
-                                 "%d rows; fewer modes (--modes, --top) need fewer",
-                                 db_text(db, c->arena), MODES_FIT_GOAL, FIT_PLACES, FIT_ROWS));
+        message_remark(
+            c, "modes",
+            arena_format(c->arena,
+                         "between the places gains are off by %s, and %g dB would take more than %d places or "
+                         "%d rows; fewer modes (--modes, --top) need fewer",
+                         db_text(db, c->arena), MODES_FIT_GOAL, FIT_PLACES, FIT_ROWS));
 }
 
 /* ------------------------------------------------------------------ as many as needed */
@@ -427,7 +428,7 @@ static int by_place(const void *p, const void *q)
     return (a->index > b->index) - (a->index < b->index);
 }
 
-bool modes_places_apart(const struct modes_places *p, struct arena *a, int *bad, struct err *e)
+bool modes_places_distinct(const struct modes_places *p, struct arena *a, int *bad, struct err *e)
 {
     struct spot *s = ARENA_TAKE(a, struct spot, p->n);
     for (int i = 0; i < p->n; i++)
@@ -464,5 +465,5 @@ bool modes_places(struct cmd_call *c, const struct modes_ground *g, struct modes
     else
         standard(c, g, p);
     int bad;
-    return all_on(g, p, e) && modes_places_apart(p, c->arena, &bad, e);
+    return all_on(g, p, e) && modes_places_distinct(p, c->arena, &bad, e);
 }

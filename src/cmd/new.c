@@ -1,5 +1,5 @@
 /* rasp new: a starter scene or design. */
-#include "cmd/new.h"
+#include "cmd/cmd.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -10,9 +10,9 @@
 #include "base/relpath.h"
 #include "base/text.h"
 #include "base/wrap.h"
-#include "cmd/cmd.h"
 #include "output/mark.h"
 #include "scene/keys_text.h"
+#include "scene/keys_yaml.h"
 
 /* Starter scenes as texts of keys and values, which are off behind a #; the comment above a key is its meaning in
    keys.def. They render as they are: no line that is on names a file. The shipped responses that are off fit the

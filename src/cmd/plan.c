@@ -4,8 +4,8 @@
 
 #include "base/text.h"
 #include "cmd/cmd.h"
+#include "cmd/message.h"
 #include "cmd/report.h"
-#include "cmd/tell.h"
 #include "pipeline/plan.h"
 #include "pipeline/plan_scene.h"
 #include "pipeline/promise.h"
@@ -66,7 +66,7 @@ static bool plan_one(struct cmd_call *c, const char *file, struct report *r, str
         if (!plan_known(&plans[i], e)) return false;
     if (!plans) return scene_places_tell(&s, e);
     for (int i = 0; warnings[i]; i++)
-        tell_warning(c, file, warnings[i]);
+        message_warning(c, file, warnings[i]);
     report_object(r, NULL);
     report_set(r, "file:e accuracy:e", s.file, promise.text);
     report_list(r, "contacts");

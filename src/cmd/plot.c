@@ -11,7 +11,7 @@
 #include "base/hash.h"
 #include "base/text.h"
 #include "cmd/cmd.h"
-#include "cmd/tell.h"
+#include "cmd/message.h"
 #include "file/csv.h"
 #include "file/wav.h"
 #include "output/gnuplot.h"
@@ -218,7 +218,7 @@ static bool sound_gather(struct plot_page *p, struct err *e)
 
 enum { MOST = 4000 };
 
-static void add(struct plot_page *p, const struct plot_way *way)
+static void add(struct plot_page *p, const struct plot_path *way)
 {
     bool moves = false;
     for (int i = 1; i < way->n; i++)
@@ -230,10 +230,10 @@ static void add(struct plot_page *p, const struct plot_way *way)
 
 /* Where a contact was in the time shown, by its table; one that stays has no way. Columns of x, y and speed; the last
    may be missing. */
-static bool way_of_table(struct plot_page *p, const char *name, const struct csv *csv, const double *times,
-                         struct err *e)
+static bool path_of_table(struct plot_page *p, const char *name, const struct csv *csv, const double *times,
+                          struct err *e)
 {
-    struct plot_way way = {.name = name};
+    struct plot_path way = {.name = name};
     int column[3] = {csv_column(csv, "x_m"), csv_column(csv, "y_m"), csv_column(csv, "speed_m_per_s")};
     size_t shown = 0, each = 0;
     if (column[0] < 0 || column[1] < 0) return true;
@@ -251,14 +251,14 @@ static bool way_of_table(struct plot_page *p, const char *name, const struct csv
     return true;
 }
 
-static bool way_of_scene(struct plot_page *p, const struct scene *s, const struct contact *c, struct err *e)
+static bool path_of_scene(struct plot_page *p, const struct scene *s, const struct contact *c, struct err *e)
 {
     struct trajectory tr;
     if (!trajectory_make(&c->motion, trajectory_seed(s, c), p->arena, &tr, e)) return false;
     double from = fmax(p->from - c->start, 0), to = fmin(p->to - c->start, tr.duration),
            *t = ARENA_TAKE(p->arena, double, 4 * MOST), *x = t + MOST, *y = x + MOST, *du = y + MOST;
-    struct plot_way way = {s->n_contacts > 1 ? c->name : "", MOST,
-                           (double(*)[3])arena_take(p->arena, MOST, sizeof *way.at)};
+    struct plot_path way = {s->n_contacts > 1 ? c->name : "", MOST,
+                            (double(*)[3])arena_take(p->arena, MOST, sizeof *way.at)};
     if (!(from < to)) return true;
     for (int i = 0; i < MOST; i++)
         t[i] = from + (to - from) * i / (MOST - 1);
@@ -270,7 +270,7 @@ static bool way_of_scene(struct plot_page *p, const struct scene *s, const struc
 }
 
 /* NULL: none */
-static const struct plot_way *way_of(const struct plot_page *p, const struct scene *s, const struct contact *c)
+static const struct plot_path *path_of(const struct plot_page *p, const struct scene *s, const struct contact *c)
 {
     for (int i = 0; i < p->n_ways; i++)
         if (s->n_contacts == 1 || !strcmp(p->ways[i].name, c->name)) return &p->ways[i];
@@ -333,7 +333,7 @@ static bool modes_of(const struct response *r, double rate, struct arena *a, str
     return ok;
 }
 
-static void add_body(struct plot_page *p, const struct modes *m, const struct plot_way *way, double share,
+static void add_body(struct plot_page *p, const struct modes *m, const struct plot_path *way, double share,
                      const char *name)
 {
     struct modes_point point = modes_point_make(p->arena, m->n);
@@ -380,11 +380,11 @@ static bool add_contact(struct plot_page *p, const struct scene *s, const struct
 {
     const char *which = s->n_contacts > 1 ? arena_format(p->arena, " of %s", c->name) : "", *tool = ball_tool(c);
     struct modes m = {0};
-    if (!way_of(p, s, c) && !way_of_scene(p, s, c, e)) return false;
+    if (!path_of(p, s, c) && !path_of_scene(p, s, c, e)) return false;
     if (!modes_of(&c->surface.response, s->output.sample_rate, p->arena, &m, e) ||
         !add_ground(p, &c->surface.response, &m, e))
         return false;
-    if (m.n) add_body(p, &m, way_of(p, s, c), fabs(c->gain), arena_format(p->arena, "surface%s", which));
+    if (m.n) add_body(p, &m, path_of(p, s, c), fabs(c->gain), arena_format(p->arena, "surface%s", which));
     if (c->scraper.weight == 0) return true;
     if (!modes_of(&c->scraper.response, s->output.sample_rate, p->arena, &m, e)) return false;
     if (m.n) add_body(p, &m, NULL, fabs(c->gain * c->scraper.weight), arena_format(p->arena, "%s%s", tool, which));
@@ -408,7 +408,7 @@ static bool add_bodies(struct plot_page *p, const struct plot_summary *s, const 
             add_contact(p, scene, &scene->contacts[i], &why);
     }
     if (why.kind) {
-        tell_warning(p->call, effective, arena_format(p->call->arena, "what rings is not drawn: %s", why.text));
+        message_warning(p->call, effective, arena_format(p->call->arena, "what rings is not drawn: %s", why.text));
         p->n_bodies = p->n_grounds = 0;
     }
     return true;
@@ -448,7 +448,7 @@ static bool table_rows(struct plot_page *p, const struct csv *csv, const double 
         }
         t->n++;
     }
-    return way_of_table(p, t->name, csv, times, e);
+    return path_of_table(p, t->name, csv, times, e);
 }
 
 /* Times of the rows, and where the last one ends. */
@@ -496,13 +496,13 @@ static bool table_belongs(const struct plot_page *p, const struct plot_summary *
 {
     const char *why;
     if (!s->lists)
-        tell_warning(p->call, path,
-                     arena_format(p->call->arena, "%s %s: that the table is of the same render is assumed", s->file,
-                                  s->there ? "does not say which files are of its render" : "is not there"));
+        message_warning(p->call, path,
+                        arena_format(p->call->arena, "%s %s: that the table is of the same render is assumed", s->file,
+                                     s->there ? "does not say which files are of its render" : "is not there"));
     if (!s->lists || summary_has(s, path, contact, &why, e)) return true;
     if (e->kind == ERR_NONE)
-        tell_warning(p->call, path,
-                     arena_format(p->call->arena, "left out, as it is of another render: %s %s", s->file, why));
+        message_warning(p->call, path,
+                        arena_format(p->call->arena, "left out, as it is of another render: %s %s", s->file, why));
     return false;
 }
 
@@ -564,7 +564,7 @@ bool plot_data(struct plot_page *p, struct err *e)
     const char *why = p->silent ? "lists a sound" : "lists no sound";
     bool ours = !summary.lists || (table ? summary_has(&summary, p->file, "", &why, e) : summary.sounds != p->silent);
     if (!ours && e->kind == ERR_NONE)
-        tell_warning(
+        message_warning(
             p->call, p->file,
             arena_format(p->call->arena, "%s is of another render (it %s), and is not used", summary.file, why));
     const char *slash = strrchr(p->file, '/'), *name = slash ? slash + 1 : p->file, *dot = strrchr(name, '.'),

@@ -40,7 +40,7 @@ struct plot_table {   /* diagnostics of one contact                           */
     double most[PLOT_TABLE_COLUMNS];
 };
 
-struct plot_way {     /* of a contact, seen from above                        */
+struct plot_path {    /* of a contact, seen from above                        */
     const char *name; /* of the contact; "": the only one                     */
     int n;
     double (*at)[3]; /* [n] x, y (m), speed (m/s)                            */
@@ -75,7 +75,7 @@ struct plot_page {
     struct plot_sound *sound; /* NULL: a render without sound                         */
     struct plot_table *tables;
     int n_tables;
-    struct plot_way *ways; /* of contacts that move                                */
+    struct plot_path *ways; /* of contacts that move                                */
     int n_ways;
     struct plot_body *bodies;
     int n_bodies;

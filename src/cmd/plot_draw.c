@@ -468,9 +468,9 @@ static double draw_all_timed(const struct plot_page *p, double whole, struct gnu
 }
 
 /* A panel with axes of its own, from pixel to pixel; top: of the page's pixels, from below. */
-static void draw_apart(const struct plot_page *p,
-                       void (*draw)(const struct plot_page *, const struct plot_place *, struct gnuplot *),
-                       const double box[4], struct gnuplot *g)
+static void draw_untimed(const struct plot_page *p,
+                         void (*draw)(const struct plot_page *, const struct plot_place *, struct gnuplot *),
+                         const double box[4], struct gnuplot *g)
 {
     double whole = page_height(p);
     struct plot_place at = {box[0] / WIDTH, box[1] / WIDTH, box[2] / whole, box[3] / whole, {WIDTH, whole}};
@@ -488,9 +488,9 @@ static void draw_row(const struct plot_page *p, double top, struct gnuplot *g)
     bool motion = plot_panels_there(p, PLOT_MOTION), modes = plot_panels_there(p, PLOT_MODES);
     double bottom = top - heights[PLOT_MOTION], right = WIDTH - RIGHT, middle = (LEFT + right) / 2;
     if (motion)
-        draw_apart(p, plot_motion, (const double[4]){LEFT, modes ? middle - BETWEEN / 2.0 : right, bottom, top}, g);
+        draw_untimed(p, plot_motion, (const double[4]){LEFT, modes ? middle - BETWEEN / 2.0 : right, bottom, top}, g);
     if (modes)
-        draw_apart(p, plot_modes, (const double[4]){motion ? middle + BETWEEN / 2.0 : LEFT, right, bottom, top}, g);
+        draw_untimed(p, plot_modes, (const double[4]){motion ? middle + BETWEEN / 2.0 : LEFT, right, bottom, top}, g);
 }
 
 void plot_draw(void *page, struct gnuplot *g)
@@ -524,7 +524,7 @@ void plot_draw(void *page, struct gnuplot *g)
         top -= KEY + heights[PLOT_MOTION] + BOTTOM;
     }
     if (plot_panels_there(p, PLOT_DECAYS))
-        draw_apart(p, plot_modes_decays,
-                   (const double[4]){LEFT, WIDTH - RIGHT, top - KEY - heights[PLOT_DECAYS], top - KEY}, g);
+        draw_untimed(p, plot_modes_decays,
+                     (const double[4]){LEFT, WIDTH - RIGHT, top - KEY - heights[PLOT_DECAYS], top - KEY}, g);
     fputs("unset multiplot\n", g->in);
 }

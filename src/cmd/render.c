@@ -11,7 +11,7 @@
 #include "base/text.h"
 #include "cmd/accuracy.h"
 #include "cmd/cmd.h"
-#include "cmd/tell.h"
+#include "cmd/message.h"
 #include "pipeline/outputs.h"
 #include "pipeline/plan_scene.h"
 #include "pipeline/render.h"
@@ -215,7 +215,7 @@ static bool render_folder(struct cmd_call *c, struct err *e)
 static void render_print(struct cmd_call *c, const struct scene *s, const struct render_report *r)
 {
     for (int i = 0; i < r->n_warnings; i++)
-        tell_warning(c, s->file, r->warnings[i]);
+        message_warning(c, s->file, r->warnings[i]);
     if (args_given(&c->args, "json"))
         fputs(r->summary, stdout);
     else if (!args_given(&c->args, "quiet")) {
@@ -260,7 +260,7 @@ static bool render_one(struct cmd_call *c, int i, const struct outputs *o, bool 
 static int render_run(struct cmd_call *c, struct err *e)
 {
     int n = c->args.n_operands, done = 0;
-    if (n > 1) tell_group(c);
+    if (n > 1) message_group(c);
     bool array = n > 1 && args_given(&c->args, "json");
     const struct outputs *all = render_read(c, e);
     bool ok = all != NULL;

@@ -7,8 +7,8 @@
 #include "analysis/surface_heights.h"
 #include "base/text.h"
 #include "cmd/cmd.h"
+#include "cmd/message.h"
 #include "cmd/report.h"
-#include "cmd/tell.h"
 #include "file/heightfile.h"
 #include "output/mark.h"
 #include "pipeline/outputs.h"
@@ -336,7 +336,7 @@ static int surface_info_run(struct cmd_call *c, struct err *e)
             report_surface(&r, i);
             n++;
         } else
-            tell_error(c, "surface", &mine);
+            message_error(c, "surface", &mine);
         worst = (int)mine.kind > worst ? (int)mine.kind : worst;
         arena_close(own);
     }
@@ -586,7 +586,7 @@ static bool make(struct synth *s, struct err *e)
         ok = ok && (!stages[k]->wanted(run[k].contact, &s->scene) || stages[k]->open(&run[k], e));
     }
     for (int k = 0; k < board.n_warnings; k++)
-        tell_remark(s->c, "surface", board.warnings[k]);
+        message_remark(s->c, "surface", board.warnings[k]);
     if (ok) read_heights(s, &relief);
     for (int k = 0; k < 3; k++)
         if (stages[k]->close) stages[k]->close(&run[k]);

@@ -2,10 +2,11 @@
    something to be computed, name no file, and hide no mistake in what is commented out. */
 #include "unit.h"
 
-#include "cmd/new.h"
+#include "cmd/cmd.h"
 #include "scene/keys.h"
 #include "scene/keys_reference.h"
 #include "scene/keys_text.h"
+#include "scene/keys_yaml.h"
 #include "scene/scene_read.h"
 
 static struct arena *a;

@@ -75,7 +75,7 @@ START_TEST(scene_beside_a_sound)
     write_render(NULL);
     ck_assert_msg(plot_data(&p, &e), "%s", e.text);
     ck_assert_int_eq(p.n_ways, 1);
-    const struct plot_way *way = &p.ways[0];
+    const struct plot_path *way = &p.ways[0];
     for (int i = 0; i < way->n; i++) {
         ck_assert_double_eq_tol(way->at[i][0], 0.01 * i / (way->n - 1), 1e-9);
         ck_assert_double_eq_tol(way->at[i][1], 0, 1e-12);

@@ -1,12 +1,12 @@
-/* cmd/tell.c: which warnings are told together. What is expected is written by hand. */
+/* cmd/message.c: which warnings are told together. What is expected is written by hand. */
 #include "unit.h"
 
-#include "cmd/tell.h"
+#include "cmd/message.h"
 
 static struct arena *a;
 static struct warning *all;
 
-static void add(const char *file, const char *text, bool exact) { tell_add(&all, file, text, exact, a); }
+static void add(const char *file, const char *text, bool exact) { message_add(&all, file, text, exact, a); }
 
 /* "text [files]" of each, with a + where some have other numbers. */
 static const char *listed(void)

@@ -1,6 +1,6 @@
-/* See tell.h. Painted are the first "error:" or "warning:" at a line's start or after ": ", and what a message adds
+/* See message.h. Painted are the first "error:" or "warning:" at a line's start or after ": ", and what a message adds
  * below the line it shows. */
-#include "cmd/tell.h"
+#include "cmd/message.h"
 
 #include <ctype.h>
 #include <stddef.h>
@@ -45,7 +45,7 @@ static struct piece piece_of(const char *line, size_t n)
     return warning ? (struct piece){warning, 8, MAGENTA} : (struct piece){NULL, 0, NULL};
 }
 
-void tell_paint(FILE *f, const char *lines)
+void message_paint(FILE *f, const char *lines)
 {
     /* A terminal, whose TERM is neither empty nor dumb, and NO_COLOR is not set or empty (no-color.org). */
     const char *off = getenv("NO_COLOR"), *term = getenv("TERM");
@@ -93,12 +93,12 @@ static struct warning *same(struct warning **all, const char *file, const char *
 {
     struct warning **w = all, *near = NULL;
     for (; *w; w = &(*w)->next) {
-        bool told = strcmp((*w)->files[(*w)->n - 1], file) == 0;
-        if (strcmp((*w)->text, text) == 0 && !(told && (*w)->other)) {
+        bool last = strcmp((*w)->files[(*w)->n - 1], file) == 0;
+        if (strcmp((*w)->text, text) == 0 && !(last && (*w)->other)) {
             (*w)->other = false;
             return *w;
         }
-        if (!exact && !near && !told && alike((*w)->text, text)) near = *w;
+        if (!exact && !near && !last && alike((*w)->text, text)) near = *w;
     }
     if (near) {
         near->numbers = near->other = true;
@@ -109,7 +109,7 @@ static struct warning *same(struct warning **all, const char *file, const char *
     return *w;
 }
 
-struct warning *tell_add(struct warning **all, const char *file, const char *text, bool exact, struct arena *a)
+struct warning *message_add(struct warning **all, const char *file, const char *text, bool exact, struct arena *a)
 {
     struct warning *w = same(all, file, text, exact, a);
     if (w->n > 0 && !strcmp(w->files[w->n - 1], file)) return w;
@@ -120,22 +120,22 @@ struct warning *tell_add(struct warning **all, const char *file, const char *tex
 
 enum { FILES_NAMED = 4 /* of a warning that several scenes have */ };
 
-struct cmd_tell {
+struct messages {
     bool json, group;
-    bool told;    /* tell_scene has said what tell_error would */
-    json_t *kept; /* NULL: nothing is kept */
+    bool reported;     /* message_scene has said what message_error would */
+    json_t *collected; /* NULL: nothing is collected */
     struct warning *warnings;
 };
 
-static struct cmd_tell *of(struct cmd_call *c)
+static struct messages *of(struct cmd_call *c)
 {
-    if (!c->tell) c->tell = ARENA_TAKE(c->arena, struct cmd_tell, 1);
-    return c->tell;
+    if (!c->messages) c->messages = ARENA_TAKE(c->arena, struct messages, 1);
+    return c->messages;
 }
 
-void tell_as_json(struct cmd_call *c) { of(c)->json = true; }
+void message_as_json(struct cmd_call *c) { of(c)->json = true; }
 
-bool tell_begin(struct cmd_call *c, struct err *e)
+bool message_begin(struct cmd_call *c, struct err *e)
 {
     static const char *const formats[] = {"text", "json"};
     int json = 0;
@@ -214,21 +214,21 @@ static void print(json_t *o)
 
 static void put(struct cmd_call *c, json_t *o)
 {
-    if (of(c)->kept) json_array_append(of(c)->kept, o);
+    if (of(c)->collected) json_array_append(of(c)->collected, o);
     if (of(c)->json) print(o);
     json_decref(o);
 }
 
 /* ------------------------------------------------------------------ errors */
 
-void tell_scene(struct cmd_call *c, const struct diag *d, const char *messages, enum err_kind kind)
+void message_scene(struct cmd_call *c, const struct diag *d, const char *messages, enum err_kind kind)
 {
-    struct cmd_tell *t = of(c);
-    for (int i = 0; (t->json || t->kept) && d && i < d->n && i < DIAG_KEPT; i++)
+    struct messages *t = of(c);
+    for (int i = 0; (t->json || t->collected) && d && i < d->n && i < DIAG_KEPT; i++)
         put(c, of_diag(&d->errors[i], kind, c->arena));
-    t->told = (t->json || t->kept) && d && d->n > 0;
+    t->reported = (t->json || t->collected) && d && d->n > 0;
     if (t->json) return;
-    tell_paint(stderr, messages);
+    message_paint(stderr, messages);
     if (*messages && messages[strlen(messages) - 1] != '\n') fputc('\n', stderr);
 }
 
@@ -271,19 +271,20 @@ static struct err_place operand_in(const struct cmd_call *c, const char *text)
     return (struct err_place){0};
 }
 
-void tell_error(struct cmd_call *c, const char *command, const struct err *e)
+void message_error(struct cmd_call *c, const char *command, const struct err *e)
 {
-    struct cmd_tell *t = of(c);
+    struct messages *t = of(c);
     struct err placed = *e;
     if (!e->place.file) placed.place = operand_in(c, e->text);
-    if ((t->json || t->kept) && !t->told) put(c, of_err(&placed));
-    t->told = false;
+    if ((t->json || t->collected) && !t->reported) put(c, of_err(&placed));
+    t->reported = false;
     if (!t->json) cmd_complain(command, e);
 }
 
-void tell_stimulus(struct cmd_call *c, const char *command, const char *stimulus, const char *file, const struct err *e)
+void message_stimulus(struct cmd_call *c, const char *command, const char *stimulus, const char *file,
+                      const struct err *e)
 {
-    struct cmd_tell *t = of(c);
+    struct messages *t = of(c);
     if (t->json) {
         struct err placed = *e;
         placed.place = place_in(e->text);
@@ -292,19 +293,19 @@ void tell_stimulus(struct cmd_call *c, const char *command, const char *stimulus
         json_object_set_new(o, "stimulus", text_or_null(stimulus, strlen(stimulus)));
         put(c, o);
     } else {
-        struct err told = {0};
-        err_set(&told, e->kind, "%s: %s", stimulus, e->text);
-        cmd_complain(command, &told);
+        struct err named = {0};
+        err_set(&named, e->kind, "%s: %s", stimulus, e->text);
+        cmd_complain(command, &named);
     }
 }
 
-void tell_keep(struct cmd_call *c) { of(c)->kept = json_array(); }
+void message_collect(struct cmd_call *c) { of(c)->collected = json_array(); }
 
-json_t *tell_kept(struct cmd_call *c)
+json_t *message_collected(struct cmd_call *c)
 {
-    json_t *kept = of(c)->kept;
-    of(c)->kept = NULL;
-    return kept;
+    json_t *collected = of(c)->collected;
+    of(c)->collected = NULL;
+    return collected;
 }
 
 /* ------------------------------------------------------------------ warnings */
@@ -337,7 +338,7 @@ static void warn(struct cmd_call *c, const struct warning *w)
     for (int i = 1; i < w->n && i <= FILES_NAMED; i++)
         all = arena_format(a, "%s%s %s", all, i > 1 ? "," : "", w->files[i]);
     if (w->n > 1) all = arena_format(a, "%s%s)", all, w->n - 1 > FILES_NAMED ? ", ..." : "");
-    tell_paint(stderr, arena_format(a, "%s\n", all));
+    message_paint(stderr, arena_format(a, "%s\n", all));
 }
 
 static void warn_of(struct cmd_call *c, const char *name, const char *text, bool stimulus)
@@ -345,32 +346,32 @@ static void warn_of(struct cmd_call *c, const char *name, const char *text, bool
     const char *shown = text_shown(c->arena, name);
     text = text_shown(c->arena, text);
     if (of(c)->group)
-        tell_add(&c->tell->warnings, shown, text, c->tell->json, c->arena)->stimuli = stimulus;
+        message_add(&c->messages->warnings, shown, text, c->messages->json, c->arena)->stimuli = stimulus;
     else
         warn(c, &(struct warning){.text = text, .files = &shown, .n = 1, .stimuli = stimulus});
 }
 
-void tell_warning(struct cmd_call *c, const char *file, const char *text) { warn_of(c, file, text, false); }
+void message_warning(struct cmd_call *c, const char *file, const char *text) { warn_of(c, file, text, false); }
 
-void tell_stimulus_warning(struct cmd_call *c, const char *stimulus, const char *text)
+void message_stimulus_warning(struct cmd_call *c, const char *stimulus, const char *text)
 {
     warn_of(c, stimulus, text, true);
 }
 
-void tell_remark(struct cmd_call *c, const char *command, const char *text)
+void message_remark(struct cmd_call *c, const char *command, const char *text)
 {
     text = text_shown(c->arena, text);
     if (of(c)->json)
         warn_json(&(struct warning){.text = text, .files = &(const char *){NULL}, .n = 1});
     else
-        tell_paint(stderr, arena_format(c->arena, "rasp %s: warning: %s\n", command, text));
+        message_paint(stderr, arena_format(c->arena, "rasp %s: warning: %s\n", command, text));
 }
 
-void tell_group(struct cmd_call *c) { of(c)->group = true; }
+void message_group(struct cmd_call *c) { of(c)->group = true; }
 
-void tell_end(struct cmd_call *c)
+void message_end(struct cmd_call *c)
 {
-    for (const struct warning *w = c->tell ? c->tell->warnings : NULL; w; w = w->next)
+    for (const struct warning *w = c->messages ? c->messages->warnings : NULL; w; w = w->next)
         warn(c, w);
-    if (c->tell) c->tell->warnings = NULL;
+    if (c->messages) c->messages->warnings = NULL;
 }

@@ -9,8 +9,8 @@
    "stimulus", its name, a warning of several "stimuli". A file that another names has "named_at", the places of its
    name, the nearest first. A warning of several scenes has "files". What is wrong with the command line itself has no
    file; where no command is known yet it is told as text. */
-#ifndef CMD_TELL_H
-#define CMD_TELL_H
+#ifndef CMD_MESSAGE_H
+#define CMD_MESSAGE_H
 #include <jansson.h>
 
 #include "base/arena.h"
@@ -20,41 +20,39 @@
 #include <stdio.h>
 
 /* Heeds --diagnostics. ERR_USAGE */
-bool tell_begin(struct cmd_call *c, struct err *e);
+bool message_begin(struct cmd_call *c, struct err *e);
 
 /* As though --diagnostics=json had been read already: what is wrong with the command line is told so, too. */
-void tell_as_json(struct cmd_call *c);
+void message_as_json(struct cmd_call *c);
 
 /* The errors in a scene's text; messages: the same as text. */
-void tell_scene(struct cmd_call *c, const struct diag *d, const char *messages, enum err_kind kind);
+void message_scene(struct cmd_call *c, const struct diag *d, const char *messages, enum err_kind kind);
 
-/* An error by itself, in text "rasp COMMAND: error: ...". After tell_scene, JSON has nothing to add to what that told.
- */
-void tell_error(struct cmd_call *c, const char *command, const struct err *e);
+/* An error by itself, in text "rasp COMMAND: error: ...". After message_scene, JSON has nothing to add. */
+void message_error(struct cmd_call *c, const char *command, const struct err *e);
 
 /* The error of one stimulus of a set, in text "rasp COMMAND: error: STIMULUS: text", in JSON with the key "stimulus".
-   Its place is the text's beginning, "design.yaml:3:7: ..."; where there is none, JSON says `file` (NULL: not known).
- */
-void tell_stimulus(struct cmd_call *c, const char *command, const char *stimulus, const char *file,
-                   const struct err *e);
+   Its place is the text's beginning, "design.yaml:3:7: ..."; where there is none, JSON says `file` (NULL: unknown). */
+void message_stimulus(struct cmd_call *c, const char *command, const char *stimulus, const char *file,
+                      const struct err *e);
 
-/* A warning about a file. Where several scenes are processed (tell_group) it waits, so that one that many scenes have
-   is told once, at the end; in text also one that they have with other numbers, which are the first one's. */
-void tell_warning(struct cmd_call *c, const char *file, const char *text);
+/* A warning about a file. Where several scenes are processed (message_group) it waits, so that one that many scenes
+   have is told once, at the end; in text also one that they have with other numbers, which are the first one's. */
+void message_warning(struct cmd_call *c, const char *file, const char *text);
 /* The same about a stimulus of a set: in JSON the name is its "stimulus", of several "stimuli". */
-void tell_stimulus_warning(struct cmd_call *c, const char *stimulus, const char *text);
+void message_stimulus_warning(struct cmd_call *c, const char *stimulus, const char *text);
 /* The same about what a command does, at once: "rasp COMMAND: warning: text". */
-void tell_remark(struct cmd_call *c, const char *command, const char *text);
-void tell_group(struct cmd_call *c);
-void tell_end(struct cmd_call *c);
+void message_remark(struct cmd_call *c, const char *command, const char *text);
+void message_group(struct cmd_call *c);
+void message_end(struct cmd_call *c);
 
 /* What would be told of errors is kept from here on, an array of objects as above, until it is taken. */
-void tell_keep(struct cmd_call *c);
-json_t *tell_kept(struct cmd_call *c);
+void message_collect(struct cmd_call *c);
+json_t *message_collected(struct cmd_call *c);
 
 /* Prints messages as base/diag.h lays them out, in colours if they are wanted: the words error: and warning:, the line
  * of carets, help:. */
-void tell_paint(FILE *f, const char *lines);
+void message_paint(FILE *f, const char *lines);
 
 struct warning {
     const char *text, **files; /* of the first; files [n] that have it */
@@ -67,6 +65,6 @@ struct warning {
 /* A warning about a file goes to what tells the same already; else, unless only exactly the same counts, to what tells
    it of other files with other numbers (those that stand by themselves: not of names); else to the end. Texts are not
    copied. What tells it. */
-struct warning *tell_add(struct warning **all, const char *file, const char *text, bool exact, struct arena *a);
+struct warning *message_add(struct warning **all, const char *file, const char *text, bool exact, struct arena *a);
 
 #endif
