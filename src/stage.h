@@ -158,7 +158,7 @@ struct stage_run { /* one stage at work */
     int back, ahead;   /* frames read around a frame; set by open     */
     long ends;         /* from this frame on it gives zeros only; LONG_MAX, unless open sets it */
     long offset, done; /* the runner's: lead, and frames done         */
-    long limit;        /* the runner's: until when it works (run_limits.h) */
+    long limit;        /* the runner's: until when it works (run.c) */
     double seconds;    /* CPU time spent                              */
     size_t bytes;      /* memory taken                                */
     long blocks;       /* calls of run                                */

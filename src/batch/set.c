@@ -20,7 +20,7 @@
 #include "output/loudness.h"
 #include "output/sound.h"
 #include "pipeline/outputs.h"
-#include "pipeline/plan_scene.h"
+#include "pipeline/plan.h"
 #include "response/modes.h"
 #include "scene/keys_yaml.h"
 #include "scene/scene_places.h"

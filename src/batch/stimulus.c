@@ -20,7 +20,7 @@
 #include "pipeline/inputs.h"
 #include "pipeline/outputs.h"
 #include "pipeline/render.h"
-#include "pipeline/written.h"
+#include "pipeline/summary.h"
 #include "response/modes.h"
 #include "scene/scene_places.h"
 
@@ -292,7 +292,7 @@ static struct record of_render(const struct work *w, const struct render_report 
     r.channels = sound_format(s, report->frames).channels;
     r.unit = report->quantity >= 0 ? modes_quantity_unit(report->quantity) : NULL;
     r.gain = report->sound.gain, r.ramp = report->sound.ramp;
-    r.beyond = report->sounds ? written_sound(report)->written->beyond : NAN;
+    r.beyond = report->sounds ? summary_sound(report)->written->beyond : NAN;
     r.render = report->summary;
     r.warnings = ARENA_TAKE(w->arena, const char *, report->n_warnings + 1);
     for (int k = 0; k < report->n_warnings; k++)
@@ -489,9 +489,9 @@ static void add_warnings(const struct work *w, const struct made *m, struct reco
     for (int k = 0; k < n; k++)
         all[k] = r->warnings[k];
     for (int k = 0; k < m->n; k++) {
-        const char *texts[2] = {r->peak > 0 ? written_silent(&w->scene, &m->files[k], r->gain * r->peak, w->arena)
+        const char *texts[2] = {r->peak > 0 ? summary_silent(&w->scene, &m->files[k], r->gain * r->peak, w->arena)
                                             : NULL,
-                                written_beyond(&w->scene, &m->files[k], w->arena)};
+                                summary_beyond(&w->scene, &m->files[k], w->arena)};
         for (int t = 0; t < 2; t++) {
             bool known = !texts[t];
             for (int i = 0; i < n && !known; i++)
@@ -523,9 +523,9 @@ static const char *render_text(const struct work *w, const struct made *m, const
         json_array_foreach(json_object_get(j, "files"), i, file)
         {
             const char *listed = json_string_value(json_object_get(file, "name"));
-            if (listed && !strcmp(listed, name)) written_tell(&m->files[k], file);
+            if (listed && !strcmp(listed, name)) summary_written(&m->files[k], file);
         }
-        if (!m->files[k].stem) written_tell(&m->files[k], sound);
+        if (!m->files[k].stem) summary_written(&m->files[k], sound);
     }
     char *text = json_dumps(j, JSON_REAL_PRECISION(17) | JSON_ENSURE_ASCII);
     const char *whole = arena_text(w->arena, text ? text : "{}");

@@ -27,7 +27,7 @@
 #include "output/gnuplot.h"
 #include "output/mark.h"
 #include "pipeline/outputs.h"
-#include "pipeline/plan_scene.h"
+#include "pipeline/plan.h"
 #include "pipeline/promise.h"
 #include "scene/accuracy.h"
 #include "scene/keys.h"

@@ -14,7 +14,7 @@
 #include "cmd/message.h"
 #include "cmd/report.h"
 #include "num/resample.h"
-#include "pipeline/plan_scene.h"
+#include "pipeline/plan.h"
 #include "pipeline/promise.h"
 #include "scene/scene_places.h"
 

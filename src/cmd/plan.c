@@ -7,7 +7,6 @@
 #include "cmd/message.h"
 #include "cmd/report.h"
 #include "pipeline/plan.h"
-#include "pipeline/plan_scene.h"
 #include "pipeline/promise.h"
 #include "scene/ablation.h"
 #include "scene/keys.h"

@@ -13,7 +13,7 @@
 #include "cmd/cmd.h"
 #include "cmd/message.h"
 #include "pipeline/outputs.h"
-#include "pipeline/plan_scene.h"
+#include "pipeline/plan.h"
 #include "pipeline/render.h"
 #include "scene/accuracy.h"
 #include "scene/keys.h"

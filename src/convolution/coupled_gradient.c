@@ -16,16 +16,347 @@
    work of the surface and of the moving place, loss in the contact (never negative: f > DV when closing, f < DV when
    parting) and in the modes. So nothing gains energy, however large h is; of second order in h.
 
-   The step's equation is solved in coupled_pinch.c.
-
-   Modes (coupled_chorus.c): what a step's force does two steps on is known beforehand (`reply`), so that the modes are
+   Modes: what a step's force does two steps on is known beforehand (`reply`), so that the modes are
    one step behind the ball: a step's pass over them runs while the next step's force, a chain of about 150 cycles of
    latency, is looked for. */
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
-#include "convolution/coupled_chorus.h"
-#include "convolution/coupled_pinch.h"
+#include "convolution/coupled_parts.h"
+#include "force/hertz.h"
 #include "num/real.h"
+
+/* The force of one step, with which the step ends where the force says:
+
+     xi+ = A - B f(xi+),  f = DV max(0, 1 + mu (xi+ - xi) / h),  DV = (V(xi+) - V(xi)) / (xi+ - xi),  V = (2/5) k max(0,
+       xi)^2.5,
+
+   A the penetration without force, m; B > 0 what 1 N takes off it. V is convex, so f never falls as xi+ rises and there
+   is one root. Only + - * / sqrt. */
+
+struct coupled_pinch {
+    double stiffness;   /* (2/5) k                                   */
+    double rate;        /* mu / h                                    */
+    double from, root;  /* xi and, if it is above 0, its square root; 0 */
+    double to, to_root; /* xi+                                       */
+    double gradient, force;
+    int passes;
+};
+
+/* The same in pieces for steps in contact, so that who has other work can lay it between: each piece is a chain of 30
+   to 60 cycles' latency. Where coupled_pinch_stays, x = coupled_pinch_first, then x = coupled_pinch_pass, then
+   coupled_pinch_close, or, where that says no, coupled_pinch_on. */
+
+/* Are both penetrations above 0? f(0) = (2/5) k xi^1.5 max(0, least). */
+static inline bool coupled_pinch_stays(const struct coupled_pinch *k, double a, double b)
+{
+    double least = 1 - k->rate * k->from;
+    return k->from > 0 && a > (least > 0 ? b * k->stiffness * k->from * k->root * least : 0);
+}
+
+static inline double coupled_pinch_first(const struct coupled_pinch *k, double guess)
+{
+    return guess > 0 ? sqrt(guess) : k->root;
+}
+
+/* The polynomial in b = sqrt(xi+) at x, by Halley's method (of third order): what x has to be lowered by; NAN where the
+ * force would be cut off. */
+static inline double coupled_pinch_pass(const struct coupled_pinch *k, double a, double b, double x)
+{
+    const double r = k->root, square = k->from, cube = square * r, kb = k->stiffness * b, rate = k->rate;
+    double xx = x * x, s = x + r, factor = 1 + rate * (xx - square), n = xx * (xx + r * x + square) + cube * s;
+    double n1 = x * (4 * xx + 3 * r * x + 2 * square) + cube, n2 = 12 * xx + 6 * r * x + 2 * square;
+    double off = (xx - a) * s + kb * n * factor;
+    double slope = 2 * x * s + (xx - a) + kb * (n1 * factor + 2 * rate * n * x);
+    double bend = 2 * (s + 2 * x) + kb * (n2 * factor + 2 * rate * (2 * n1 * x + n)); /* off's second derivative */
+    return factor > 0 ? off * slope / (slope * slope - 0.5 * off * bend) : NAN;
+}
+
+/* x: after the pass that lowered it by change. When that moved it by less than 2^-18 of itself the next one would be
+ * below the rounding. False: not settled. */
+static inline bool coupled_pinch_close(struct coupled_pinch *k, double x, double change)
+{
+    const double r = k->root, square = k->from, cube = square * r;
+    if (!(x > 0) || !(fabs(change) <= 0x1p-18 * x)) return false;
+    double xx = x * x, factor = 1 + k->rate * (xx - square);
+    k->gradient = k->stiffness * (xx * (xx + r * x + square) + cube * (x + r)) / (x + r);
+    k->force = k->gradient * factor;
+    k->to = xx;
+    k->to_root = x;
+    return factor > 0;
+}
+
+/* Four cases:
+
+     xi <= 0, A <= 0          free flight, f = 0;
+     xi > 0, xi+ <= 0         lift-off: with y = xi - xi+ a quadratic, y^2 - (xi - A - B V mu / h) y = B V;
+     xi > 0, xi+ > 0          with a = sqrt(xi), b = sqrt(xi+): DV is a polynomial over a + b (force/hertz.h);
+                              times a + b a
+                              polynomial in b, by Halley's method from the force's continuation by a parabola: one
+                                division a pass, no root;
+     else (landings; what that does not settle) Newton's method in xi+, kept between 0 and A by halving. */
+enum { HALLEY = 8, PASSES = 60 }; /* most passes of Halley's method; of Newton's and halving */
+
+/* Force at xi+ and, in *slope, its derivative. Not both penetrations <= 0. */
+static double force_at(struct coupled_pinch *k, double to, double *slope)
+{
+    double steep, b = to > 0 ? sqrt(to) : 0, a = k->root;
+    if (k->from > 0 && to > 0) {
+        double s = a + b;
+        k->gradient = k->stiffness * hertz_mean_quartic(a, b, k->from, to) / s;
+        steep = k->stiffness / 2 * (b * (b * (3 * b + 6 * a) + 4 * a * a) + 2 * a * a * a) / (s * s);
+    } else if (to > 0) {
+        k->gradient = k->stiffness * to * to * b / (to - k->from);
+        steep = (2.5 * k->stiffness * to * b - k->gradient) / (to - k->from);
+    } else {
+        k->gradient = k->stiffness * k->from * k->from * a / (k->from - to);
+        steep = k->gradient / (k->from - to);
+    }
+    double factor = 1 + k->rate * (to - k->from);
+    k->to = to;
+    k->to_root = b;
+    if (!(factor > 0)) {
+        *slope = 0;
+        return k->force = 0;
+    }
+    *slope = steep * factor + k->gradient * k->rate;
+    return k->force = k->gradient * factor;
+}
+
+/* The root between 0 and A, to the rounding of either side. The equation's left side is convex, so Newton's method
+   comes down to it from A; should rounding turn it round, halving goes on: a step is taken as long as it stays between
+   and at least halves the last one. */
+static bool search(struct coupled_pinch *k, double a, double b)
+{
+    double low = 0, high = a, at = a, last = 2 * a, slope;
+    double enough = 2 * DBL_EPSILON * (fabs(a) + fabs(k->from));
+    for (int pass = 0; pass < PASSES; pass++) {
+        k->passes++;
+        double off = at - a + b * force_at(k, at, &slope);
+        if (fabs(off) <= enough) return true;
+        *(off > 0 ? &high : &low) = at;
+        double step = off / (1 + b * slope), next = at - step;
+        if (fabs(step) <= 8 * DBL_EPSILON * (at + fmax(k->from, 0))) return true;
+        if (!(next > low && next < high && fabs(step) <= 0.5 * last)) next = low + 0.5 * (high - low);
+        if (next == low || next == high) return true;
+        last = fabs(next - at);
+        at = next;
+    }
+    return false;
+}
+
+/* xi+ <= 0 < xi; f (xi - xi+) = V(xi) max(0, 1 - mu (xi - xi+) / h). */
+static void part(struct coupled_pinch *k, double a, double b)
+{
+    double v = k->stiffness * k->from * k->from * k->root, half = (k->from - a - b * v * k->rate) / 2;
+    double wide = sqrt(half * half + b * v), y = half > 0 ? half + wide : b * v / (wide - half), slope;
+    if (1 - k->rate * y <= 0) y = k->from - a;
+    force_at(k, fmin(k->from - y, 0), &slope);
+    k->passes++;
+}
+
+/* From an x that is not settled after k->passes passes. */
+static bool coupled_pinch_on(struct coupled_pinch *k, double a, double b, double x)
+{
+    while (x > 0 && k->passes < HALLEY) {
+        double change = coupled_pinch_pass(k, a, b, x);
+        x -= change;
+        k->passes++;
+        if (coupled_pinch_close(k, x, change)) return true;
+    }
+    return search(k, a, b);
+}
+
+/* Fills to, to_root, gradient (DV), force and passes; guess: of xi+, where both are in contact. False: no root found,
+ * or a value is not finite. */
+static bool coupled_pinch(struct coupled_pinch *k, double a, double b, double guess)
+{
+    k->passes = 0;
+    if (coupled_pinch_stays(k, a, b)) return coupled_pinch_on(k, a, b, coupled_pinch_first(k, guess));
+    if (k->from > 0) {
+        part(k, a, b);
+        return true;
+    }
+    if (a > 0) return search(k, a, b);
+    k->to = a;
+    k->to_root = k->gradient = k->force = 0;
+    return true;
+}
+
+/* What the modes under a ball say in a step, all of them together: loops over modes, eight lanes
+   at a time, with the same bits on every CPU.
+
+   With swing P = h p / 2 a step is d = turn P - pull q + push phibar f, q += d, P = d - P; so two steps without a force
+   take q to stay q + carry P, stay = (1 - pull)^2 - turn pull, carry = turn (turn - pull). Places are counted in steps
+   of a run, in which phi is straight: phi after `on` steps is phi + on slant. */
+
+struct coupled_chorus {
+    double next,
+        later; /* sum phi q at the end of the step to come, and of the one after it, as if no force acted in either */
+    double place; /* sum slant q */
+    struct coupled_voices {
+        _Alignas(64) double lost[LANES];                 /* J, of the steps that have ended since begin */
+        double later[LANES], slope[LANES], place[LANES]; /* of the pieces that have been gone through   */
+    } lanes;
+};
+
+/* The modes' answers to 1 N as polynomials of the step's number (coupled_chorus_along). */
+struct coupled_answers {
+    double press[3]; /* sum push phi^2, push phi slant, push slant^2: sum phi+ q+ per N of the step */
+    double reply[3]; /* the same of (1 + turn - pull) push: one step later                          */
+};
+
+/* sum push (phi + to slant) (phi + middle slant), and so on. */
+static inline double coupled_chorus_along(const double *c, double to, double middle)
+{
+    return c[0] + (to + middle) * c[1] + to * middle * c[2];
+}
+
+/* What advance would end the step with, nothing being moved. */
+struct coupled_look {
+    double energy, lost, place; /* J of the modes; J in that step and those before it; sum slant q */
+};
+
+/* Added in pairs: a tree is three additions deep, a row seven. */
+static inline double coupled_chorus_sum(const double *s)
+{
+    return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+}
+
+static inline void coupled_chorus_open(struct coupled_chorus *sum)
+{
+    memset(sum->lanes.later, 0, sizeof sum->lanes.later);
+    memset(sum->lanes.slope, 0, sizeof sum->lanes.slope);
+    memset(sum->lanes.place, 0, sizeof sum->lanes.place);
+}
+
+/* lean: bar force. 11 multiplications and 10 additions a mode; for callers that are LANES_CLONES. The lanes go to
+   memory as a whole: gcc takes those of a local struct apart, and putting them together again costs 30 cycles. */
+static inline __attribute__((always_inline)) void coupled_chorus_some(const struct coupled_modes *m, const int some[2],
+                                                                      double force, double lean,
+                                                                      struct coupled_voices *to)
+{
+    double lost[LANES], later[LANES], slope[LANES], place[LANES];
+    memcpy(lost, to->lost, sizeof lost);
+    memcpy(later, to->later, sizeof later);
+    memcpy(slope, to->slope, sizeof slope);
+    memcpy(place, to->place, sizeof place);
+    double *restrict q = m->q, *restrict swing = m->swing, *restrict ahead = m->ahead;
+    const double *restrict phi = m->phi, *restrict slant = m->slant, *restrict turn = m->turn, *restrict pull = m->pull;
+    const double *restrict thrust = m->thrust, *restrict tilt = m->tilt, *restrict drain = m->drain,
+                           *restrict stay = m->stay, *restrict carry = m->carry;
+    for (int i = some[0]; i < some[1]; i += LANES)
+#pragma omp simd
+        for (int l = 0; l < LANES; l++) {
+            double d = ahead[i + l] + (thrust[i + l] * force + tilt[i + l] * lean);
+            double x = q[i + l] + d, s = d - swing[i + l], far = stay[i + l] * x + carry[i + l] * s;
+            q[i + l] = x;
+            swing[i + l] = s;
+            ahead[i + l] = turn[i + l] * s - pull[i + l] * x;
+            lost[l] += drain[i + l] * (d * d);
+            place[l] += slant[i + l] * x;
+            later[l] += phi[i + l] * far;
+            slope[l] += slant[i + l] * far;
+        }
+    memcpy(to->lost, lost, sizeof lost);
+    memcpy(to->later, later, sizeof later);
+    memcpy(to->slope, slope, sizeof slope);
+    memcpy(to->place, place, sizeof place);
+}
+
+static inline __attribute__((always_inline)) void coupled_chorus_close(struct coupled_chorus *sum, double on)
+{
+    const struct coupled_voices *v = &sum->lanes;
+    double later[LANES];
+#pragma omp simd
+    for (int l = 0; l < LANES; l++)
+        later[l] = v->later[l] + on * v->slope[l];
+    sum->later = coupled_chorus_sum(later);
+    sum->place = coupled_chorus_sum(v->place);
+}
+
+/* Bits do not depend on the instruction set: sums run over LANES accumulators and then in one
+ * tree. */
+/* Of the steps to phi_to (NULL: phi stays); sets slant. */
+LANES_CLONES
+static void coupled_chorus_answers(const struct coupled_modes *m, int steps, const double *phi_to,
+                                   struct coupled_answers *to)
+{
+    double press[3][LANES] = {{0}}, reply[3][LANES] = {{0}}, share = 1.0 / steps;
+    double *restrict slants = m->slant, *restrict thrust = m->thrust, *restrict tilt = m->tilt;
+    const double *end = phi_to ? phi_to : m->phi;
+    for (int i = 0; i < m->padded; i += LANES)
+#pragma omp simd
+        for (int l = 0; l < LANES; l++) {
+            double phi = m->phi[i + l], slant = (end[i + l] - phi) * share, push = m->push[i + l];
+            double later = (1 + m->turn[i + l] - m->pull[i + l]) * push;
+            slants[i + l] = slant;
+            thrust[i + l] = push * phi;
+            tilt[i + l] = push * slant;
+            press[0][l] += push * (phi * phi);
+            press[1][l] += push * (phi * slant);
+            press[2][l] += push * (slant * slant);
+            reply[0][l] += later * (phi * phi);
+            reply[1][l] += later * (phi * slant);
+            reply[2][l] += later * (slant * slant);
+        }
+    for (int k = 0; k < 3; k++) {
+        to->press[k] = coupled_chorus_sum(press[k]);
+        to->reply[k] = coupled_chorus_sum(reply[k]);
+    }
+}
+
+/* From step `on - 1` of the run, whose ends are known. */
+LANES_CLONES
+static void coupled_chorus_begin(const struct coupled_modes *m, double on, struct coupled_chorus *sum)
+{
+    double next[LANES] = {0}, later[LANES] = {0}, place[LANES] = {0};
+    double *restrict ahead = m->ahead;
+    for (int i = 0; i < m->padded; i += LANES)
+#pragma omp simd
+        for (int l = 0; l < LANES; l++) {
+            double x = m->q[i + l], v = m->swing[i + l], phi = m->phi[i + l], slant = m->slant[i + l];
+            double free = m->turn[i + l] * v - m->pull[i + l] * x, far = m->stay[i + l] * x + m->carry[i + l] * v;
+            place[l] += slant * x;
+            ahead[i + l] = free;
+            next[l] += (phi + on * slant) * (x + free);
+            later[l] += (phi + (on + 1) * slant) * far;
+        }
+    *sum = (struct coupled_chorus){
+        .next = coupled_chorus_sum(next), .later = coupled_chorus_sum(later), .place = coupled_chorus_sum(place)};
+}
+
+/* Ends a step whose force is known (bar: its middle) and goes ahead by two (on: the end of the second): that is
+   coupled_chorus_open, _some from 0 to padded, in pieces of whole LANES, and _close. */
+LANES_CLONES
+static void coupled_chorus_advance(const struct coupled_modes *m, double bar, double on, double force,
+                                   struct coupled_chorus *sum)
+{
+    coupled_chorus_open(sum);
+    coupled_chorus_some(m, (int[]){0, m->padded}, force, bar * force, &sum->lanes);
+    coupled_chorus_close(sum, on);
+}
+
+/* step: s */
+LANES_CLONES
+static struct coupled_look coupled_chorus_look(const struct coupled_modes *m, double bar, double force, double step,
+                                               const struct coupled_chorus *sum)
+{
+    double energy[LANES] = {0}, place[LANES] = {0}, lost[LANES], rate = 2 / step;
+    memcpy(lost, sum->lanes.lost, sizeof lost);
+    for (int i = 0; i < m->padded; i += LANES)
+#pragma omp simd
+        for (int l = 0; l < LANES; l++) {
+            double d = m->ahead[i + l] + (m->thrust[i + l] * force + m->tilt[i + l] * (bar * force)),
+                   x = m->q[i + l] + d, p = (d - m->swing[i + l]) * rate;
+            lost[l] += m->drain[i + l] * (d * d);
+            place[l] += m->slant[i + l] * x;
+            energy[l] += 0.5 * (m->inertia[i + l] * p * p + m->spring[i + l] * x * x);
+        }
+    return (struct coupled_look){coupled_chorus_sum(energy), coupled_chorus_sum(lost), coupled_chorus_sum(place)};
+}
 
 #define INLINE static inline __attribute__((always_inline))
 

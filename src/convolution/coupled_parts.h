@@ -27,7 +27,7 @@ struct coupled_modes {
     double *square;            /* [padded] |s|^2 = decay^2 + (2 pi frequency)^2; 1 in the padding           */
     double *inertia, *spring;  /* [padded] energy of a mode is (inertia p^2 + spring q^2) / 2: 1 and |s|^2, unless the
                                   integrator has its own */
-    /* The discrete gradient's own (coupled_gradient.c and coupled_chorus.h say what they are). */
+    /* The discrete gradient's own (coupled_gradient.c and coupled_gradient.c say what they are). */
     double *turn, *pull, *push, *drain; /* [padded] coefficients of a step                                          */
     double *stay, *carry;               /* [padded] the same of q two steps without a force: stay q + carry P       */
     double *thrust, *tilt;              /* [padded] push phi, push slant                                            */

@@ -56,7 +56,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "convolution/resonator_group.h"
+#include "convolution/resonators.h"
 #include "num/lanes.h"
 #include "num/real.h"
 #include "num/scaled.h"
@@ -700,7 +700,7 @@ static void run_some(struct launch *l, const double *f, double *y, int n)
         v->awake = v->awake || force;
         for (int k = 0; k < l->groups; k++)
             l->active[k] = &v->group[k];
-        if (v->awake) resonator_group_ring(l->active, l->groups, share[q], l->sums + from, n, RESONATOR_STEADY);
+        if (v->awake) resonators_ring(l->active, l->groups, share[q], l->sums + from, n, RESONATOR_STEADY);
     }
     for (int j = 0; j < n; j++) {
         double sum = lanes_sum(l->sums[from + j]);

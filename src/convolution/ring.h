@@ -15,7 +15,7 @@ struct ring_voice { /* one listening place */
     long delay;                /* frames by which it is heard later */
     double *frequency, *decay; /* [n] poles; those at the last place asked for, when they move */
     struct modes_point end;    /* work space */
-    struct ring_alias *alias;  /* what sampling folds in (ring_alias.h) */
+    struct ring_alias *alias;  /* what sampling folds in (ring.c) */
 };
 
 struct ring {

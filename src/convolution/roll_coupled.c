@@ -7,7 +7,7 @@
 
    Steps. Each sub-interval of the force is K of them, K = ceil(contact_steps / (t_c rate oversampling)), t_c =
    coupled_contact_time of the stiffness and mass at the greatest of: the speed of the drop, sqrt(2 g h); 5 cm/s, the
-   fastest of the impacts of papers/002, fig. 7; and the greatest |ds/dt| met where the curve is scouted (roll_curve.h).
+   fastest of the impacts of papers/002, fig. 7; and the greatest |ds/dt| met where the curve is scouted (roll_coupled.c).
    s is read once for the end of each step, in order; the shapes of what gives way as roll_ground.h says.
 
    The start. Dropped, the ball is at rest in the air, `drop` clear of the ground, whose modes are at rest, too: on
@@ -19,16 +19,77 @@
 #include <math.h>
 
 #include "convolution/coupled.h"
-#include "convolution/roll_curve.h"
 #include "convolution/roll_ground.h"
-#include "force/hertz.h"
 #include "force/approach.h"
+#include "force/hertz.h"
 #include "num/real.h"
 #include "scene/ball.h"
 #include "scene/rules.h"
 #include "stage.h"
 #include "surface/relief.h"
+#include "trajectory/spin.h"
 #include "trajectory/trajectory.h"
+
+/* The curve under a rolling ball: s(t) = z + bulge + rise at the motion's place.
+
+   z is the surface as the ball meets it (surface/tip.c: the rolling curve of papers/002, fig. 1), rise = -r cos(theta)
+   that of the centre of mass over the geometric centre, bulge that of the rim (trajectory/spin.h): the ball's lowest
+   point is at w - R - rise - bulge, w the height of the centre of mass, so that with w counted from R it dips into the
+   surface by xi = s - w. */
+
+struct roll_curve {
+    const struct board *board;
+    struct spin spin;
+    bool turns;                            /* the ball is not quite round, or its centre of mass is off */
+    double *t, *s;                         /* [room] s: instants since the contact's start, m            */
+    double *u, *du, *x, *y, *rise, *bulge; /* [room] work                                   */
+};
+
+enum { ROLL_CURVE_LEAST = 1024 };
+
+enum { STRETCHES = 16 };
+
+/* r: of a stage whose relief and motion are on the board; for up to `room` >= ROLL_CURVE_LEAST instants at a time. */
+static void roll_curve_make(struct roll_curve *c, const struct stage_run *r, long room)
+{
+    double **all[] = {&c->t, &c->s, &c->u, &c->du, &c->x, &c->y, &c->rise, &c->bulge};
+    *c = (struct roll_curve){.board = r->board,
+                             .spin = spin_make(r->contact),
+                             .turns = r->contact->ball.offset != 0 || r->contact->ball.lobe_height != 0};
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+        *all[k] = ARENA_TAKE(r->arena, double, room);
+}
+
+/* s at the n instants in c->t. */
+static void roll_curve_read(const struct roll_curve *c, size_t n)
+{
+    const struct relief *z = c->board->relief;
+    bool path = z->along == ALONG_PATH, plane = z->along == ALONG_PLANE;
+    trajectory_at(c->board->trajectory, n, c->t,
+                  (struct trajectory_out){.u = c->u, .du = c->du, .x = path ? NULL : c->x, .y = plane ? c->y : NULL});
+    relief_at(z, &(struct relief_points){n, path ? c->u : c->x, plane ? c->y : NULL},
+              &(struct relief_values){.z = c->s});
+    if (!c->turns) return;
+    spin_at(&c->spin, n, c->u, c->du, NULL, &(struct spin_out){.rise = c->rise, .bulge = c->bulge});
+    for (size_t i = 0; i < n; i++)
+        c->s[i] += c->bulge[i] + c->rise[i];
+}
+
+/* The greatest |ds/dt| met, m/s: differences over sub-intervals, in 16 stretches of 1024 instants spread evenly over
+   the motion, or one of a short one. */
+static double roll_curve_fastest(const struct roll_curve *c)
+{
+    const struct board *b = c->board;
+    double dt = 1 / (b->rate * b->over), room = b->trajectory->duration - dt * (ROLL_CURVE_LEAST - 1), fastest = 0;
+    for (int k = 0; k < STRETCHES && (k == 0 || room > 0); k++) {
+        for (int i = 0; i < ROLL_CURVE_LEAST; i++)
+            c->t[i] = fmax(room, 0) * k / (STRETCHES - 1) + i * dt;
+        roll_curve_read(c, ROLL_CURVE_LEAST);
+        for (int i = 1; i < ROLL_CURVE_LEAST; i++)
+            fastest = fmax(fastest, fabs(c->s[i] - c->s[i - 1]) / dt);
+    }
+    return fastest;
+}
 
 #define PAPER_SPEED 0.05   /* m/s */
 #define DEEP 0.1           /* of the radius: a rest deeper than that is told */

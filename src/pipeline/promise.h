@@ -7,7 +7,7 @@
 
    e of gain_ramp   the sound of the whole motion at halved values against each other (promise_curve.h), all else at
                     `draft`
-   e of steps       rehearsed on excerpts of the motion, up to the force, at doubled values (excerpts.h), and weighed by
+   e of steps       rehearsed on excerpts of the motion, up to the force, at doubled values (segments.h), and weighed by
                     what of the force is heard */
 #ifndef PIPELINE_PROMISE_H
 #define PIPELINE_PROMISE_H

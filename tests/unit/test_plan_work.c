@@ -2,7 +2,7 @@
  * that is not given is NAN. */
 #include <dirent.h>
 
-#include "pipeline/render_parts.h"
+#include "pipeline/render.h"
 #include "rig.h"
 #include "scene/keys.h"
 

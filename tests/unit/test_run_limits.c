@@ -5,7 +5,7 @@
 
 #include "output/force_table.h"
 #include "output/impact_rows.h"
-#include "pipeline/plan_scene.h"
+#include "pipeline/plan.h"
 #include "rig.h"
 #include "scene/accuracy.h"
 

@@ -1,7 +1,7 @@
-/* Energy of the sound of a stretch of force F, heard by the power |H|^2 (audible.h):
+/* Energy of the sound of a stretch of force F, heard by the power |H|^2 (segments.h):
 
      E = weight  sum over windows, bins of |FFT(w F)|^2 |H|^2 / N        w = sin^2(pi (n + 1/2) / N), N =
-       EXCERPTS_WINDOW
+       SEGMENTS_WINDOW
 
    A stretch of one window is one window; a longer one is cut into windows that overlap by half. The squares of w have a
    mean of 3/8: that is what weights undo.
@@ -10,21 +10,128 @@
    of n - 1 equal parts of it, not at equal distances (a motion repeats itself); each stands for as much time as the
    spread says. So a rest at the beginning is not mistaken for the motion, and the ratio of two energies is that of the
    motion as a whole. */
-#include "pipeline/excerpts.h"
+#include "pipeline/segments.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/arena.h"
+#include "base/err.h"
+#include "convolution/ring_choice.h"
 #include "num/fft.h"
 #include "num/real.h"
 #include "pipeline/run.h"
 #include "pipeline/stages.h"
+#include "scene/rules.h"
+#include "scene/scene.h"
 #include "trajectory/trajectory.h"
 
 enum { GRID = 1024, SETTLED = 64 };
 
 #define TAPERED 0.375 /* mean of w^2 */
+
+/* What of a contact's force is heard: the power of its sound over that of the force, by frequency. */
+
+/* power[AUDIBLE_BINS] of the contact's sound at a place (m) that is touched and left: its response to a unit impulse,
+   all listening places together, of the first AUDIBLE_FRAMES frames (what rings longer is counted less than it rings:
+   all of it, by the same bands). Where nothing rings, and of a contact whose gain is 0, it is 1: the force itself.
+   Errors: those of plans and stages. */
+enum { AUDIBLE_FRAMES = 16384 };
+
+/* The contact is replaced by a strike far shorter than a sample, and its sound by the scene's own stages: whatever
+   rings (modes, recordings, an object, scraper and surface) and however it is heard needs no second formula here.
+
+     |H(f)|^2 = sum over channels |FFT of the sound|^2 / (sum of the force's samples)^2      means over 1/512 of the
+       band */
+#define SHORT 1e-7   /* s, of the strike */
+enum { FIRST = 64 }; /* frames before it: the decimator's reach and more */
+
+static void strike(struct contact *c, const double place[2], double rate)
+{
+    double mass = 0.01;
+    if (c->surface.response.choice && c->surface.response.choice->moves) c->surface.response.choice = NULL;
+    c->start = 0;
+    c->contact.model = CONTACT_STRIKE;
+    c->contact.strike = (struct strike){.pulse = PULSE_HALF_SINE,
+                                        .speed = 1,
+                                        .stiffness = mass * REAL_PI * REAL_PI / (SHORT * SHORT),
+                                        .first = FIRST / rate,
+                                        .count = 1,
+                                        .interval = NAN,
+                                        .restitution = NAN};
+    c->contact.gesture.given = false;
+    c->scraper.mass = mass;
+    c->motion = (struct motion){
+        .path = PATH_STILL, .at = {place[0], place[1]}, .duration = AUDIBLE_FRAMES / rate, .speed = NAN};
+}
+
+/* One channel's spectrum onto the bands. */
+static void power_add(struct fft *f, const double *x, double *work[2], double *power)
+{
+    enum { WIDE = AUDIBLE_FRAMES / 2 / (AUDIBLE_BINS - 1) };
+    fft_forward(f, x, work[0], work[1]);
+    for (int k = 0; k <= AUDIBLE_FRAMES / 2; k++)
+        power[(k + WIDE / 2) / WIDE] += work[0][k] * work[0][k] + work[1][k] * work[1][k];
+}
+
+/* Sum of the force; sound[channels][AUDIBLE_FRAMES] */
+static bool record(struct run *r, double *sound, double *pushed, struct err *e)
+{
+    int channels = r->board.channels;
+    for (long from = 0; from < AUDIBLE_FRAMES; from += STAGE_BLOCK) {
+        if (!run_block(r, from + STAGE_BLOCK, e)) return false;
+        const double *x = board_at(&r->board, ITEM_SOUND, from), *f = board_at(&r->board, ITEM_FORCE, from);
+        for (long i = 0; i < STAGE_BLOCK; i++) {
+            *pushed += f[i];
+            for (int k = 0; k < channels; k++)
+                sound[k * (long)AUDIBLE_FRAMES + from + i] = x[i * channels + k];
+        }
+    }
+    return true;
+}
+
+static bool measure(struct run *r, struct arena *a, double *power, struct err *e)
+{
+    int channels = r->board.channels;
+    double *sound = ARENA_TAKE(a, double, (size_t)channels *AUDIBLE_FRAMES), pushed = 0;
+    double *work[2] = {ARENA_TAKE(a, double, AUDIBLE_FRAMES / 2 + 1), ARENA_TAKE(a, double, AUDIBLE_FRAMES / 2 + 1)};
+    if (!record(r, sound, &pushed, e)) return false;
+    struct fft *f = fft_open(AUDIBLE_FRAMES);
+    memset(power, 0, AUDIBLE_BINS * sizeof *power);
+    for (int k = 0; k < channels; k++)
+        power_add(f, sound + k * (long)AUDIBLE_FRAMES, work, power);
+    fft_close(f);
+    for (int k = 0; k < AUDIBLE_BINS; k++)
+        power[k] /= pushed * pushed * (k == 0 || k == AUDIBLE_BINS - 1 ? 8.5 : 16);
+    return true;
+}
+
+static bool audible_power(const struct scene *s, const struct contact *c, const double place[2], double *power,
+                          struct err *e)
+{
+    struct scene own = *s;
+    struct contact struck = *c;
+    struct plan p;
+    struct run r;
+    for (int k = 0; k < AUDIBLE_BINS; k++)
+        power[k] = 1;
+    if (s->output.quantity == QUANTITY_FORCE || !rules_rings(c) || c->gain == 0) return true;
+    strike(&struck, place, s->output.sample_rate);
+    own.contacts = &struck;
+    own.n_contacts = 1;
+    own.output.stems = NULL;
+    own.output.diagnostics.given = false;
+    own.output.impacts = LISTING_NONE;
+    struct arena *a = arena_open();
+    bool ok = plan_make(stages_table, &struck, &own, a, &p, e) && run_open(&r, &p, &own, NULL, e);
+    if (ok) {
+        ok = measure(&r, a, power, e);
+        run_close(&r);
+    }
+    arena_close(a);
+    return ok;
+}
 
 /* ------------------------------------------------------------------ which */
 
@@ -37,9 +144,9 @@ static bool anywhere(const struct contact *c)
 }
 
 /* In the order of time; what overlaps another, which stands for it, is left out. */
-static void stretch_add(struct excerpts *x, long from, long frames, double weight)
+static void stretch_add(struct segments *x, long from, long frames, double weight)
 {
-    struct excerpts_stretch s = {.from = from, .frames = frames, .weight = weight};
+    struct segments_stretch s = {.from = from, .frames = frames, .weight = weight};
     for (int i = 0; i < x->n; i++)
         if (labs(x->stretch[i].from - from) < frames) return;
     int at = x->n++;
@@ -64,26 +171,26 @@ static int squares(const struct trajectory *tr, double *sum)
     return fastest;
 }
 
-static void stretch_at(struct excerpts *x, const double *sum, double step, int cell, int parts)
+static void stretch_at(struct segments *x, const double *sum, double step, int cell, int parts)
 {
     double rate = x->scene.output.sample_rate, share = (sum[cell + 1] - sum[cell]) / sum[GRID],
            stands = step / (share * parts);
-    long from = (long)rint((cell + 0.5) * step * rate) - EXCERPTS_WINDOW / 2, last = x->moving - EXCERPTS_WINDOW;
+    long from = (long)rint((cell + 0.5) * step * rate) - SEGMENTS_WINDOW / 2, last = x->moving - SEGMENTS_WINDOW;
     stretch_add(x,
                 from < 0      ? 0
                 : from > last ? last
                               : from,
-                EXCERPTS_WINDOW, stands * rate / (EXCERPTS_WINDOW * TAPERED));
+                SEGMENTS_WINDOW, stands * rate / (SEGMENTS_WINDOW * TAPERED));
 }
 
 /* As many as the motion has windows, twelve times over, so that they cost little of it. */
-static int parts_of(const struct excerpts *x)
+static int parts_of(const struct segments *x)
 {
-    long n = x->moving / (12 * EXCERPTS_WINDOW);
-    return n < EXCERPTS_LEAST ? EXCERPTS_LEAST : n > EXCERPTS_MOST ? EXCERPTS_MOST : (int)n;
+    long n = x->moving / (12 * SEGMENTS_WINDOW);
+    return n < SEGMENTS_LEAST ? SEGMENTS_LEAST : n > SEGMENTS_MOST ? SEGMENTS_MOST : (int)n;
 }
 
-static void choose_spread(struct excerpts *x, const struct trajectory *tr)
+static void choose_spread(struct segments *x, const struct trajectory *tr)
 {
     int parts = parts_of(x);
     double sum[GRID + 1];
@@ -97,23 +204,23 @@ static void choose_spread(struct excerpts *x, const struct trajectory *tr)
     stretch_at(x, sum, tr->duration / GRID, fastest, parts);
 }
 
-static void choose(struct excerpts *x, const struct trajectory *tr, double first)
+static void choose(struct segments *x, const struct trajectory *tr, double first)
 {
     double rate = x->scene.output.sample_rate;
     long some = (long)ceil(first * rate);
-    if (anywhere(&x->contact) && tr->top_speed > 0 && x->moving > 2 * EXCERPTS_LEAST * EXCERPTS_WINDOW) {
+    if (anywhere(&x->contact) && tr->top_speed > 0 && x->moving > 2 * SEGMENTS_LEAST * SEGMENTS_WINDOW) {
         choose_spread(x, tr);
         return;
     }
     if (some > x->moving || anywhere(&x->contact)) some = x->moving;
-    some = some < EXCERPTS_WINDOW ? EXCERPTS_WINDOW : some;
+    some = some < SEGMENTS_WINDOW ? SEGMENTS_WINDOW : some;
     stretch_add(x, 0, some, (double)x->moving / (double)some / (2 * TAPERED));
 }
 
-static void places(struct excerpts *x, const struct trajectory *tr)
+static void places(struct segments *x, const struct trajectory *tr)
 {
     for (int i = 0; i < x->n; i++) {
-        struct excerpts_stretch *s = &x->stretch[i];
+        struct segments_stretch *s = &x->stretch[i];
         double t = ((double)s->from + 0.5 * (double)s->frames) / x->scene.output.sample_rate;
         trajectory_at(tr, 1, &t, (struct trajectory_out){.x = &s->place[0], .y = &s->place[1]});
         x->frames += s->frames;
@@ -121,9 +228,9 @@ static void places(struct excerpts *x, const struct trajectory *tr)
 }
 
 /* One power for all, or of a response that moves, that in the middle of each third of the stretches. */
-static bool hear(const struct scene *s, const struct contact *c, bool moves, struct excerpts *x, struct err *e)
+static bool hear(const struct scene *s, const struct contact *c, bool moves, struct segments *x, struct err *e)
 {
-    int n = moves && x->n >= EXCERPTS_PLACES ? EXCERPTS_PLACES : 1;
+    int n = moves && x->n >= SEGMENTS_PLACES ? SEGMENTS_PLACES : 1;
     for (int k = 0; k < n; k++)
         if (!audible_power(s, c, x->stretch[(2 * k + 1) * x->n / (2 * n)].place, x->power + k * AUDIBLE_BINS, e))
             return false;
@@ -132,18 +239,18 @@ static bool hear(const struct scene *s, const struct contact *c, bool moves, str
     return true;
 }
 
-bool excerpts_make(const struct scene *s, const struct contact *c, double first, bool moves, struct arena *a,
-                   struct excerpts *x, struct err *e)
+bool segments_make(const struct scene *s, const struct contact *c, double first, bool moves, struct arena *a,
+                   struct segments *x, struct err *e)
 {
     struct trajectory tr;
-    *x = (struct excerpts){.lead = SETTLED,
+    *x = (struct segments){.lead = SETTLED,
                            .scene = *s,
                            .contact = *c,
                            .gain = c->gain,
-                           .power = ARENA_TAKE(a, double, EXCERPTS_PLACES *AUDIBLE_BINS)};
+                           .power = ARENA_TAKE(a, double, SEGMENTS_PLACES *AUDIBLE_BINS)};
     if (c->gain == 0) /* it is here for its table, which holds its force as it is */
         x->gain = x->contact.gain = 1;
-    x->contact.contact.enhance.given = false; /* audible.h has it */
+    x->contact.contact.enhance.given = false; /* segments.h has it */
     x->scene.contacts = &x->contact;
     x->scene.n_contacts = 1;
     x->scene.output.quantity = QUANTITY_FORCE;
@@ -180,14 +287,14 @@ static bool run_through(struct run *r, long at, const long range[2], double *to,
 /* Each stretch begins as many frames before as the stages look back, unless what was run last ends there anyway. Where
    it begins the limited trajectory begins, too, and that is felt for a while: so it is where the first, coarsest run
    has it for all, and SETTLED frames more than that needed. */
-static bool run_stretches(struct excerpts *x, struct run *r, double *force, struct err *e)
+static bool run_stretches(struct segments *x, struct run *r, double *force, struct err *e)
 {
     long at = 0;
     for (int i = 0; !x->settled && i < r->n; i++)
         x->lead += r->stages[i].back + r->stages[i].ahead;
     x->settled = true;
     for (int i = 0; i < x->n; force += x->stretch[i++].frames) {
-        const struct excerpts_stretch *s = &x->stretch[i];
+        const struct segments_stretch *s = &x->stretch[i];
         if (s->from - x->lead > at) run_skip(r, at = s->from - x->lead);
         if (!run_through(r, at, (const long[2]){s->from, s->from + s->frames}, force, e)) return false;
         at = s->from + s->frames;
@@ -195,7 +302,7 @@ static bool run_stretches(struct excerpts *x, struct run *r, double *force, stru
     return true;
 }
 
-bool excerpts_can(struct excerpts *x, const struct accuracy *set, struct err *e)
+bool segments_can(struct segments *x, const struct accuracy *set, struct err *e)
 {
     struct run r;
     x->scene.accuracy = *set;
@@ -204,7 +311,7 @@ bool excerpts_can(struct excerpts *x, const struct accuracy *set, struct err *e)
     return ok;
 }
 
-bool excerpts_run(struct excerpts *x, const struct accuracy *set, double *force, struct err *e)
+bool segments_run(struct segments *x, const struct accuracy *set, double *force, struct err *e)
 {
     struct run r;
     x->scene.accuracy = *set;
@@ -220,14 +327,14 @@ bool excerpts_run(struct excerpts *x, const struct accuracy *set, double *force,
 
 struct hearing {
     struct fft *fft;
-    double taper[EXCERPTS_WINDOW], x[EXCERPTS_WINDOW], re[AUDIBLE_BINS], im[AUDIBLE_BINS];
+    double taper[SEGMENTS_WINDOW], x[SEGMENTS_WINDOW], re[AUDIBLE_BINS], im[AUDIBLE_BINS];
 };
 
 /* The window that begins at `from`, which may lie before the stretch, and end after it. */
 static double window_energy(struct hearing *h, const double *force, long frames, long from, const double *power)
 {
     double sum = 0, any = 0;
-    for (long i = 0; i < EXCERPTS_WINDOW; i++) {
+    for (long i = 0; i < SEGMENTS_WINDOW; i++) {
         h->x[i] = from + i >= 0 && from + i < frames ? h->taper[i] * force[from + i] : 0;
         any = fmax(any, fabs(h->x[i]));
     }
@@ -235,22 +342,22 @@ static double window_energy(struct hearing *h, const double *force, long frames,
     fft_forward(h->fft, h->x, h->re, h->im);
     for (int k = 0; k < AUDIBLE_BINS; k++)
         sum += (k == 0 || k == AUDIBLE_BINS - 1 ? 1 : 2) * power[k] * (h->re[k] * h->re[k] + h->im[k] * h->im[k]);
-    return sum / EXCERPTS_WINDOW;
+    return sum / SEGMENTS_WINDOW;
 }
 
-double excerpts_energy(const struct excerpts *x, const double *force)
+double segments_energy(const struct segments *x, const double *force)
 {
-    struct hearing h = {.fft = fft_open(EXCERPTS_WINDOW)};
+    struct hearing h = {.fft = fft_open(SEGMENTS_WINDOW)};
     double all = 0;
-    for (int i = 0; i < EXCERPTS_WINDOW; i++) {
-        double s = real_sin(REAL_PI * (i + 0.5) / EXCERPTS_WINDOW);
+    for (int i = 0; i < SEGMENTS_WINDOW; i++) {
+        double s = real_sin(REAL_PI * (i + 0.5) / SEGMENTS_WINDOW);
         h.taper[i] = s * s;
     }
     for (int i = 0; i < x->n; force += x->stretch[i++].frames) {
-        const struct excerpts_stretch *s = &x->stretch[i];
-        bool one = s->frames == EXCERPTS_WINDOW && x->n > 1;
+        const struct segments_stretch *s = &x->stretch[i];
+        bool one = s->frames == SEGMENTS_WINDOW && x->n > 1;
         double sum = 0;
-        for (long from = one ? 0 : -EXCERPTS_WINDOW / 2; from < (one ? 1 : s->frames); from += EXCERPTS_WINDOW / 2)
+        for (long from = one ? 0 : -SEGMENTS_WINDOW / 2; from < (one ? 1 : s->frames); from += SEGMENTS_WINDOW / 2)
             sum += window_energy(&h, force, s->frames, from, x->power + s->heard * AUDIBLE_BINS);
         all += s->weight * sum;
     }
