@@ -7,7 +7,8 @@
 
    Steps. Each sub-interval of the force is K of them, K = ceil(contact_steps / (t_c rate oversampling)), t_c =
    coupled_contact_time of the stiffness and mass at the greatest of: the speed of the drop, sqrt(2 g h); 5 cm/s, the
-   fastest of the impacts of papers/002, fig. 7; and the greatest |ds/dt| met where the curve is scouted (roll_coupled.c).
+   fastest of the impacts of papers/002, fig. 7; and the greatest |ds/dt| met where the curve is scouted
+   (roll_coupled.c).
    s is read once for the end of each step, in order; the shapes of what gives way as roll_ground.h says.
 
    The start. Dropped, the ball is at rest in the air, `drop` clear of the ground, whose modes are at rest, too: on
