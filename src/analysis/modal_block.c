@@ -272,8 +272,8 @@ static double own_inverse(const struct modal_block *b, const struct modal_normal
 }
 
 /* The step of all poles, damped: of the shared ones, step[p], and own[groups][p]; returns what it would take off chi.
-   The shared ones' normal equations are sum N - N (N + W)^-1 N = sum W (N + W)^-1 N, their right side
-   sum r - N (N + W)^-1 (r - W apart) = sum W ((N + W)^-1 (r - W apart) + apart); W holds the damping, too. */
+   The shared ones' normal equations are sum N - N (N + W)^-1 N = sum W (N + W)^-1 N, where W holds the damping, too,
+   their right side sum r - N (N + W)^-1 (r - W apart). */
 static double solve(struct modal_block *b, double damping, double *step, double *own)
 {
     int p = 2 * b->m, n = p + 1, groups = b->fit->data->groups;
@@ -294,7 +294,9 @@ static double solve(struct modal_block *b, double damping, double *step, double 
                     sum += inverse[i * n + k] * e->a[k * p + j];
                 a[i * n + j] += damped * sum;
             }
-            a[i * n + p] += damped * inverse[i * n + p] + weight[i] * apart[i];
+            a[i * n + p] += e->right[i];
+            for (int k = 0; k < p; k++)
+                a[i * n + p] -= e->a[i * p + k] * inverse[k * n + p];
             scale[i] += e->scale[i];
         }
     }
