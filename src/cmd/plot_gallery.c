@@ -193,7 +193,7 @@ static const char *link_to(const struct page *g, const char *file)
                *from = relpath_make(file, folder, g->arena);
     char *out = arena_take(g->arena, 3 * strlen(from) + 1, 1), *to = out;
     for (const char *p = from; *p; p++)
-        to += sprintf(to, strchr(plain, *p) ? "%c" : "%%%02X", (unsigned char)*p);
+        to += snprintf(to, 4, strchr(plain, *p) ? "%c" : "%%%02X", (unsigned char)*p);
     return out;
 }
 
