@@ -31,19 +31,19 @@
 #include "trajectory/spin.h"
 #include "trajectory/trajectory.h"
 
-/* The curve under a rolling ball: s(t) = z + bulge + rise at the motion's place.
+/* The curve under a rolling ball: s(t) = z + rim + rise at the motion's place.
 
    z is the surface as the ball meets it (surface/tip.c: the rolling curve of papers/002, fig. 1), rise = -r cos(theta)
-   that of the centre of mass over the geometric centre, bulge that of the rim (trajectory/spin.h): the ball's lowest
-   point is at w - R - rise - bulge, w the height of the centre of mass, so that with w counted from R it dips into the
+   that of the centre of mass over the geometric centre, rim that of the rim (trajectory/spin.h): the ball's lowest
+   point is at w - R - rise - rim, w the height of the centre of mass, so that with w counted from R it dips into the
    surface by xi = s - w. */
 
 struct roll_curve {
     const struct board *board;
     struct spin spin;
-    bool turns;                            /* the ball is not quite round, or its centre of mass is off */
-    double *t, *s;                         /* [room] s: instants since the contact's start, m            */
-    double *u, *du, *x, *y, *rise, *bulge; /* [room] work                                   */
+    bool turns;                          /* the ball is not quite round, or its centre of mass is off */
+    double *t, *s;                       /* [room] s: instants since the contact's start, m            */
+    double *u, *du, *x, *y, *rise, *rim; /* [room] work                                   */
 };
 
 enum { ROLL_CURVE_LEAST = 1024 };
@@ -53,7 +53,7 @@ enum { STRETCHES = 16 };
 /* r: of a stage whose relief and motion are on the board; for up to `room` >= ROLL_CURVE_LEAST instants at a time. */
 static void roll_curve_make(struct roll_curve *c, const struct stage_run *r, long room)
 {
-    double **all[] = {&c->t, &c->s, &c->u, &c->du, &c->x, &c->y, &c->rise, &c->bulge};
+    double **all[] = {&c->t, &c->s, &c->u, &c->du, &c->x, &c->y, &c->rise, &c->rim};
     *c = (struct roll_curve){.board = r->board,
                              .spin = spin_make(r->contact),
                              .turns = r->contact->ball.offset != 0 || r->contact->ball.lobe_height != 0};
@@ -71,9 +71,9 @@ static void roll_curve_read(const struct roll_curve *c, size_t n)
     relief_at(z, &(struct relief_points){n, path ? c->u : c->x, plane ? c->y : NULL},
               &(struct relief_values){.z = c->s});
     if (!c->turns) return;
-    spin_at(&c->spin, n, c->u, c->du, NULL, &(struct spin_out){.rise = c->rise, .bulge = c->bulge});
+    spin_at(&c->spin, n, c->u, c->du, NULL, &(struct spin_out){.rise = c->rise, .rim = c->rim});
     for (size_t i = 0; i < n; i++)
-        c->s[i] += c->bulge[i] + c->rise[i];
+        c->s[i] += c->rim[i] + c->rise[i];
 }
 
 /* The greatest |ds/dt| met, m/s: differences over sub-intervals, in 16 stretches of 1024 instants spread evenly over
@@ -184,7 +184,7 @@ static bool rolling_open(struct stage_run *r, struct err *e)
     struct rolling *w = ARENA_TAKE(r->arena, struct rolling, 1);
     struct board *b = r->board;
     r->state = w;
-    relief_settle(b->relief, c);
+    relief_decide(b->relief, c);
     if (!rolling_body(w, c, e) || !roll_ground_make(&w->ground, r, e) || !rolling_steps(w, r, e)) return false;
     struct coupled_ask ask = {.integrator = c->contact.roll.integrator,
                               .step = 1 / (b->rate * b->over * w->substeps),

@@ -32,7 +32,7 @@ struct gesture_filter {
     struct load_law fade;
     double per_speed; /* f_c T over |v|, s/m             */
     double speed, g;  /* of the frame before             */
-    double held[2];   /* what the integrators hold: s, y */
+    double state[2];  /* what the integrators hold: s, y */
     int order;
 };
 
@@ -81,15 +81,15 @@ static bool gesture_open(struct stage_run *r, struct err *e)
 
 static double filter_step(struct gesture_filter *f, double x)
 {
-    double g = f->g, *held = f->held;
+    double g = f->g, *state = f->state;
     if (f->order == 1) {
-        double y = (held[1] + g * x) / (1 + g);
-        held[1] = 2 * y - held[1];
+        double y = (state[1] + g * x) / (1 + g);
+        state[1] = 2 * y - state[1];
         return y;
     }
-    double s = (held[0] + g * (x - held[1])) / (1 + g * (sqrt(2) + g)), y = held[1] + g * s;
-    held[0] = 2 * s - held[0];
-    held[1] = 2 * y - held[1];
+    double s = (state[0] + g * (x - state[1])) / (1 + g * (sqrt(2) + g)), y = state[1] + g * s;
+    state[0] = 2 * s - state[0];
+    state[1] = 2 * y - state[1];
     return y;
 }
 
@@ -118,7 +118,7 @@ static void gesture_skip(struct stage_run *r, long frame)
 {
     struct gesture_filter *f = r->state;
     (void)frame;
-    f->held[0] = f->held[1] = 0;
+    f->state[0] = f->state[1] = 0;
 }
 
 const struct stage gesture_stage = {

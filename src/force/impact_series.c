@@ -27,7 +27,7 @@
 #include "stage.h"
 #include "trajectory/trajectory.h"
 
-#define TOUCH 1e-9 /* of the mean duration */
+#define MEETING 1e-9 /* of the mean duration */
 
 enum { OVER = 64 }; /* mean intervals over which the beginning is spread */
 
@@ -86,9 +86,9 @@ void impact_series_next(struct impact_series *s, struct impact *i)
     s->number++;
 }
 
-bool impact_series_overlap(double apart, double before, double now, double grain)
+bool impact_series_overlap(double distance, double before, double now, double grain)
 {
-    return apart + grain < 0.5 * (before + now) * (1 - TOUCH);
+    return distance + grain < 0.5 * (before + now) * (1 - MEETING);
 }
 
 /* ------------------------------------------------------------------ the start */

@@ -38,9 +38,9 @@ void impact_series_open(const struct impact_law *l, uint64_t seed, const char *c
 
 void impact_series_next(struct impact_series *s, struct impact *i);
 
-/* Does an impact begin before the one before is over? `apart`: s, between their middles, known within `grain`;
+/* Does an impact begin before the one before is over? `distance`: s, between their middles, known within `grain`;
    durations in s. Impacts that follow each other without a gap may meet by rounding, and do not overlap: they touch. */
-bool impact_series_overlap(double apart, double before, double now, double grain);
+bool impact_series_overlap(double distance, double before, double now, double grain);
 
 /* The impacts of a contact that take place, and what is to be reported of them. Whoever needs them draws them anew: the
  * force, the listing, the table. */

@@ -138,12 +138,6 @@ static bool paper_curvature_run(struct stage_run *r, long from, long to, struct 
     return true;
 }
 
-static unsigned paper_curvature_asks(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return path_cells_asks(c);
-}
-
 const struct stage paper_curvature_stage = {
     .name = "paper_curvature",
     .does = "limited curvature and slope of the surface, per axis",
@@ -153,7 +147,7 @@ const struct stage paper_curvature_stage = {
     .takes = ITEM_BIT(ITEM_ALPHA),
     .gives = ITEM_BIT(ITEM_CURVATURE) | ITEM_BIT(ITEM_CURVATURE_Y) | ITEM_BIT(ITEM_SLOPE),
     .knobs = KNOB_BIT(oversampling),
-    .asks = paper_curvature_asks,
+    .asks = path_cells_asks,
     .wanted = paper_wanted,
     .work = paper_work,
     .open = paper_curvature_open,
@@ -240,8 +234,7 @@ static bool paper_run(struct stage_run *r, long from, long to, struct err *e)
 
 static unsigned paper_asks(const struct contact *c, const struct scene *s)
 {
-    (void)s;
-    return path_cells_asks(c) | (rules_plane(c) ? ITEM_BIT(ITEM_CURVATURE_Y) : 0);
+    return path_cells_asks(c, s) | (rules_plane(c) ? ITEM_BIT(ITEM_CURVATURE_Y) : 0);
 }
 
 const struct stage paper_stage = {

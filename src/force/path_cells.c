@@ -611,8 +611,9 @@ bool path_cells_make(struct path_cells *w, struct stage_run *r, enum cells_kind 
     return true;
 }
 
-unsigned path_cells_asks(const struct contact *c)
+unsigned path_cells_asks(const struct contact *c, const struct scene *s)
 {
+    (void)s;
     bool field = !rules_straight(&c->motion) && rules_along(c) != ALONG_PATH;
     return field ? ITEM_BIT(ITEM_X) | ITEM_BIT(ITEM_Y) | ITEM_BIT(ITEM_VX) | ITEM_BIT(ITEM_VY) : 0;
 }

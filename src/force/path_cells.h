@@ -71,7 +71,7 @@ bool path_cells_place(struct path_cells *w, const struct stage_run *r, struct er
 void path_cells_run(struct path_cells *w, const struct stage_run *r, long first, int n);
 
 /* Items of the board that a stage with a path reads besides POSITION, VELOCITY and SURFACE. */
-unsigned path_cells_asks(const struct contact *c);
+unsigned path_cells_asks(const struct contact *c, const struct scene *s);
 
 /* Predicted cells per audio sample. */
 double path_cells_work(const struct contact *c, const struct scene *s);

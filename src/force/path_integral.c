@@ -59,40 +59,36 @@ static void terms_leak(struct path_terms *t, const double *length, double leak, 
 /* at: NULL where the cells are chained, whose points are then loaded one after another. */
 INLINE void terms_each(struct path_terms *t, const struct cells *p, int channel, const int *at)
 {
-    const double *means = p->mean[channel], *moments = p->moment[channel], *limited = p->limited[channel],
+    const double *mean_t = p->mean[channel], *moment_t = p->moment[channel], *limited = p->limited[channel],
                  *length = p->length;
     double *restrict bent = t->bent[channel];
     int n = p->n;
 #pragma omp simd
     for (int i = 0; i < n; i++)
-        bent[i] = t->phi[i] * length[i] * means[i] + t->z[i] * ((1 - t->z[i] / 2) * length[i] * moments[i]);
+        bent[i] = t->phi[i] * length[i] * mean_t[i] + t->z[i] * ((1 - t->z[i] / 2) * length[i] * moment_t[i]);
     n = channel == 0 ? n : 0;
 #pragma omp simd
     for (int i = 0; i < n; i++) {
         int a = at ? at[i] : i, b = a + 1;
-        double h = length[i], z = t->z[i], bow = z * h * (means[i] - 0.5 * (limited[a] + limited[b])) * (1.0 / 60);
-        t->risen[i] = t->chi[i] * h * means[i] - (1 - z / 2) * h * moments[i] + bow;
+        double h = length[i], z = t->z[i], bow = z * h * (mean_t[i] - 0.5 * (limited[a] + limited[b])) * (1.0 / 60);
+        t->risen[i] = t->chi[i] * h * mean_t[i] - (1 - z / 2) * h * moment_t[i] + bow;
     }
 }
 
 LANES_CLONES
-static void terms_channel(struct path_terms *t, const struct cells *p, int channel)
+static void terms_channel(struct path_terms *t, const struct cells *p, int channel, bool chained)
 {
-    terms_each(t, p, channel, p->at);
+    if (chained)
+        terms_each(t, p, channel, NULL);
+    else
+        terms_each(t, p, channel, p->at);
 }
-
-LANES_CLONES
-static void terms_chained(struct path_terms *t, const struct cells *p, int channel) { terms_each(t, p, channel, NULL); }
 
 void path_integral_terms(struct path_terms *t, const struct cells *p, int channels, double leak)
 {
     terms_leak(t, p->length, leak, p->n);
-    bool chained = limiter_chained(p->n, p->points, p->at);
     for (int k = 0; k < channels; k++)
-        if (chained)
-            terms_chained(t, p, k);
-        else
-            terms_channel(t, p, k);
+        terms_channel(t, p, k, limiter_chained(p->n, p->points, p->at));
 }
 
 LANES_CLONES

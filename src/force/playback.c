@@ -215,12 +215,6 @@ static bool playback_wanted(const struct contact *c, const struct scene *s)
 
 static double playback_work(const struct contact *c, const struct scene *s) { return 90 * path_cells_work(c, s); }
 
-static unsigned playback_asks(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return path_cells_asks(c);
-}
-
 static bool playback_open(struct stage_run *r, struct err *e)
 {
     struct playback *p = ARENA_TAKE(r->arena, struct playback, 1);
@@ -251,7 +245,7 @@ const struct stage playback_stage = {
     .needs = ITEM_BIT(ITEM_POSITION) | ITEM_BIT(ITEM_VELOCITY) | ITEM_BIT(ITEM_SURFACE),
     .gives = ITEM_BIT(ITEM_SUBFORCE),
     .knobs = KNOB_BIT(oversampling),
-    .asks = playback_asks,
+    .asks = path_cells_asks,
     .wanted = playback_wanted,
     .work = playback_work,
     .open = playback_open,

@@ -20,9 +20,9 @@
    cos(theta), into the penetration. S is what the ball meets only where it does not follow; and with the rise the
    force is largest where the centre of mass is highest. By Newton's second law the normal force, N(t) = m (g + d2(-r
    cos theta)/dt2), is largest where it is lowest; and millimetres of rise stand against micrometres of S. So here the
-   offset and the lobes of the rim (bulge, which is not in the paper) press the ball deeper and less deep as N(t)
+   offset and the lobes of the rim (rim, which is not in the paper) press the ball deeper and less deep as N(t)
    does, quasi-statically: on level ground f_roll is N(t) (mu aside: a ball turns slowly; force/roll.c says where
-   it does not). With penetration: paper, rho = R - r cos(x/R) + S + bulge as printed, x that of equation 18, S leaked
+   it does not). With penetration: paper, rho = R - r cos(x/R) + S + rim as printed, x that of equation 18, S leaked
    (force/path_integral.c), k and lambda by hand, and N(t) without the lobes.
 
    Where N(t) < 0, as when an offset ball spins fast, it is clear of the surface: no force at all. Without a static
@@ -69,9 +69,9 @@ struct roll_parts roll_law_force(const struct roll_law *l, const struct roll_end
            bow = mean - 0.5 * (a->rho + b->rho);
     double spring = 0.5 * k * roll_law_power(a->rho + bow, b->rho + bow), tilt = k * (pb - pa) / 12;
     double qa = 0.4 * lambda * pa * a->rho, qb = 0.4 * lambda * pb * b->rho, half = 0.5 * (qb - qa) / dt,
-           bulge = lambda * (pa * a->rate - pb * b->rate) / 12;
+           curved = lambda * (pa * a->rate - pb * b->rate) / 12;
     if (dt + l->mu * (b->rho - a->rho) <= 0) return (struct roll_parts){0};
-    return (struct roll_parts){spring - tilt + half + bulge, spring + tilt + half - bulge};
+    return (struct roll_parts){spring - tilt + half + curved, spring + tilt + half - curved};
 }
 
 double roll_law_contact(double a, double b)
@@ -266,7 +266,7 @@ struct roll_state {
     /* At the start of the chunk's first sub-interval and at each one's end: */
     double follows[CELLS_CHUNK + 1], rate[CELLS_CHUNK + 1]; /* m, m/s: y (printed: S) and its rate */
     double mean[CELLS_CHUNK];          /* m, of y or S over each                                      */
-    double rests_at[CELLS_CHUNK + 1];  /* m: delta (N(t)/N)^(2/3); printed: R - r cos(x/R) + bulge */
+    double rests_at[CELLS_CHUNK + 1];  /* m: delta (N(t)/N)^(2/3); printed: R - r cos(x/R) + rim */
     double rise[CELLS_CHUNK + 1];      /* m, of the centre of mass over where it is lowest (trajectory/spin.h) */
     double rho[CELLS_CHUNK + 1], last; /* m; at the end of the chunk before                      */
 };
@@ -378,15 +378,15 @@ static void roll_follows(struct roll_state *s, const double *v, double dt, int n
 /* rests_at[], and rise[] of what is not round. */
 static void roll_turns(struct roll_state *s, const struct board *b, const double *load, long first, int n)
 {
-    double bulge[CELLS_CHUNK + 1], *at = s->rests_at;
+    double rim[CELLS_CHUNK + 1], *at = s->rests_at;
     const struct roll_stiffness *rests = &s->rests;
     if (!s->round)
         spin_at(&s->spin, (size_t)n + 1, cells_values(b, ITEM_POSITION, first), cells_values(b, ITEM_VELOCITY, first),
-                NULL, &(struct spin_out){.rise = s->rise, .printed = s->printed ? at : NULL, .bulge = bulge});
+                NULL, &(struct spin_out){.rise = s->rise, .printed = s->printed ? at : NULL, .rim = rim});
     for (int i = 0; i <= n && !s->round; i++)
-        s->rise[i] += bulge[i] + s->spin.offset;
+        s->rise[i] += rim[i] + s->spin.offset;
     for (int i = 0; i <= n && s->printed; i++)
-        at[i] = s->spin.radius + (s->round ? 0 : at[i] + bulge[i]);
+        at[i] = s->spin.radius + (s->round ? 0 : at[i] + rim[i]);
     for (int i = 0; i <= n && !s->printed; i++)
         at[i] = !load || !(rests->normal > 0) ? 1 : load[i] > 0 ? load[i] / rests->normal : 0;
     if (load && !s->printed) vecmath_pow((size_t)n + 1, at, 2.0 / 3, at);
@@ -450,12 +450,12 @@ static void roll_add(struct roll_state *s, const double *load, double dt, int n)
 /* ------------------------------------------------------------------ account */
 
 /* The share of sub-interval i of the chunk in contact, and whether in it the ball leaves the surface. */
-static double roll_contact(struct roll_state *s, const double *load, int i, bool *leaves)
+static double roll_contact(struct roll_state *s, const double *load, int i, bool *lifts_off)
 {
     bool before = s->touches, weightless = !s->printed && !(s->rests.normal > 0);
     double pressed = load ? path_integral_pressed(load[i], load[i + 1]) : 1;
     s->touches = !(load && load[i + 1] < 0) && (weightless || s->rho[i + 1] > 0);
-    *leaves = before && !s->touches;
+    *lifts_off = before && !s->touches;
     return s->idle ? 0 : pressed * (weightless ? 1 : roll_law_contact(s->rho[i], s->rho[i + 1]));
 }
 
@@ -477,12 +477,12 @@ static void roll_report(struct roll_state *s, struct board *b, const double *loa
 {
     double dt = 1 / (b->rate * b->over), last = b->trajectory->duration / dt;
     for (int i = 0; i < n; i++) {
-        bool leaves;
-        double share = roll_contact(s, load, i, &leaves);
+        bool lifts_off;
+        double share = roll_contact(s, load, i, &lifts_off);
         if ((double)(first + i) + 0.5 < last) {
             b->roll.contact += share * dt;
             b->roll.time += dt;
-            b->roll.lift_offs += leaves;
+            b->roll.lift_offs += lifts_off;
         }
         if (!board_has(b, ITEM_ROLL)) continue;
         double *value = board_at(b, ITEM_ROLL, (first + i) / b->over);
@@ -492,7 +492,7 @@ static void roll_report(struct roll_state *s, struct board *b, const double *loa
             value[ROLL_CONTACT] = value[ROLL_LIFT_OFFS] = 0;
         }
         value[ROLL_CONTACT] += share / b->over;
-        value[ROLL_LIFT_OFFS] += leaves;
+        value[ROLL_LIFT_OFFS] += lifts_off;
     }
 }
 
@@ -545,12 +545,6 @@ static void roll_skip(struct stage_run *r, long frame)
     s->begun = false;
 }
 
-static unsigned roll_asks(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return path_cells_asks(c);
-}
-
 const struct stage roll_stage = {
     .name = "roll",
     .does = "contact force of a ball that rolls: penetration, and the scraping terms of one limited trajectory",
@@ -560,7 +554,7 @@ const struct stage roll_stage = {
     .takes = ITEM_BIT(ITEM_ALPHA) | ITEM_BIT(ITEM_LOAD),
     .gives = ITEM_BIT(ITEM_SUBFORCE) | ITEM_BIT(ITEM_ROLL),
     .knobs = KNOB_BIT(oversampling),
-    .asks = roll_asks,
+    .asks = path_cells_asks,
     .wanted = roll_wanted,
     .work = roll_work,
     .open = roll_open,
@@ -577,7 +571,7 @@ const struct stage roll_added_stage = {
     .takes = ITEM_BIT(ITEM_ALPHA) | ITEM_BIT(ITEM_LOAD),
     .gives = ITEM_BIT(ITEM_SUBFORCE) | ITEM_BIT(ITEM_ROLL),
     .knobs = KNOB_BIT(oversampling),
-    .asks = roll_asks,
+    .asks = path_cells_asks,
     .wanted = roll_added_wanted,
     .work = roll_work,
     .open = roll_open,

@@ -120,9 +120,9 @@ static double scrape_work(const struct contact *c, const struct scene *s)
 {
     bool straight = rules_straight(&c->motion), plane = rules_along(c) == ALONG_PLANE;
     double limited = c->contact.limiter.curve == LIMITER_TANH ? 1 : 0.4, over = s->accuracy.oversampling,
-           way = path_cells_work(c, s);
-    if (plane && !straight) return limited * (850 * over + 2200 * (way / 2 - over));
-    return limited * (straight && !plane ? 70 : 150) * way; /* cut by path_cells.c, or not */
+           cells = path_cells_work(c, s);
+    if (plane && !straight) return limited * (850 * over + 2200 * (cells / 2 - over));
+    return limited * (straight && !plane ? 70 : 150) * cells; /* cut by path_cells.c, or not */
 }
 
 static bool scrape_open(struct stage_run *r, struct err *e)
@@ -168,12 +168,6 @@ static void scrape_skip(struct stage_run *r, long frame)
     scrape_reset(r->state);
 }
 
-static unsigned scrape_asks(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return path_cells_asks(c);
-}
-
 const struct stage scrape_stage = {
     .name = "scrape",
     .does = "contact force of one limited trajectory along the path",
@@ -183,7 +177,7 @@ const struct stage scrape_stage = {
     .takes = ITEM_BIT(ITEM_ALPHA) | ITEM_BIT(ITEM_LOAD),
     .gives = ITEM_BIT(ITEM_SUBFORCE),
     .knobs = KNOB_BIT(oversampling),
-    .asks = scrape_asks,
+    .asks = path_cells_asks,
     .wanted = scrape_wanted,
     .work = scrape_work,
     .open = scrape_open,

@@ -222,12 +222,12 @@ static bool smooth_curvature_y_open(struct stage_run *r, struct err *e)
     return smooth_open_item(r, ITEM_CURVATURE_Y, r->contact->contact.limiter.ratio_y, e);
 }
 
-/* Keeps raw values from `keep` on and adds those up to `end`. */
-static void smooth_take(struct smooth *s, const struct board *b, long keep, long end)
+/* Keeps raw values from `from` on and adds those up to `end`. */
+static void smooth_take(struct smooth *s, const struct board *b, long from, long end)
 {
-    if (keep > s->raw_first) {
-        memmove(s->raw, s->raw + (keep - s->raw_first), (size_t)(s->raw_end - keep) * sizeof *s->raw);
-        s->raw_first = keep;
+    if (from > s->raw_first) {
+        memmove(s->raw, s->raw + (from - s->raw_first), (size_t)(s->raw_end - from) * sizeof *s->raw);
+        s->raw_first = from;
     }
     const double *x = board_at(b, s->item, s->raw_end / b->over);
     memcpy(s->raw + (s->raw_end - s->raw_first), x, (size_t)(end - s->raw_end) * sizeof *s->raw);
@@ -319,8 +319,8 @@ static bool smooth_run(struct stage_run *r, long from, long to, struct err *e)
         spread_still(&s->still.kernel, s->raw + (first - s->reach - s->raw_first), y, end - first);
         return true;
     }
-    long keep = s->node < s->start ? s->raw_first : s->node;
-    smooth_take(s, b, keep, (to + r->ahead - 1) * b->over);
+    long oldest = s->node < s->start ? s->raw_first : s->node;
+    smooth_take(s, b, oldest, (to + r->ahead - 1) * b->over);
     smooth_segments(s, b, end);
     if (first == 0) smooth_reflect(s);
     smooth_hand_over(s, y, first, end);

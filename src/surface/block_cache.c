@@ -14,9 +14,9 @@ struct block {
 
 struct block_cache {
     struct arena *arena;
-    size_t size, capacity, held, made, chains; /* chains: a power of two */
-    struct block *blocks;                      /* [capacity + 1] */
-    size_t *first;                             /* [chains] */
+    size_t size, capacity, filled, made, chains; /* chains: a power of two */
+    struct block *blocks;                        /* [capacity + 1] */
+    size_t *first;                               /* [chains] */
     block_cache_fill *fill;
     void *self;
 };
@@ -77,9 +77,9 @@ static void block_lead(struct block *blocks, size_t i)
 /* A number that is free, or that of the block not asked for the longest, which is forgotten. */
 static size_t block_free(struct block_cache *k)
 {
-    if (k->held < k->capacity) {
-        k->blocks[++k->held].numbers = ARENA_TAKE(k->arena, double, k->size);
-        return k->held;
+    if (k->filled < k->capacity) {
+        k->blocks[++k->filled].numbers = ARENA_TAKE(k->arena, double, k->size);
+        return k->filled;
     }
     size_t i = k->blocks[0].newer, *link = chain_of(k, k->blocks[i].column, k->blocks[i].row);
     while (*link != i)

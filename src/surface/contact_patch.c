@@ -323,7 +323,6 @@ static void rolling_add(struct relief_part *part, const struct relief_points *p,
 /* Blocks held: what a path of some decimetres needs, so that going back over it costs nothing. */
 struct relief_part *contact_patch_part(struct arena *a, const struct relief *under, const struct rolling_plan *p)
 {
-    struct relief_part *part = ARENA_TAKE(a, struct relief_part, 1);
     struct rolling *w = ARENA_TAKE(a, struct rolling, 1);
     double h = p->patch / PATCH_POINTS;
     long wide = SQUARE + EDGE + 2 * KERNEL;
@@ -335,13 +334,9 @@ struct relief_part *contact_patch_part(struct arena *a, const struct relief *und
                      ? (struct lattice){block_cache_make(a, (SQUARE + EDGE) * (SQUARE + EDGE), 8192, splines_fill, w),
                                         {SQUARE, SQUARE}}
                      : (struct lattice){block_cache_make(a, LINE + EDGE, 512, splines_fill, w), {LINE, 1}};
-    *part = (struct relief_part){.name = "tip",
-                                 .pitch = {h, w->plane ? h : 0},
-                                 .linear = !w->plane,
-                                 .finest = h,
-                                 .from = {-HUGE_VAL, -HUGE_VAL},
-                                 .to = {HUGE_VAL, HUGE_VAL},
-                                 .add = rolling_add,
-                                 .state = w};
+    struct relief_part *part = relief_endless(a, "tip", h, rolling_add, w);
+    part->pitch[0] = h;
+    part->pitch[1] = w->plane ? h : 0;
+    part->linear = !w->plane;
     return part;
 }

@@ -95,7 +95,7 @@ static bool continuation_open(struct stage_run *r, struct err *e)
     struct relief *relief = r->board->relief;
     struct spectrum s;
     double lost;
-    relief_settle(relief, r->contact);
+    relief_decide(relief, r->contact);
     if (!continuation_spectrum(r->arena, &r->contact->surface.continuation, r->board->height_map, &s, e))
         return err_at(e, "contact '%s'", r->contact->name);
     struct relief_part *part =
@@ -108,12 +108,6 @@ static bool continuation_open(struct stage_run *r, struct err *e)
     return true;
 }
 
-static void continuation_close(struct stage_run *r)
-{
-    struct relief_part *part = r->state;
-    if (part && part->close) part->close(part);
-}
-
 const struct stage continuation_stage = {
     .name = "continuation",
     .does = "finer roughness than the map holds, its spectrum continued",
@@ -124,5 +118,5 @@ const struct stage continuation_stage = {
     .wanted = continuation_wanted,
     .work = continuation_work,
     .open = continuation_open,
-    .close = continuation_close,
+    .close = relief_close,
 };

@@ -103,7 +103,7 @@ static void try(struct envelope *e, long x, long y)
 }
 
 /* Square of the distance from `at`, in samples, to the nearest of those from `first` to `first` + last. */
-static inline __attribute__((always_inline)) double apart(double first, double last, double at)
+static inline __attribute__((always_inline)) double distance_squared(double first, double last, double at)
 {
     double from = first - at, d = lanes_select(from > 0, from, lanes_select(from + last < 0, from + last, 0));
     return d * d;
@@ -120,8 +120,8 @@ static int promising(const struct envelope *e, const struct level *l, long x, lo
     double left[FACTOR], below[FACTOR], found[FACTOR] = {0}, column = (double)x, row = (double)y, last = l->span - 1;
 #pragma omp simd
     for (int i = 0; i < FACTOR; i++) {
-        left[i] = apart((column + nth[i]) * l->span, last, e->x);
-        below[i] = apart((row + nth[i]) * l->span, last, e->y);
+        left[i] = distance_squared((column + nth[i]) * l->span, last, e->x);
+        below[i] = distance_squared((row + nth[i]) * l->span, last, e->y);
     }
     for (int j = 0; j < e->tall; j++) {
         const double *most = l->most + (y + j) * l->columns + x;

@@ -93,17 +93,11 @@ static void nearest_add(struct relief_part *part, const struct relief_points *p,
 
 static struct relief_part *knots_part(struct arena *a, const struct fractal *f, const double *z, long n)
 {
-    struct relief_part *part = ARENA_TAKE(a, struct relief_part, 1);
     struct knots *s = ARENA_TAKE(a, struct knots, 1);
     bool linear = f->interpolation == INTERPOLATION_LINEAR;
     *s = (struct knots){n, f->pitch, z};
-    *part = (struct relief_part){.name = "fractal",
-                                 .finest = f->pitch,
-                                 .kinks = linear ? f->pitch : f->pitch / 2,
-                                 .from = {-HUGE_VAL, -HUGE_VAL},
-                                 .to = {HUGE_VAL, HUGE_VAL},
-                                 .add = linear ? linear_add : nearest_add,
-                                 .state = s};
+    struct relief_part *part = relief_endless(a, "fractal", f->pitch, linear ? linear_add : nearest_add, s);
+    part->kinks = linear ? f->pitch : f->pitch / 2;
     return part;
 }
 
@@ -160,20 +154,20 @@ static bool fractal_fits(const struct stage_run *r, struct err *e)
 static void fractal_repeats(struct stage_run *r, double period)
 {
     const struct trajectory *tr = r->board->trajectory;
-    double way = r->board->relief->along == ALONG_PATH ? tr->reach[1] - tr->reach[0] : tr->box[1][0] - tr->box[0][0];
-    if (way > period * (1 + 1e-9))
+    double length = r->board->relief->along == ALONG_PATH ? tr->reach[1] - tr->reach[0] : tr->box[1][0] - tr->box[0][0];
+    if (length > period * (1 + 1e-9))
         board_warn(r->board, arena_format(r->arena,
                                           "%s: the motion goes over %.4g m, and surface.fractal repeats itself every "
                                           "%.4g m; raise surface.fractal.length "
                                           "if that is not meant",
-                                          r->contact->name, way, period));
+                                          r->contact->name, length, period));
 }
 
 static bool fractal_open(struct stage_run *r, struct err *e)
 {
     const struct fractal *f = &r->contact->surface.fractal;
     struct noise stream = noise_make(r->scene->seed, arena_format(r->arena, "fractal/%s", r->contact->name));
-    relief_settle(r->board->relief, r->contact);
+    relief_decide(r->board->relief, r->contact);
     if (!fractal_fits(r, e)) return false;
     struct relief_part *part = fractal_part(r->arena, f, stream, e);
     if (!part) return err_at(e, "contact '%s'", r->contact->name);

@@ -141,7 +141,6 @@ void grit_moments(const struct grit *g, double *mean, double *square)
 
 struct relief_part *grit_part(struct arena *a, const struct grit *g, struct noise stream, struct err *e)
 {
-    struct relief_part *part = ARENA_TAKE(a, struct relief_part, 1);
     struct grit_state *s = ARENA_TAKE(a, struct grit_state, 1);
     double sigma = sigma_of(g), shift = real_log(growth(sigma)),
            reach = 0.5 * g->diameter * real_exp(3 * sigma - shift);
@@ -161,13 +160,7 @@ struct relief_part *grit_part(struct arena *a, const struct grit *g, struct nois
                              .mean = mean,
                              .column = LONG_MIN,
                              .grains = ARENA_TAKE(a, struct grain, GRIT_MOST)};
-    *part = (struct relief_part){.name = "grit",
-                                 .finest = 0.5 * g->diameter * real_exp(-2 * sigma - shift) / 4,
-                                 .from = {-HUGE_VAL, -HUGE_VAL},
-                                 .to = {HUGE_VAL, HUGE_VAL},
-                                 .add = grit_add,
-                                 .state = s};
-    return part;
+    return relief_endless(a, "grit", 0.5 * g->diameter * real_exp(-2 * sigma - shift) / 4, grit_add, s);
 }
 
 /* ------------------------------------------------------------------ the stage */
@@ -191,7 +184,7 @@ static bool grit_open(struct stage_run *r, struct err *e)
     struct noise stream = noise_make(r->scene->seed, arena_format(r->arena, "grit/%s", r->contact->name));
     struct relief_part *part = grit_part(r->arena, &r->contact->surface.grit, stream, e);
     if (!part) return err_at(e, "contact '%s'", r->contact->name);
-    relief_settle(r->board->relief, r->contact);
+    relief_decide(r->board->relief, r->contact);
     relief_add(r->board->relief, part);
     return true;
 }

@@ -172,20 +172,6 @@ INLINE void each_moment(const struct limiter_cells *p, const int *at, const stru
     }
 }
 
-LANES_CLONES
-static void cells_apart(const struct limiter_cells *p, const struct points *q)
-{
-    each_mean(p, p->at, q);
-    each_moment(p, p->at, q);
-}
-
-LANES_CLONES
-static void cells_chained(const struct limiter_cells *p, const struct points *q)
-{
-    each_mean(p, NULL, q);
-    each_moment(p, NULL, q);
-}
-
 INLINE void each_sagitta(const struct limiter_cells *p, const int *at)
 {
     const double *alphas = p->alpha, *c = p->curvature, *limited = p->limited, *moment = p->moment,
@@ -202,13 +188,23 @@ INLINE void each_sagitta(const struct limiter_cells *p, const int *at)
     }
 }
 
+INLINE void each_of(const struct limiter_cells *p, const int *at, const struct points *q)
+{
+    each_mean(p, at, q);
+    each_moment(p, at, q);
+    if (p->sagitta) each_sagitta(p, at);
+}
+
 /* With the question which cells are flat, both cell by cell before, and the map's edge: a render in draft over a map
  * from 618 to 585 cycles a sample. */
 LANES_CLONES
-static void sagittas_apart(const struct limiter_cells *p) { each_sagitta(p, p->at); }
-
-LANES_CLONES
-static void sagittas_chained(const struct limiter_cells *p) { each_sagitta(p, NULL); }
+static void cells_gather(const struct limiter_cells *p, const struct points *q)
+{
+    if (limiter_chained(p->n, p->points, p->at))
+        each_of(p, NULL, q);
+    else
+        each_of(p, p->at, q);
+}
 
 static void cells_unlimited(const struct limiter_cells *p)
 {
@@ -246,9 +242,7 @@ static void cells_limited(const struct limiter_cells *p)
     vecmath_tanh_softplus2((size_t)p->points, q.x, p->limited, q.soft);
     points_rest(q.x, q.soft, q.rest, p->points);
     points_over(p->points, p->alpha, q.per, p->limited);
-    bool chained = limiter_chained(p->n, p->points, p->at);
-    (chained ? cells_chained : cells_apart)(p, &q);
-    if (p->sagitta) (chained ? sagittas_chained : sagittas_apart)(p);
+    cells_gather(p, &q);
 }
 
 /* ------------------------------------------------------------------ bisected */

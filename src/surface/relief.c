@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "scene/rules.h"
+#include "stage.h"
 
 void relief_add(struct relief *r, struct relief_part *part)
 {
@@ -12,6 +13,27 @@ void relief_add(struct relief *r, struct relief_part *part)
     while (*end)
         end = &(*end)->next;
     *end = part;
+}
+
+struct relief_part *relief_endless(struct arena *a, const char *name, double finest,
+                                   void (*add)(struct relief_part *, const struct relief_points *,
+                                               const struct relief_values *),
+                                   void *state)
+{
+    struct relief_part *part = ARENA_TAKE(a, struct relief_part, 1);
+    *part = (struct relief_part){.name = name,
+                                 .finest = finest,
+                                 .from = {-HUGE_VAL, -HUGE_VAL},
+                                 .to = {HUGE_VAL, HUGE_VAL},
+                                 .add = add,
+                                 .state = state};
+    return part;
+}
+
+void relief_close(struct stage_run *r)
+{
+    struct relief_part *part = r->state;
+    if (part && part->close) part->close(part);
 }
 
 double relief_shift(const struct relief *r, int axis)
@@ -54,7 +76,7 @@ void relief_at(const struct relief *r, const struct relief_points *p, const stru
         part->add(part, p, v);
 }
 
-void relief_settle(struct relief *r, const struct contact *c)
+void relief_decide(struct relief *r, const struct contact *c)
 {
     if (r->along == ALONG_AUTO) r->along = rules_along(c);
 }

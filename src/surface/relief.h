@@ -43,7 +43,7 @@ struct relief_part {
 };
 
 struct relief {
-    int along;        /* enum along; ALONG_AUTO until a part or relief_settle decides */
+    int along;        /* enum along; ALONG_AUTO until a part or relief_decide decides */
     double origin[2]; /* m, surface.origin: where the surface's own x = y = 0 lies in the scene; not along a path */
     struct relief_part *first;
     const struct relief *under; /* what a round tip goes over, if first is its way; NULL: no tip */
@@ -51,6 +51,16 @@ struct relief {
 
 /* Adds a part, behind those there. */
 void relief_add(struct relief *, struct relief_part *);
+
+/* A part that is given everywhere, without knots. */
+struct relief_part *relief_endless(struct arena *, const char *name, double finest,
+                                   void (*add)(struct relief_part *, const struct relief_points *,
+                                               const struct relief_values *),
+                                   void *state);
+
+/* Closes the part that is a stage's state. */
+struct stage_run;
+void relief_close(struct stage_run *);
 
 /* What is subtracted from the scene's coordinate to get the surface's: origin[axis], or 0 where the surface does not
  * follow it. */
@@ -60,7 +70,7 @@ double relief_shift(const struct relief *, int axis);
 void relief_at(const struct relief *, const struct relief_points *, const struct relief_values *);
 
 /* Decides along where the scene left it auto and no map did: rules_along of scene/rules.h. */
-void relief_settle(struct relief *, const struct contact *);
+void relief_decide(struct relief *, const struct contact *);
 
 /* The finest scale (m) and the smallest pitch of all parts; HUGE_VAL: none. */
 double relief_finest(const struct relief *);

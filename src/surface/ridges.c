@@ -20,7 +20,7 @@
 #include "stage.h"
 #include "surface/relief.h"
 
-enum { RIDGES_KEPT = 16 };
+enum { RIDGES_CACHED = 16 };
 
 struct ridge {
     long i;
@@ -33,12 +33,12 @@ struct ridges_state {
     struct noise stream;
     double ex, ey;        /* q = ex x + ey y */
     double radius, sigma; /* R; of the logarithm of v */
-    struct ridge kept[RIDGES_KEPT];
+    struct ridge cached[RIDGES_CACHED];
 };
 
 static const struct ridge *ridge_at(struct ridges_state *s, long i)
 {
-    struct ridge *r = &s->kept[i & (RIDGES_KEPT - 1)];
+    struct ridge *r = &s->cached[i & (RIDGES_CACHED - 1)];
     if (!r->known || r->i != i) {
         double normal = 0, even = noise_uniform(s->stream, (uint64_t)i, UINT64_MAX) - 0.5;
         if (s->sigma > 0) noise_normal(s->stream, (uint64_t)i, 1, &normal);
@@ -98,7 +98,6 @@ static void ridges_add(struct relief_part *part, const struct relief_points *p, 
 
 struct relief_part *ridges_part(struct arena *a, const struct ridges *recipe, int along, struct noise stream)
 {
-    struct relief_part *part = ARENA_TAKE(a, struct relief_part, 1);
     struct ridges_state *s = ARENA_TAKE(a, struct ridges_state, 1);
     double v = recipe->variation, half = sqrt(1 - real_pow(2, -1.0 / 3));
     *s = (struct ridges_state){.recipe = *recipe,
@@ -111,13 +110,7 @@ struct relief_part *ridges_part(struct arena *a, const struct ridges *recipe, in
         s->ey = -real_cos(recipe->direction);
     }
     double finest = recipe->shape == RIDGE_SINE ? recipe->spacing / 8 : s->radius / 4;
-    *part = (struct relief_part){.name = "ridges",
-                                 .finest = finest,
-                                 .from = {-HUGE_VAL, -HUGE_VAL},
-                                 .to = {HUGE_VAL, HUGE_VAL},
-                                 .add = ridges_add,
-                                 .state = s};
-    return part;
+    return relief_endless(a, "ridges", finest, ridges_add, s);
 }
 
 /* ------------------------------------------------------------------ the stage */
@@ -142,7 +135,7 @@ static bool ridges_open(struct stage_run *r, struct err *e)
             e, ERR_SCENE,
             "contact '%s': surface.ridges: a width of %g m at a spacing of %g m leaves no ridges; lower the width",
             r->contact->name, recipe->width, recipe->spacing);
-    relief_settle(r->board->relief, r->contact);
+    relief_decide(r->board->relief, r->contact);
     relief_add(r->board->relief, ridges_part(r->arena, recipe, r->board->relief->along, stream));
     return true;
 }

@@ -80,7 +80,7 @@ static double piece_guess(double off, double falls, double end, double beyond, d
 }
 
 /* q of the place that the disc rests on; y in half pieces. */
-static double piece_touch(const struct disc *d, const double *c, double y)
+static double piece_contact(const struct disc *d, const double *c, double y)
 {
     double falls, away, off = piece_off(d, c, y, 0, &falls), end = off > 0 ? 1 : -1,
                         beyond = piece_off(d, c, y, end, &away);
@@ -104,7 +104,7 @@ static double piece_touch(const struct disc *d, const double *c, double y)
 /* The second derivative is R^2/s^3 z'' / (R^2/s^3 - z''), and that of the circle where the disc turns about an end. */
 struct height_jet rolling_envelope_rest(const struct disc *d, const double terms[ENVELOPE_TERMS], double y)
 {
-    double q = d->half > 0 ? piece_touch(d, terms, y * d->over) : 0, u = y - q * d->half,
+    double q = d->half > 0 ? piece_contact(d, terms, y * d->over) : 0, u = y - q * d->half,
            square = (d->radius - u) * (d->radius + u);
     double s = square > 0 ? sqrt(square) : 0, arc = d->radius * d->radius / (s * s * s),
            z = d->half > 0 ? piece_height(terms, q) : terms[0];
@@ -637,7 +637,6 @@ long rolling_envelope_window(const struct rolling_plan *p) { return plan_side(p)
 
 struct relief_part *rolling_envelope_part(struct arena *a, const struct relief *under, const struct rolling_plan *p)
 {
-    struct relief_part *part = ARENA_TAKE(a, struct relief_part, 1);
     struct underlying *g = ARENA_TAKE(a, struct underlying, 1);
     long window = rolling_envelope_window(p), size = 1 + window * STRETCH_NUMBERS, blocks = NUMBERS_CACHED / size,
          heights = 2 * (window / LINE + 2);
@@ -656,11 +655,5 @@ struct relief_part *rolling_envelope_part(struct arena *a, const struct relief *
     g->heights = block_cache_make(a, (size_t)(LINE * g->kinds),
                                   (size_t)(heights > HEIGHTS_LEAST ? heights : HEIGHTS_LEAST), heights_fill, g);
     g->blocks = block_cache_make(a, (size_t)size, (size_t)blocks, blocks_fill, g);
-    *part = (struct relief_part){.name = "crest",
-                                 .finest = p->pitch,
-                                 .from = {-HUGE_VAL, -HUGE_VAL},
-                                 .to = {HUGE_VAL, HUGE_VAL},
-                                 .add = underlying_add,
-                                 .state = g};
-    return part;
+    return relief_endless(a, "crest", p->pitch, underlying_add, g);
 }

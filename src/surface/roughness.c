@@ -351,7 +351,7 @@ static bool roughness_open(struct stage_run *r, struct err *e)
     const struct roughness *recipe = &r->contact->surface.roughness;
     struct noise stream = noise_make(r->scene->seed, arena_format(r->arena, "roughness/%s", r->contact->name));
     struct roughness_plan p;
-    relief_settle(r->board->relief, r->contact);
+    relief_decide(r->board->relief, r->contact);
     struct relief_part *part = NULL;
     if (roughness_plan(r->arena, r->scene->shelf, recipe, &p, e)) {
         p.once = rules_once(r->contact);
@@ -366,12 +366,6 @@ static bool roughness_open(struct stage_run *r, struct err *e)
     return true;
 }
 
-static void roughness_close(struct stage_run *r)
-{
-    struct relief_part *part = r->state;
-    if (part && part->close) part->close(part);
-}
-
 const struct stage roughness_stage = {
     .name = "roughness",
     .does = "procedural roughness, random with a given spectrum",
@@ -382,5 +376,5 @@ const struct stage roughness_stage = {
     .wanted = roughness_wanted,
     .work = roughness_work,
     .open = roughness_open,
-    .close = roughness_close,
+    .close = relief_close,
 };

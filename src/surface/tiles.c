@@ -57,9 +57,9 @@ enum {
     UNDER = SIDE / 2 + 2,
     LAID = 8,
     OVER = 10,
-    KEPT_MANY = 4096,
-    KEPT_FEW = 256,
-    KEPT_LEAST = 32
+    CACHED_MANY = 4096,
+    CACHED_FEW = 256,
+    CACHED_LEAST = 32
 };
 
 int tiles_rings(const struct spectrum *s, double (*power)[TILE_LINES])
@@ -313,8 +313,8 @@ size_t tiles_patches_made(const struct patches *p)
 /* A path goes over half as many patches of each coarser band. */
 static size_t capacity_of(int band, bool once)
 {
-    size_t half = (once ? KEPT_FEW : KEPT_MANY) >> (band < 16 ? band : 16);
-    return half > KEPT_LEAST ? half : KEPT_LEAST;
+    size_t half = (once ? CACHED_FEW : CACHED_MANY) >> (band < 16 ? band : 16);
+    return half > CACHED_LEAST ? half : CACHED_LEAST;
 }
 
 size_t tiles_bytes(int bands, bool once)
@@ -476,7 +476,6 @@ static struct patches *bands_make(struct arena *a, int bands, double (*power)[TI
 struct relief_part *tiles_part(struct arena *a, const struct spectrum *s, const struct tiles_grain *g,
                                struct noise stream, double *lost, struct err *e)
 {
-    struct relief_part *part = ARENA_TAKE(a, struct relief_part, 1);
     struct tiles *t = ARENA_TAKE(a, struct tiles, 1);
     double(*power)[TILE_LINES] = (double(*)[TILE_LINES])ARENA_TAKE(a, double, TILE_BANDS *TILE_LINES);
     t->round = g->ratio == 1;
@@ -496,12 +495,8 @@ struct relief_part *tiles_part(struct arena *a, const struct spectrum *s, const 
     }
     t->patches = bands_make(a, bands, power, stream, g->once);
     double h = t->pitch = 0.25 / spectrum_top(s);
-    *part = (struct relief_part){.name = "tiles",
-                                 .finest = h,
-                                 .add = tiles_add,
-                                 .state = t,
-                                 .pitch = {t->sin_d == 0 ? h * g->ratio : 0, t->sin_d == 0 ? h : 0},
-                                 .from = {-HUGE_VAL, -HUGE_VAL},
-                                 .to = {HUGE_VAL, HUGE_VAL}};
+    struct relief_part *part = relief_endless(a, "tiles", h, tiles_add, t);
+    part->pitch[0] = t->sin_d == 0 ? h * g->ratio : 0;
+    part->pitch[1] = t->sin_d == 0 ? h : 0;
     return part;
 }

@@ -102,7 +102,7 @@ static double tip_map_span(const struct height_map *m)
    that goes along an axis takes, every h = patch / 4,
 
      WIDE points of its envelope     POINT cycles of search each, and GATHER for each of the heights that a block of
-                                     CREST x CREST points looks at
+                                     SQUARE x SQUARE points looks at
      a row of heights d apart        over WIDE points' width, the reach on both sides, and a block's own side;
                                      HEIGHT cycles each, the surface's and its coefficients' in it
 
@@ -111,9 +111,9 @@ static double tip_map_span(const struct height_map *m)
    20 % of all (one CPU with AVX-512; tests/bench/planned.py has other scenes). The reach is sqrt(2 R H), H 1.5 times
    what heights are likely to span. */
 enum {
-    CREST = 32,
+    SQUARE = 32,
     BLOCK = 64,
-    WIDE = 16 + 3 + 2 * 28 + CREST - 1
+    WIDE = 16 + 3 + 2 * 28 + SQUARE - 1
 }; /* a block of splines, what their kernel reads beyond, and what a block of the envelope has too many */
 
 #define POINT 1500
@@ -153,8 +153,8 @@ static double likely_span(const struct surface *s)
 /* |cos| + |sin| of the motion's heading; in the mean where it turns. */
 static double aslant(const struct motion *m)
 {
-    double dx = fabs(m->to[0] - m->from[0]), dy = fabs(m->to[1] - m->from[1]), way = sqrt(dx * dx + dy * dy);
-    return rules_straight(m) && way > 0 ? (dx + dy) / way : 4 / REAL_PI;
+    double dx = fabs(m->to[0] - m->from[0]), dy = fabs(m->to[1] - m->from[1]), length = sqrt(dx * dx + dy * dy);
+    return rules_straight(m) && length > 0 ? (dx + dy) / length : 4 / REAL_PI;
 }
 
 static double plane_metre(const struct contact *c, double dense)
@@ -165,7 +165,7 @@ static double plane_metre(const struct contact *c, double dense)
     double reach = fmin(s->radius, sqrt(2 * s->radius * 1.5 * likely_span(&c->surface)));
     struct rolling_plan p = {
         .radius = s->radius, .patch = s->patch, .reach = reach, .finer = finer > 1 ? (int)fmin(finer, 1e6) : 1};
-    double side = (double)contact_patch_side(&p), envelope = WIDE * (POINT + GATHER * side * side / (CREST * CREST));
+    double side = (double)contact_patch_side(&p), envelope = WIDE * (POINT + GATHER * side * side / (SQUARE * SQUARE));
     double heights = finer * (WIDE * finer + 2 * reach / d + BLOCK) * HEIGHT;
     return aslant(&c->motion) * (envelope + heights) / h;
 }
@@ -290,7 +290,7 @@ static bool tip_smoothed(const struct stage_run *r, const struct relief *under, 
 static bool tip_open(struct stage_run *r, struct err *e)
 {
     struct relief *relief = r->board->relief, *under = ARENA_TAKE(r->arena, struct relief, 1);
-    relief_settle(relief, r->contact);
+    relief_decide(relief, r->contact);
     *under = *relief;
     if (!tip_smoothed(r, under, e)) return false;
     struct rolling_plan p = tip_plan(r, under);
@@ -316,8 +316,8 @@ static double tip_work(const struct contact *c, const struct scene *s)
     double times = m->path == PATH_CIRCLE           ? fabs(m->turns)
                    : m->path == PATH_BACK_AND_FORTH ? 2 * m->rate * m->duration
                                                     : 1;
-    double way = rules_speed(m) / fmax(times, 1) / s->output.sample_rate; /* m of new surface per audio sample */
-    return way > 0 ? way * tip_work_metre(c, s->accuracy.tip_heights) : 0;
+    double length = rules_speed(m) / fmax(times, 1) / s->output.sample_rate; /* m of new surface per audio sample */
+    return length > 0 ? length * tip_work_metre(c, s->accuracy.tip_heights) : 0;
 }
 
 const struct stage tip_stage = {

@@ -73,15 +73,18 @@ static double record_at(const struct load_record *r, size_t *piece, double t)
     return out[0];
 }
 
-static bool load_held(const struct load_law *l) { return l->per_acceleration[0] != 0 || l->per_acceleration[1] != 0; }
+static bool load_gripped(const struct load_law *l)
+{
+    return l->per_acceleration[0] != 0 || l->per_acceleration[1] != 0;
+}
 
 void load_at(const struct load_law *l, size_t n, const double *t, const double *ax, const double *ay, double *force)
 {
     size_t piece = 0;
-    bool held = load_held(l);
+    bool gripped = load_gripped(l);
     for (size_t i = 0; i < n; i++)
         force[i] = l->record ? record_at(l->record, &piece, t[i]) : l->still;
-    for (size_t i = 0; held && i < n; i++)
+    for (size_t i = 0; gripped && i < n; i++)
         force[i] += l->per_acceleration[0] * ax[i] + l->per_acceleration[1] * ay[i];
 }
 
@@ -111,7 +114,7 @@ static void load_moved(const struct load_law *l, const struct trajectory *tr, si
         load_turned(l, n, a, b, c, force);
         return;
     }
-    if (load_held(l)) trajectory_at(tr, n, t, (struct trajectory_out){.ax = a, .ay = b});
+    if (load_gripped(l)) trajectory_at(tr, n, t, (struct trajectory_out){.ax = a, .ay = b});
     load_at(l, n, t, a, b, force);
 }
 
@@ -159,7 +162,7 @@ static bool load_recorded(const struct contact *c, const struct trajectory *tr, 
     static const char *const columns[2] = {"normal_force_n", NULL};
     struct load_record *r = ARENA_TAKE(a, struct load_record, 1);
     struct series s;
-    if (!series_read(c->load.recorded, columns, a, &s, e) || !series_apart(&s, c->load.recorded, e)) return false;
+    if (!series_read(c->load.recorded, columns, a, &s, e) || !series_spaced(&s, c->load.recorded, e)) return false;
     double first = s.time[0], last = s.time[s.n - 1], start = tr->clock, end = tr->clock + tr->duration;
     if (first > start + 1e-9 || last < end - 1e-9)
         return err_set(e, ERR_SCENE,

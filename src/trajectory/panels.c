@@ -129,7 +129,7 @@ static struct panels_piece *build_piece(struct build *b)
     return &p->block[k][p->n++ % PANELS_BLOCK];
 }
 
-static void build_keep(struct build *b, const struct piece *w, const double c[6])
+static void build_add(struct build *b, const struct piece *w, const double c[6])
 {
     struct panels_piece *piece = build_piece(b);
     double rise = w->part[0] + w->part[1] + w->part[2], before = b->sum + b->lost, sum = b->sum + rise;
@@ -162,7 +162,7 @@ static bool build_between(struct build *b, double x0, double x1)
             depth++;
             continue;
         }
-        build_keep(b, &w, c);
+        build_add(b, &w, c);
         x0 = w.x1;
         depth--;
     }

@@ -207,7 +207,7 @@ bool path_recorded(const struct motion *m, double duration, struct arena *a, str
 {
     static const char *const columns[2] = {"x_m", "y_m"};
     struct series s;
-    if (!series_read(m->file, columns, a, &s, e) || !series_apart(&s, m->file, e) || !recorded_near(m, &s, e) ||
+    if (!series_read(m->file, columns, a, &s, e) || !series_spaced(&s, m->file, e) || !recorded_near(m, &s, e) ||
         !recorded_moves(m, &s, e))
         return false;
     *clock = s.time[0];
@@ -379,8 +379,8 @@ struct circle {
 static void circle_place(const struct circle *c, size_t i, size_t from, double sine, double cosine,
                          const struct path_out *out)
 {
-    double way = c->per_length < 0 ? -1 : 1;
-    const double at[2] = {cosine, sine}, ahead[2] = {-way * sine, way * cosine};
+    double sense = c->per_length < 0 ? -1 : 1;
+    const double at[2] = {cosine, sine}, ahead[2] = {-sense * sine, sense * cosine};
     for (int xy = 0; xy < 2; xy++) {
         if (out->p[xy]) out->p[xy][from + i] = c->center[xy] + c->radius * at[xy];
         if (out->e[xy]) out->e[xy][from + i] = ahead[xy];
@@ -571,7 +571,7 @@ static double corner_make(struct line_piece *w, double turn, double radius, stru
     return w->length * (x + y * real_tan(turn / 2));
 }
 
-static bool points_apart(const struct motion *m, size_t k, double e[2], double *length, struct err *e_out)
+static bool side_of(const struct motion *m, size_t k, double e[2], double *length, struct err *e_out)
 {
     const double *p = m->points + 2 * k;
     double x = p[2] - p[0], y = p[3] - p[1];
@@ -633,7 +633,7 @@ static bool side_put(struct polyline *l, const struct motion *m, size_t k, doubl
     double e[2], next[2], length, next_length, room = 0;
     struct line_piece corner = {.turn = 0};
     bool last = k + 2 == (size_t)m->n_points;
-    if (!points_apart(m, k, e, &length, err) || (!last && !points_apart(m, k + 1, next, &next_length, err)) ||
+    if (!side_of(m, k, e, &length, err) || (!last && !side_of(m, k + 1, next, &next_length, err)) ||
         (!last && !corner_plan(m, k + 1, e, next, &corner, &room, a, err)))
         return false;
     if (*taken + room > length * (1 + 1e-12))

@@ -39,7 +39,7 @@ bool series_read(const char *file, const char *const columns[2], struct arena *a
 
 static const double NEAREST = 1e-9; /* s */
 
-bool series_apart(const struct series *s, const char *file, struct err *e)
+bool series_spaced(const struct series *s, const char *file, struct err *e)
 {
     for (size_t i = 1; i < s->n; i++)
         if (s->time[i] - s->time[i - 1] < NEAREST)

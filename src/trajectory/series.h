@@ -20,6 +20,6 @@ bool series_read(const char *file, const char *const columns[2], struct arena *,
 
 /* For what a cubic is laid through: rows are 1 ns apart or more, so that no slope and no curvature of it is beyond
  * numbers. ERR_SCENE with file and line. */
-bool series_apart(const struct series *, const char *file, struct err *);
+bool series_spaced(const struct series *, const char *file, struct err *);
 
 #endif

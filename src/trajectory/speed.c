@@ -368,7 +368,7 @@ static void given_fit(struct given *g, const double *v, struct arena *a)
 }
 
 /* Distance, speed, and its derivative; at the speeds of its ends before and after the table. */
-static void given_way(const struct given *g, size_t *i, double t, double out[3])
+static void given_distance(const struct given *g, size_t *i, double t, double out[3])
 {
     double last = g->t[g->n - 1], at = t < 0 ? 0 : t > last ? last : t;
     *i = cubic_next(g->n, g->t, *i, at);
@@ -384,29 +384,29 @@ static void given_at(const struct speed *speed, size_t n, const double *t, doubl
     const struct given *g = speed->state;
     size_t piece = 0;
     for (size_t i = 0; i < n; i++) {
-        double way[3];
+        double far[3];
         bool back = false;
-        given_way(g, &piece, t[i], way);
-        if (!isnan(g->fold) && way[0] > 0) {
-            double k = floor(way[0] / g->fold);
+        given_distance(g, &piece, t[i], far);
+        if (!isnan(g->fold) && far[0] > 0) {
+            double k = floor(far[0] / g->fold);
             back = k / 2 != floor(k / 2);
-            way[0] -= k * g->fold;
+            far[0] -= k * g->fold;
         }
         if (u)
-            u[i] = back                                        ? g->fold - way[0]
-                   : isnan(g->fold) && t[i] <= speed->duration ? fmin(way[0], speed->reach[1])
-                                                               : way[0];
-        if (du) du[i] = back ? -way[1] : way[1];
-        if (ddu) ddu[i] = back ? -way[2] : way[2];
+            u[i] = back                                        ? g->fold - far[0]
+                   : isnan(g->fold) && t[i] <= speed->duration ? fmin(far[0], speed->reach[1])
+                                                               : far[0];
+        if (du) du[i] = back ? -far[1] : far[1];
+        if (ddu) ddu[i] = back ? -far[2] : far[2];
     }
 }
 
 static double given_strokes(const struct given *g, double t)
 {
     size_t piece = 0;
-    double way[3];
-    given_way(g, &piece, t, way);
-    return floor(way[0] / g->fold);
+    double far[3];
+    given_distance(g, &piece, t, far);
+    return floor(far[0] / g->fold);
 }
 
 /* The instant at which the number of whole strokes first is another one than at t0, by bisection down to neighbouring
@@ -433,7 +433,7 @@ bool speed_given(struct speed *speed, const char *file, double fold, struct aren
     struct given *g = ARENA_TAKE(a, struct given, 1);
     struct series s;
     double top = 0, start;
-    if (!series_read(file, columns, a, &s, e) || !series_apart(&s, file, e)) return false;
+    if (!series_read(file, columns, a, &s, e) || !series_spaced(&s, file, e)) return false;
     start = s.time[0];
     for (size_t i = 0; i < s.n; i++) {
         if (s.x[0][i] < 0)

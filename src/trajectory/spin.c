@@ -3,7 +3,7 @@
      x = R theta - r sin(theta)            papers/000 equation 18, x = u + x(start) the way of the centre of mass
      rise = -r cos(theta)                  height of the centre of mass over the geometric centre, which stays R above a
                                            level surface
-     bulge = lobe_height cos(lobes theta)  how much further out than R the rim lies where it touches
+     rim = lobe_height cos(lobes theta)  how much further out than R the rim lies where it touches
 
      theta  rad, 0: the centre of mass is lowest     R, r  m     primes: by time, each the derivative of the formula
                                                                  above it:
@@ -89,39 +89,39 @@ static void spin_solve(const struct spin *s, size_t n, const double *u, struct c
     spin_sincos(n, o->phi, 1, o->s, o->c);
 }
 
-struct spin_way {
+struct rates {
     const double *du, *ddu; /* NULL: not needed */
 };
 
 /* Turning, and what follows from it, at n <= SPIN_CHUNK instants. */
-static void spin_motion(const struct spin *p, size_t n, const struct chunk *o, const struct spin_way *way,
+static void spin_motion(const struct spin *p, size_t n, const struct chunk *o, const struct rates *m,
                         const struct spin_out *out)
 {
     double r = p->offset;
     for (size_t i = 0; i < n; i++) {
         double s = o->s[i], c = o->c[i], lever = p->radius - r * c;
-        double w = way->du ? way->du[i] / lever : 0;
+        double w = m->du ? m->du[i] / lever : 0;
         if (out->theta)
             out->theta[i] = o->turns[i] * TURN[0] + (o->turns[i] * TURN[1] + (o->turns[i] * TURN[2] + o->phi[i]));
         if (out->turning) out->turning[i] = w;
         if (out->rise) out->rise[i] = -r * c;
         if (out->climb) out->climb[i] = r * s * w;
-        if (out->lift) out->lift[i] = r * (c * w * w + s * ((way->ddu[i] - r * s * w * w) / lever));
+        if (out->lift) out->lift[i] = r * (c * w * w + s * ((m->ddu[i] - r * s * w * w) / lever));
     }
 }
 
-static void spin_rim(const struct spin *p, size_t n, const struct chunk *o, const struct spin_way *way,
+static void spin_rim(const struct spin *p, size_t n, const struct chunk *o, const struct rates *m,
                      const struct spin_out *out)
 {
     double s[SPIN_CHUNK], c[SPIN_CHUNK], h = p->lobe_height, k = p->lobes;
-    if (!out->bulge && !out->swell && !out->heave) return;
+    if (!out->rim && !out->swell && !out->heave) return;
     spin_sincos(n, o->phi, p->lobes, s, c);
     for (size_t i = 0; i < n; i++) {
-        double lever = p->radius - p->offset * o->c[i], w = way->du ? way->du[i] / lever : 0;
-        if (out->bulge) out->bulge[i] = h * c[i];
+        double lever = p->radius - p->offset * o->c[i], w = m->du ? m->du[i] / lever : 0;
+        if (out->rim) out->rim[i] = h * c[i];
         if (out->swell) out->swell[i] = -h * k * s[i] * w;
         if (out->heave)
-            out->heave[i] = -h * k * (k * c[i] * w * w + s[i] * ((way->ddu[i] - p->offset * o->s[i] * w * w) / lever));
+            out->heave[i] = -h * k * (k * c[i] * w * w + s[i] * ((m->ddu[i] - p->offset * o->s[i] * w * w) / lever));
     }
 }
 
@@ -144,12 +144,12 @@ void spin_at(const struct spin *s, size_t n, const double *u, const double *du, 
     for (size_t first = 0; first < n; first += SPIN_CHUNK) {
         size_t some = n - first < SPIN_CHUNK ? n - first : SPIN_CHUNK;
         struct spin_out at = {later(out->theta, first), later(out->turning, first), later(out->rise, first),
-                              later(out->climb, first), later(out->lift, first),    later(out->bulge, first),
+                              later(out->climb, first), later(out->lift, first),    later(out->rim, first),
                               later(out->swell, first), later(out->heave, first),   later(out->printed, first)};
-        struct spin_way way = {du ? du + first : NULL, ddu ? ddu + first : NULL};
+        struct rates m = {du ? du + first : NULL, ddu ? ddu + first : NULL};
         spin_solve(s, some, u + first, &o);
-        spin_motion(s, some, &o, &way, &at);
-        spin_rim(s, some, &o, &way, &at);
+        spin_motion(s, some, &o, &m, &at);
+        spin_rim(s, some, &o, &m, &at);
         if (at.printed) spin_printed(s, some, &o, at.printed);
     }
 }

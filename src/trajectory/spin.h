@@ -12,14 +12,14 @@ struct spin {
     int lobes;
 };
 
-struct spin_out {                  /* [n] each; NULL: not asked for */
-    double *theta;                 /* rad; 0: the centre of mass is lowest; not reduced by full turns */
-    double *turning;               /* rad/s, d theta / dt                        */
-    double *rise, *climb, *lift;   /* m, m/s, m/s^2: height of the centre of mass over the geometric centre, -r
+struct spin_out {                /* [n] each; NULL: not asked for */
+    double *theta;               /* rad; 0: the centre of mass is lowest; not reduced by full turns */
+    double *turning;             /* rad/s, d theta / dt                        */
+    double *rise, *climb, *lift; /* m, m/s, m/s^2: height of the centre of mass over the geometric centre, -r
                                       cos(theta), and its two derivatives */
-    double *bulge, *swell, *heave; /* m, m/s, m/s^2: how much further out than R the rim is below the centre,
+    double *rim, *swell, *heave; /* m, m/s, m/s^2: how much further out than R the rim is below the centre,
                                       lobe_height cos(lobes theta), and its two derivatives */
-    double *printed;               /* m, -r cos(x/R): what papers/000 equation 16 has for rise, x of equation 18 */
+    double *printed;             /* m, -r cos(x/R): what papers/000 equation 16 has for rise, x of equation 18 */
 };
 
 struct spin spin_make(const struct contact *c);

@@ -399,10 +399,10 @@ static void whole_start(struct trajectory *tr)
     double zero = 0, v[2], a[2], p[2];
     trajectory_at(tr, 1, &zero,
                   (struct trajectory_out){.x = &p[0], .y = &p[1], .vx = &v[0], .vy = &v[1], .ax = &a[0], .ay = &a[1]});
-    double *way = v[0] != 0 || v[1] != 0 ? v : a, size = sqrt(way[0] * way[0] + way[1] * way[1]);
+    double *ahead = v[0] != 0 || v[1] != 0 ? v : a, size = sqrt(ahead[0] * ahead[0] + ahead[1] * ahead[1]);
     for (int xy = 0; xy < 2; xy++) {
         tr->from[xy] = p[xy];
-        tr->e[xy] = size > 0 ? way[xy] / size : xy == 0;
+        tr->e[xy] = size > 0 ? ahead[xy] / size : xy == 0;
     }
     if (tr->state->path.at)
         tr->state->path.at(&tr->state->path, 1, &zero, &(struct path_out){.e = {&tr->e[0], &tr->e[1]}});

@@ -92,7 +92,7 @@ static struct relief_part *(*rig_relief)(struct arena *, const struct contact *)
 static inline bool rig_relief_open(struct stage_run *r, struct err *e)
 {
     (void)e;
-    relief_settle(r->board->relief, r->contact);
+    relief_decide(r->board->relief, r->contact);
     relief_add(r->board->relief, rig_relief(r->arena, r->contact));
     return true;
 }

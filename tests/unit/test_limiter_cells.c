@@ -119,7 +119,7 @@ START_TEST(means_and_moments_are_integrals)
             x[i][0] = alpha * (x0 / alpha);
             x[i][1] = alpha * (x1 / alpha);
         }
-        run(round % 2, true); /* a bulge of 0 is none */
+        run(round % 2, true); /* a rim of 0 is none */
         for (int i = 0; i < LIMITER_CELLS; i++) {
             double mean = fabs(pieces.alpha[2 * i] * pieces.mean[i] - quadrature(x[i][0], x[i][1], 0, 0));
             double moment = fabs(pieces.alpha[2 * i] * pieces.moment[i] - quadrature(x[i][0], x[i][1], 0, 1));
@@ -155,7 +155,7 @@ START_TEST(moments_beyond_the_border)
 END_TEST
 
 /* |T| and its mean stay within 1/alpha, however the curvature bulges (its first-order formula may step 2e-8 over them,
-   and a bulge brings 4 alpha b roundings); the moment of a T between -1/alpha and 1/alpha within 1/(4 alpha). */
+   and a rim brings 4 alpha b roundings); the moment of a T between -1/alpha and 1/alpha within 1/(4 alpha). */
 START_TEST(bounded_by_one_over_alpha)
 {
     srand48(4);
@@ -249,7 +249,7 @@ static void add_bulges(double b)
     }
 }
 
-/* The law of the header: second order in alpha b up to 1/64, no larger from there on, to any bulge. */
+/* The law of the header: second order in alpha b up to 1/64, no larger from there on, to any rim. */
 START_TEST(error_of_a_bulge)
 {
     gsl_set_error_handler_off();
@@ -276,7 +276,7 @@ START_TEST(error_of_a_bulge)
 }
 END_TEST
 
-/* Root mean square error of alpha mean over a stretch of 0.4 in x with a bulge of 1/64, cut into equal pieces, for 512
+/* Root mean square error of alpha mean over a stretch of 0.4 in x with a rim of 1/64, cut into equal pieces, for 512
  * places of the stretch. */
 static double error_of_cut(int cuts)
 {
@@ -320,12 +320,12 @@ START_TEST(neighbours_do_not_matter)
     memcpy(moment, pieces.moment, sizeof moment);
     for (int i = 0; i < LIMITER_CELLS; i++) {
         double c0 = pieces.curvature[2 * i], c1 = pieces.curvature[2 * i + 1], alpha = pieces.alpha[2 * i],
-               bulge = pieces.sagitta[i];
+               rim = pieces.sagitta[i];
         int n = pieces.n;
         pieces.n = 0;
         double first[2] = {pieces.curvature[0], pieces.curvature[1]}, first_alpha = pieces.alpha[0],
                first_bulge = pieces.sagitta[0];
-        add_piece(alpha, c0, c1, bulge);
+        add_piece(alpha, c0, c1, rim);
         run(true, true);
         ck_assert(pieces.mean[0] == mean[i] && pieces.moment[0] == moment[i]);
         pieces.n = 0;

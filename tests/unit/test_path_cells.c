@@ -160,7 +160,7 @@ static void check_knots(double slack)
     ck_assert_int_gt(met, all.n / 50);
 }
 
-/* The limits that path_cells_make sets itself, and the pairs of cells that bulge: against the surface at the points. */
+/* The limits that path_cells_make sets itself, and the pairs of cells that rim: against the surface at the points. */
 static void check_pairs(void)
 {
     for (int i = 0; i < all.n; i += 2) {

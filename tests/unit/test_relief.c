@@ -132,7 +132,7 @@ START_TEST(settled_along)
         struct contact c = {.motion = {.path = cases[i].path},
                             .surface = {.roughness = {.given = cases[i].roughness, .grain = cases[i].grain},
                                         .ridges = {.given = cases[i].ridges}}};
-        relief_settle(&r, &c);
+        relief_decide(&r, &c);
         ck_assert_msg(r.along == cases[i].want, "case %zu: %d", i, r.along);
         ck_assert(rules_straight(&c.motion) == (cases[i].path <= PATH_FOUR_IN_LINE));
     }

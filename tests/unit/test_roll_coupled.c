@@ -271,7 +271,7 @@ END_TEST
 /* ------------------------------------------------------------------ out of round */
 
 /* A ball on flat ground that it never leaves follows its own rim and centre of mass: k so large that it hardly sinks
-   in. w - w(0) = rise + bulge less those at the start; penetration varies by 2/3 x_0 times s''/g (3 %), and rings at
+   in. w - w(0) = rise + rim less those at the start; penetration varies by 2/3 x_0 times s''/g (3 %), and rings at
    sqrt(1.5 g / x_0) where that jumps at the start. */
 START_TEST(rise_and_bulge_lift_the_ball)
 {

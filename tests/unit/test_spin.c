@@ -74,15 +74,15 @@ START_TEST(hours)
     struct spin s = ball(0.004);
     srand48(3);
     for (int i = 0; i < 20000; i++) {
-        double u = between(0.9, 1.1) * 3600 * 30, rise, bulge;
-        spin_at(&s, 1, &u, NULL, NULL, &(struct spin_out){.rise = &rise, .bulge = &bulge});
+        double u = between(0.9, 1.1) * 3600 * 30, rise, rim;
+        spin_at(&s, 1, &u, NULL, NULL, &(struct spin_out){.rise = &rise, .rim = &rim});
         long double y = (long double)u / s.radius, phi = y - 2 * PI_L * rintl(y / (2 * PI_L)), e = phi,
                     q = (long double)s.offset / s.radius;
         for (int k = 0; k < 100; k++)
             e -= (e - q * sinl(e) - phi) / (1 - q * cosl(e));
         double rounding = 2 * u * 1.2e-16 / s.radius; /* rad */
         ck_assert_double_eq_tol(rise, (double)(-s.offset * cosl(e)), s.offset * rounding);
-        ck_assert_double_eq_tol(bulge, (double)(s.lobe_height * cosl(s.lobes * e)), s.lobe_height * s.lobes * rounding);
+        ck_assert_double_eq_tol(rim, (double)(s.lobe_height * cosl(s.lobes * e)), s.lobe_height * s.lobes * rounding);
     }
 }
 END_TEST
@@ -98,7 +98,7 @@ static void motion(double a, double t, double out[3])
 }
 
 struct moved {
-    double theta, turning, rise, climb, lift, bulge, swell, heave;
+    double theta, turning, rise, climb, lift, rim, swell, heave;
 };
 
 static struct moved moved(const struct spin *s, double a, double t)
@@ -107,7 +107,7 @@ static struct moved moved(const struct spin *s, double a, double t)
     double x[3];
     motion(a, t, x);
     spin_at(s, 1, &x[0], &x[1], &x[2],
-            &(struct spin_out){&m.theta, &m.turning, &m.rise, &m.climb, &m.lift, &m.bulge, &m.swell, &m.heave, NULL});
+            &(struct spin_out){&m.theta, &m.turning, &m.rise, &m.climb, &m.lift, &m.rim, &m.swell, &m.heave, NULL});
     return m;
 }
 
@@ -130,7 +130,7 @@ START_TEST(derivatives)
     } pairs[] = {{offsetof(struct moved, theta), offsetof(struct moved, turning)},
                  {offsetof(struct moved, rise), offsetof(struct moved, climb)},
                  {offsetof(struct moved, climb), offsetof(struct moved, lift)},
-                 {offsetof(struct moved, bulge), offsetof(struct moved, swell)},
+                 {offsetof(struct moved, rim), offsetof(struct moved, swell)},
                  {offsetof(struct moved, swell), offsetof(struct moved, heave)}};
     srand48(4);
     for (int i = 0; i < 2000; i++) {
@@ -178,11 +178,11 @@ START_TEST(round_ball)
     double u = 0.1, v = 2, a = -3;
     struct moved m;
     spin_at(&s, 1, &u, &v, &a,
-            &(struct spin_out){&m.theta, &m.turning, &m.rise, &m.climb, &m.lift, &m.bulge, &m.swell, &m.heave, NULL});
+            &(struct spin_out){&m.theta, &m.turning, &m.rise, &m.climb, &m.lift, &m.rim, &m.swell, &m.heave, NULL});
     ck_assert_double_eq_tol(m.theta, 0.7 + 0.1 / 0.03, 1e-15 * 4);
     ck_assert_double_eq_tol(m.turning, 2 / 0.03, 1e-13);
     ck_assert(m.rise == 0 && m.climb == 0 && m.lift == 0);
-    ck_assert_double_eq_tol(m.bulge, 2e-5 * cos(3 * (0.7 + 0.1 / 0.03)), 1e-19);
+    ck_assert_double_eq_tol(m.rim, 2e-5 * cos(3 * (0.7 + 0.1 / 0.03)), 1e-19);
     double x = 3 * (0.7 + 0.1 / 0.03), w = 2 / 0.03, ww = -3 / 0.03;
     ck_assert_double_eq_tol(m.swell, -2e-5 * 3 * sin(x) * w, 1e-16);
     ck_assert_double_eq_tol(m.heave, -2e-5 * 3 * (3 * cos(x) * w * w + sin(x) * ww), 1e-13);
