@@ -191,7 +191,7 @@ static double loudness(const struct modal_fit *f, int i)
 int modal_settle_runaways(struct modal_fit *f)
 {
     for (int dropped = 0;; dropped++) {
-        double most = 0.0;
+        double most = -1.0;
         int loudest = -1;
         for (int i = 0; i < f->m; i++) {
             double size = loudness(f, i);
