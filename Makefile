@@ -31,8 +31,7 @@ CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fno-tree-slp-vectorize -fopen
 ARCHIVES = fftw3 gsl gslcblas crypto png16 z yaml jansson
 LIBS := $(foreach l,$(shell pkg-config --libs $(PKGS)) -lz -lsleef -lm,$(if $(and $(filter $(ARCHIVES:%=-l%),$l),$(filter /%,$(shell \
     $(CC) -print-file-name=$(l:-l%=lib%.a)))),-l:$(l:-l%=lib%.a),$l))
-# What rasp-modes needs besides. Loading these takes longer than rasp does for a short scene. They stand behind GSL's own CBLAS, which is the same
-# arithmetic on every CPU.
+# What rasp-modes needs besides. Loading these takes longer than rasp does for a short scene.
 HEAVY = -lcholmod -llapacke -lopenblas
 PACKAGES = $(shell for package in $(PKGS) sleef openblas lapacke; do printf '%s %s;' $$package $$(pkg-config --modversion $$package 2> /dev/null || echo '?'); done)
 
@@ -60,7 +59,7 @@ $(BUILD)/rasp: $(BUILD)/main.o $(BUILD)/librasp.a
 	$Q$(CC) $(CFLAGS) -o $@ $^ $(LIBS)
 $(BUILD)/rasp-modes: $(BUILD)/main_modes.o $(BUILD)/librasp.a
 	$(call say,link)
-	$Q$(CC) $(CFLAGS) -o $@ $^ $(LIBS) $(HEAVY)
+	$Q$(CC) $(CFLAGS) -o $@ $^ $(HEAVY) $(LIBS)
 
 $(BUILD)/librasp.a: $(OBJ) $(BUILD)/files
 	$Qrm -f $@ && ar rcs $@ $(OBJ)
@@ -85,7 +84,7 @@ unit: $(UNIT)
 $(BUILD)/tests/%: tests/unit/%.c $(BUILD)/librasp.a
 	@mkdir -p $(@D)
 	$(call say,$(CC))
-	$Q$(CC) $(CFLAGS) -MMD -MP -Itests/unit -o $@ $< $(BUILD)/librasp.a $(shell pkg-config --libs check) -Wl,--as-needed $(LIBS) $(HEAVY)
+	$Q$(CC) $(CFLAGS) -MMD -MP -Itests/unit -o $@ $< $(BUILD)/librasp.a $(shell pkg-config --libs check) -Wl,--as-needed $(HEAVY) $(LIBS)
 
 # Other flags, another compiler, another list of files in the same folder: what depends on them is made again.
 $(BUILD)/flags: FORCE
@@ -132,7 +131,7 @@ fuzzers: $(FUZZ)
 $(BUILD)/fuzz_%: tests/fuzz/fuzz_%.c tests/fuzz/fuzz.h $(BUILD)/librasp.a
 	@mkdir -p $(@D)
 	$(call say,$(CC))
-	$Q$(CC) $(CFLAGS) -fsanitize=fuzzer -Itests/fuzz -o $@ $< $(BUILD)/librasp.a -Wl,--as-needed $(LIBS) $(HEAVY)
+	$Q$(CC) $(CFLAGS) -fsanitize=fuzzer -Itests/fuzz -o $@ $< $(BUILD)/librasp.a -Wl,--as-needed $(HEAVY) $(LIBS)
 
 # Random scenes, a part of them with a fault planted, for SECONDS: tests/torture/. SEED=2 others. What is built with
 # sanitizers runs one in four, and must make the same bytes.
@@ -151,7 +150,7 @@ bench: all $(BENCH)
 $(BUILD)/bench/%: tests/bench/%.c $(BUILD)/librasp.a
 	@mkdir -p $(@D)
 	$(call say,$(CC))
-	$Q$(CC) $(CFLAGS) -MMD -MP -o $@ $< $(BUILD)/librasp.a -Wl,--as-needed $(LIBS) $(HEAVY)
+	$Q$(CC) $(CFLAGS) -MMD -MP -o $@ $< $(BUILD)/librasp.a -Wl,--as-needed $(HEAVY) $(LIBS)
 
 # The mode tables that ship, from the recipes beside them.
 irs: all

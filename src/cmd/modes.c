@@ -581,13 +581,12 @@ static const struct action actions[] = {
     {NULL, NULL, 0, 0, {NULL}, NULL},
 };
 
-int modes_dispatch(struct cmd_call *c, int (*compute)(struct cmd_call *c, struct err *e), struct err *e)
+int modes_compute_only(struct cmd_call *c, int (*run)(struct cmd_call *c, struct err *e), struct err *e)
 {
-    struct action mine[sizeof actions / sizeof *actions];
-    for (size_t i = 0; i < sizeof actions / sizeof *actions; i++) {
-        mine[i] = actions[i];
-        if (mine[i].name && !strcmp(mine[i].name, "compute")) mine[i].run = compute;
-    }
+    struct action mine[2] = {{NULL}};
+    for (const struct action *a = actions; a->name; a++)
+        if (!strcmp(a->name, "compute")) mine[0] = *a;
+    mine[0].run = run;
     return cmd_actions("modes", mine, c, e);
 }
 
