@@ -8,8 +8,7 @@
    - mean: s/sqrt(sum U^2), which tends to s |1 + b1|/(|1 + a1| sqrt(n)); 1 + a1 is 0.03 for smooth rolling and known to
      a fifth of itself after 2000 impacts.
      So Student's t takes the place of 1.96, with 2/var(ln error^2) degrees of freedom (Satterthwaite, Biometrics Bull.
-       2, 1946, 110), at least 3; the variance follows from
-     the errors of a1, b1 and s. */
+     2, 1946, 110), at least 3; the variance follows from the errors of a1, b1 and s. */
 #include "analysis/impact_statistics.h"
 
 #include <gsl/gsl_cdf.h>
@@ -24,13 +23,10 @@
 #include "force/impact_series.h"
 #include "num/real.h"
 
-/* ------------------------------------------------------------------ impact warnings */
+/* ------------------------------------------------------------------ warnings */
 
-/* What biases the statistics of impacts, in words. See impact_warnings.c. */
-/* Fills s->warnings from the rest of s. interval[n - 1]: as they are. */
-
-/* Warnings of `rasp analyse`: each says what was seen, what it does to the estimates, and where there is a remedy,
- * which. */
+/* Warnings of `rasp analyse`, what biases the statistics: each says what was seen, what it does to the estimates, and
+ * where there is a remedy, which. */
 #define CHANCE 1e-6
 #define GRAIN 1e-6 /* of the distance between the quartiles: values so near are alike */
 
@@ -174,6 +170,7 @@ static void processes(struct list *l)
              r);
 }
 
+/* s->warnings from the rest of s; interval[n - 1]. */
 static void impact_warnings(const struct impact_events *v, const double *interval, struct arena *a,
                             struct impact_statistics *s)
 {
@@ -192,7 +189,7 @@ static void impact_warnings(const struct impact_events *v, const double *interva
     s->warnings[l.count] = NULL;
 }
 
-/* ------------------------------------------------------------------ */
+/* ------------------------------------------------------------------ statistics */
 
 #define NORMAL 1.959963984540054
 

@@ -2,7 +2,7 @@
 
    Amplitudes of rolling are far from white (a1 about -0.97), so that a plain periodogram is greatest at the lowest
    frequencies whatever there is. So values are whitened first, and where a sinusoid is strongest, and how likely noise
-   makes one as strong, is found in modulation_scan.c.
+   makes one as strong, is found by a scan.
 
    What is found is refined as what it is, a factor: m, nu, phi make n ln |W (A/(1 + m sin) - mean)|^2 + 2 sum ln(1 + m
    sin) least (W: the whitening by the ARMA filter of arma.c; the second term is the likelihood's: else a larger factor
@@ -23,7 +23,7 @@
 #include "num/real.h"
 #include "num/vecmath.h"
 
-/* ------------------------------------------------------------------ modulation scan */
+/* ------------------------------------------------------------------ scan */
 
 /* Where in the spectrum of amplitudes at irregular times a sinusoid is strongest, against what noise of the same
  * ARMA(1,1) filter does there. */
@@ -201,8 +201,6 @@ static void modulation_scan_strongest(struct modulation_problem *p, struct modul
     m->probability = false_alarm(p, z);
 }
 
-/* ------------------------------------------------------------------ */
-
 enum { TURNS = 3, STEPS = 100, GROUP = 32 };
 
 /* ------------------------------------------------------------------ refinement: c = m cos phi, s = m sin phi (from the
@@ -364,8 +362,6 @@ static void refine(struct modulation_problem *p, struct arena *a, struct modulat
     m->phase = real_atan2(at[1], at[0]);
     errors_make(p, h, (double[2]){at[0] / m->depth, at[1] / m->depth}, m);
 }
-
-/* ------------------------------------------------------------------ */
 
 void modulation_find(const double *time, const double *amplitude, int n, struct arena *a, struct modulation *m)
 {

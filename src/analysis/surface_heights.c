@@ -109,7 +109,6 @@ void surface_heights_steps(const struct heightfile *h, struct surface_heights_st
 
 /* ------------------------------------------------------------------ surface ends */
 
-/* See surface_heights_ends.h. */
 enum { PERIOD_MOST = 1 << 22 };
 
 struct ends {
@@ -251,7 +250,7 @@ void surface_heights_period(const struct heightfile *h, struct surface_heights_p
 
 /* ------------------------------------------------------------------ surface band */
 
-/* See surface_heights_band.h. Density of a segment x[n] under the window w: 2 pitch |X_k|^2 / sum w^2; the median of an
+/* Density of a segment x[n] under the window w: 2 pitch |X_k|^2 / sum w^2; the median of an
    exponentially distributed figure is ln 2 of its mean. The window is Nuttall's with a continuous first derivative
    (IEEE ASSP 29, 1981, table II). Bins are averaged over twelfths of an octave before levels are compared. */
 enum { SEGMENT_MOST = 8192, SEGMENT_LEAST = 32, SEGMENTS_MOST = 256 };

@@ -11,9 +11,9 @@
 struct accuracy_error {
     double snr;             /* dB, of samples; INFINITY: the same */
     double third, third_hz; /* dB, worst difference of third octaves within 60 dB of the loudest, and where */
-    double spectral;        /* dB, analysis/log_spectral.h */
+    double spectral;        /* dB, spectral_distance_sounds */
     double level;           /* dB, of this over the reference */
-    double follows;         /* s, analysis/agreement.h */
+    double follows;         /* s, distance_agreement */
     double length;          /* s, of the sound */
 };
 

@@ -339,7 +339,7 @@ static void note_ring(const struct ring *g, const struct response *given, struct
     b->ring = fmax(b->ring, isnan(given->length) ? ring : fmin(ring, given->length));
 }
 
-/* The sound ends 60 s after the last force where output.tail is auto (pipeline/render_parts.c). */
+/* The sound ends 60 s after the last force where output.tail is auto (pipeline/render.c). */
 static void note_endless(const struct ring *g, const struct response *given, struct stage_run *r)
 {
     double falls = gammatone_decibel(g->choice->gamma, 80), ring = modes_ring_time(&g->choice->modes, falls);

@@ -57,10 +57,9 @@ struct render_length { /* frames of the whole                                   
     long frames;       /* as output.duration wants it; without it the natural length       */
 };
 
-/* The plans of a whole scene, as a render would have them. */
-/* The plans of all contacts, [s->n_contacts], after all that a render does before its first sample: every file is there
-   (pipeline/inputs.h), every stage can begin; with what it warns of by then, which ends with NULL. ERR_INPUT, ERR_SCENE
-   and what stages give; NULL then. Nothing is written. */
+/* The plans of all contacts, [s->n_contacts], as a render would have them, after all that it does before its first
+   sample: every file is there (pipeline/inputs.h), every stage can begin; with what it warns of by then, which ends with
+   NULL. ERR_INPUT, ERR_SCENE and what stages give; NULL then. Nothing is written. */
 const struct plan *plan_scene(const struct scene *s, struct arena *a, const char ***warnings, struct err *e);
 
 struct plan_scene_estimate {

@@ -223,7 +223,6 @@ void summary_warnings(const struct scene *s, const struct run *const *runs, stru
                           report->older[i]));
 }
 
-/* A number, or null for one that is not finite. */
 /* Each listening place of several: what is heard there, unscaled. */
 static json_t *channels_json(const struct scene *s, const struct sound_report *o, const struct render_file *wav)
 {

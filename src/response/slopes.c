@@ -308,8 +308,6 @@ static bool grow(struct work *w, double *x, int k, double *least)
     return true;
 }
 
-/* ------------------------------------------------------------------ */
-
 /* Fills times and amplitudes, in units of T and of the largest; returns T. */
 static double lay_out(struct arena *a, struct work *w, int *most)
 {
