@@ -22,7 +22,8 @@ struct spectral_distance spectral_distance(const double *a, const double *b, lon
                                            const struct spectral_distance_band *in);
 
 /* The log-spectral distance of two sounds, dB: the mean of the distances with windows of about 5, 20 and 80 ms; 0:
-   equal, or the reference is silent. a is the reference; both have the same rate and number of channels, and what both have in time is compared. */
+   equal, or the reference is silent. a is the reference; both have the same rate and number of channels, and what both
+   have in time is compared. */
 double spectral_distance_sounds(const struct wav *a, const struct wav *b);
 
 #endif

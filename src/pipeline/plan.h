@@ -58,8 +58,8 @@ struct render_length { /* frames of the whole                                   
 };
 
 /* The plans of all contacts, [s->n_contacts], as a render would have them, after all that it does before its first
-   sample: every file is there (pipeline/inputs.h), every stage can begin; with what it warns of by then, which ends with
-   NULL. ERR_INPUT, ERR_SCENE and what stages give; NULL then. Nothing is written. */
+   sample: every file is there (pipeline/inputs.h), every stage can begin; with what it warns of by then, which ends
+   with NULL. ERR_INPUT, ERR_SCENE and what stages give; NULL then. Nothing is written. */
 const struct plan *plan_scene(const struct scene *s, struct arena *a, const char ***warnings, struct err *e);
 
 struct plan_scene_estimate {
