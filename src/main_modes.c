@@ -1,5 +1,5 @@
-/* rasp-modes compute ...: the action of `rasp modes` that needs sparse and dense linear algebra, in a program of its own,
- * so that rasp starts without them. */
+/* rasp-modes compute ...: the action of `rasp modes` that needs sparse and dense linear algebra, in a program of its
+ * own, so that rasp starts without them. */
 #include "cmd/cmd.h"
 #include "cmd/modes.h"
 
