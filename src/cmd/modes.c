@@ -583,7 +583,8 @@ static const struct action actions[] = {
 
 int modes_compute_only(struct cmd_call *c, int (*run)(struct cmd_call *c, struct err *e), struct err *e)
 {
-    struct action mine[2] = {{NULL}};
+    struct action mine[2];
+    memset(mine, 0, sizeof mine);
     for (const struct action *a = actions; a->name; a++)
         if (!strcmp(a->name, "compute")) mine[0] = *a;
     mine[0].run = run;
