@@ -87,7 +87,7 @@ The presets aim at 40, 70 and 100 dB; reference is what double precision and the
   32 kHz, more than half the sample rate: all of that folds at draft, and at standard sub-intervals are still about as long as what they have to average, so that the order is
   0.8 and 1.8; from 4 to 16 it is 2.7 and 3.0. (circle, at 0.30 m/s on the same wavelength, gets 44, 71 and 108 dB.)
 - **rubbing, draft, 24 dB:** oversampling: impacts 22.7 us long, one each 22.7 us, are a force that is white beyond half the sample rate, and its means over whole samples fold; the sound is an
-  acceleration, which is weighed towards high frequencies. Two sub-intervals leave 58 dB by the rehearsals of accuracy.error.
+  acceleration, which is weighed towards high frequencies. Two sub-intervals leave 58 dB by the pilot runs of accuracy.error.
 - **nodal_lines, draft, 32 dB:** oversampling: its limiter has an alpha of 1 cm, so that its force is smoothed over a third of the time that the default of 3 cm gives (with which draft leaves 50 dB), and a ground of
   10 um passes at 20 kHz (of 20 um: 38 dB).
 - **material_space, high, 92 dB:** gain_ramp, whose 16 samples leave 91 dB of a glide whose poles move that fast; 8 leave 99 dB.

@@ -15,7 +15,7 @@ trap 'rm -f "$RESULT"' EXIT
 {
     echo '# Predicted cost of roughness in the plane'
     echo
-    echo 'Made by `evidence/planned.sh`. Cycles are the CPU time of all stages of a contact, opening and rehearsal with it, least of several renders, times the core clock, over the samples of its motion,'
+    echo 'Made by `evidence/planned.sh`. Cycles are the CPU time of all stages of a contact, opening with it, least of several renders, times the core clock, over the samples of its motion,'
     echo "on: $(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -n 1). The model (\`src/surface/tip.c\`) knows the scene's keys alone: how far the ground's heights span is a guess."
     echo 'Wanted: within a factor of 1.5.'
     echo

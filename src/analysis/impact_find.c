@@ -109,7 +109,7 @@ static double greatest_near(const struct search *q, long at)
 static void maxima_choose(struct search *q, struct arena *a)
 {
     double *right = ARENA_TAKE(a, double, q->n), most = fmax(q->f->greatest, q->o->both ? -q->f->least : 0);
-    long *stack = ARENA_TAKE(a, long, q->n), kept = 0;
+    long *stack = ARENA_TAKE(a, long, q->n), left = 0;
     q->left = ARENA_TAKE(a, double, q->n);
     valleys(q, 1, true, q->left, stack);
     valleys(q, -1, false, right, stack);
@@ -120,9 +120,9 @@ static void maxima_choose(struct search *q, struct arena *a)
         else if (h - fmax(q->left[k], right[k]) < q->o->prominence * greatest_near(q, q->at[k]))
             q->f->ripples++;
         else
-            q->at[kept++] = q->at[k];
+            q->at[left++] = q->at[k];
     }
-    q->n = kept;
+    q->n = left;
     q->f->events.fewer = q->f->ripples + q->f->low;
 }
 

@@ -70,7 +70,7 @@ static int piled(const double *x, int n, double reach)
 
 /* Draws raised to a floor are all equal. apart: how far equal ones may be apart otherwise, to each side: as a share of
    them, and in themselves; where a modulation was divided out, twice and three times as much is tried too. */
-static void floors(struct list *l, int which, const double *series, int n, const double apart[2])
+static void floors(struct list *l, int which, const double *series, int n, const double grain[2])
 {
     double *x = ARENA_TAKE(l->a, double, n);
     memcpy(x, series, n * sizeof *x);
@@ -78,12 +78,12 @@ static void floors(struct list *l, int which, const double *series, int n, const
     int least = 0, tries = which == STATISTICS_AMPLITUDE && l->s->modulation.found ? 3 : 1;
     for (int k = 1; k <= tries; k++)
         least = (int)fmax(least,
-                          piled(x, n, 2 * k * (apart[0] * fabs(x[0]) + apart[1]) + GRAIN * (x[3 * n / 4] - x[n / 4])));
+                          piled(x, n, 2 * k * (grain[0] * fabs(x[0]) + grain[1]) + GRAIN * (x[3 * n / 4] - x[n / 4])));
     if (least)
         WARN(l,
              "%.3g %% of the %s are the smallest one, %s%.4g: raised to a floor, as draws below one are%s. What lay "
              "below a floor is lost: the mean comes out too high, the deviation and a1's memory wrong",
-             100.0 * least / n, names[which], apart[0] > 0 ? "about " : "", x[least / 2],
+             100.0 * least / n, names[which], grain[0] > 0 ? "about " : "", x[least / 2],
              which == STATISTICS_INTERVAL ? " (or drawn alike, as a rub's are)" : "");
 }
 

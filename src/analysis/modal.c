@@ -40,7 +40,7 @@ static void note_number(struct modal_result *r, struct arena *a, int n, const ch
 static double score(struct modal_fit *f)
 {
     enum { PART = 64 };
-    double sum = modal_settle_limit(f, stable) * f->m;
+    double sum = modal_converge_limit(f, stable) * f->m;
     modal_fit_rest(f);
     modal_fit_noise(f, 0.0);
     for (int s = 0; s < f->data->stretches; s++) {
@@ -62,7 +62,7 @@ static double score(struct modal_fit *f)
 static void search(struct modal_fit *f)
 {
     double width = samples / f->longest, least = HUGE_VAL, noise, best = HUGE_VAL;
-    int kept = 0, room = f->most + MODAL_BLOCK; /* a band brings less than a block */
+    int surviving = 0, room = f->most + MODAL_BLOCK; /* a band brings less than a block */
     struct modal_component *c = ARENA_TAKE(f->a, struct modal_component, room);
     struct modal_part *part = ARENA_TAKE(f->a, struct modal_part, room * f->data->groups);
     for (int round = 0, came = 1, last = 0; round < ROUNDS && last < 2 && f->m < f->most; round++) {
@@ -72,21 +72,21 @@ static void search(struct modal_fit *f)
         int before = f->m;
         for (double w = round % 2 ? 2.0 * width : width; w < f->data->rate / 3.0; w *= 4.0) {
             int n = modal_search(f, w, least);
-            if (n) modal_settle_sweeps(f, 8, 2);
+            if (n) modal_converge_sweeps(f, 8, 2);
         }
-        if (modal_settle_runaways(f)) modal_settle_sweeps(f, 8, 2);
-        modal_settle_runaways(f);
-        modal_settle_sweeps(f, 16, 4);
+        if (modal_converge_runaways(f)) modal_converge_sweeps(f, 8, 2);
+        modal_converge_runaways(f);
+        modal_converge_sweeps(f, 16, 4);
         modal_fit_rest(f);
         modal_fit_noise(f, 0.0);
-        modal_settle_eliminate(f, modal_settle_limit(f, stable));
+        modal_converge_eliminate(f, modal_converge_limit(f, stable));
         double now = score(f);
         bool better = now < best;
-        size_t n = (size_t)(better ? f->m : kept), size = n * (size_t)f->data->groups * sizeof *part;
+        size_t n = (size_t)(better ? f->m : surviving), size = n * (size_t)f->data->groups * sizeof *part;
         if (n) memcpy(better ? c : f->c, better ? f->c : c, n * sizeof *c);
         if (n) memcpy(better ? part : f->part, better ? f->part : part, size);
         best = better ? now : best;
-        kept = f->m = (int)n;
+        surviving = f->m = (int)n;
         modal_fit_rest(f);
         came = f->m - before;
         last = least == 0.0 && came <= f->m / 4 ? last + 1 : 0; /* twice, as the widths of bands take turns */
@@ -117,37 +117,37 @@ static void redraw(struct modal_block *b, const struct modal_block *was, uint64_
 
 static bool survives(struct modal_fit *f, int i, double limit)
 {
-    int kept = 0;
+    int surviving = 0;
     struct arena *a = arena_open();
     struct modal_block *was = ARENA_TAKE(a, struct modal_block, 1), *b = ARENA_TAKE(a, struct modal_block, 1);
     struct noise source = noise_make(1, "modes that survive");
-    modal_settle_open(was, f, i, 8, a);
+    modal_converge_open(was, f, i, 8, a);
     modal_block_gains(was);
     for (int k = 0; k < DRAWS; k++) {
-        int at = modal_settle_open(b, f, i, 8, a);
+        int at = modal_converge_open(b, f, i, 8, a);
         redraw(b, was, (uint64_t)k << 20 | (uint64_t)i << 32, source);
         modal_block_polish(b, 4);
         double chi = b->chi;
         modal_block_drop(b, at);
         modal_block_polish(b, b->m ? 5 : 0);
-        kept += b->chi - chi >= limit;
+        surviving += b->chi - chi >= limit;
     }
     arena_close(a);
-    return kept >= SURVIVES;
+    return surviving >= SURVIVES;
 }
 
 static int drop_unstable(struct modal_fit *f)
 {
-    double limit = modal_settle_limit(f, stable), sure = modal_settle_limit(f, certain);
+    double limit = modal_converge_limit(f, stable), sure = modal_converge_limit(f, certain);
     int dropped = 0;
     for (int i = 0; i < f->m;)
-        if (modal_settle_rise(f, i) > sure || survives(f, i, limit)) {
+        if (modal_converge_rise(f, i) > sure || survives(f, i, limit)) {
             i++;
         } else {
-            modal_settle_drop(f, i, 11);
+            modal_converge_drop(f, i, 11);
             dropped++;
         }
-    if (dropped) modal_settle(f);
+    if (dropped) modal_converge(f);
     return dropped;
 }
 
@@ -180,7 +180,7 @@ static void errors(struct modal_fit *f, int i, struct modal_mode *m)
     double se[2];
     struct arena *a = arena_open();
     struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
-    modal_block_errors(b, modal_settle_open(b, f, i, 16, a), se, m->gain_se, m->gain_shared);
+    modal_block_errors(b, modal_converge_open(b, f, i, 16, a), se, m->gain_se, m->gain_shared);
     m->frequency_se = se[0] / (2.0 * REAL_PI);
     m->decay_se = se[1] * m->decay;
     arena_close(a);
@@ -297,7 +297,7 @@ static void fit_gains(struct modal_fit *f, const bool *only)
     for (int i = 0; i < GAIN_ROUNDS * f->m; i++) {
         struct arena *a = arena_open();
         struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
-        int of[MODAL_BLOCK], n = modal_settle_near(f, i % f->m, 12, of);
+        int of[MODAL_BLOCK], n = modal_converge_near(f, i % f->m, 12, of);
         modal_block_open(b, f, n, of, NULL, 0, only, a);
         modal_block_gains(b);
         for (int k = 0; k < n; k++)
@@ -322,7 +322,7 @@ static bool drop_fastest(struct modal_fit *f)
     for (int i = 0; i < f->m; i++)
         if (fastest < 0 || f->c[i].s.re < f->c[fastest].s.re) fastest = i;
     bool any = fastest >= 0 && -f->c[fastest].s.re > f->options->fastest;
-    if (any) modal_settle_drop(f, fastest, 9);
+    if (any) modal_converge_drop(f, fastest, 9);
     return any;
 }
 
@@ -361,9 +361,9 @@ static int drop_undamped(struct modal_fit *f)
             least = fmin(least, share);
         }
         if (weakest < 0) break;
-        modal_settle_drop(f, weakest, 9);
+        modal_converge_drop(f, weakest, 9);
     }
-    if (dropped) modal_settle_sweeps(f, 8, 4);
+    if (dropped) modal_converge_sweeps(f, 8, 4);
     arena_close(a);
     return dropped;
 }
@@ -381,14 +381,14 @@ static int drop_weakest(struct modal_fit *f)
             least = fmin(least, share);
         }
         if (modes <= f->options->most) return dropped;
-        modal_settle_drop(f, weakest, 9);
+        modal_converge_drop(f, weakest, 9);
     }
 }
 
 static void report(struct modal_fit *f, struct arena *a, struct modal_result *r)
 {
     const struct modal_data *d = f->data;
-    int hums = 0;
+    int undamped = 0;
     double all = 0.0;
     r->noise = ARENA_TAKE(a, double, d->places);
     r->model = arena_take(a, (size_t)d->stretches, sizeof *r->model);
@@ -397,7 +397,7 @@ static void report(struct modal_fit *f, struct arena *a, struct modal_result *r)
     for (int i = 0; i < f->m; i++) {
         struct modal_mode *m = &r->mode[r->n];
         if (f->c[i].hum) {
-            hums++;
+            undamped++;
             continue;
         }
         r->n++;
@@ -428,7 +428,8 @@ static void report(struct modal_fit *f, struct arena *a, struct modal_result *r)
     }
     number(r, a);
     sounds(f, explain(f, r->explained, NULL, a), r, a);
-    note_number(r, a, hums, "line does not decay (hum) and is left out", "lines do not decay (hum) and are left out");
+    note_number(r, a, undamped, "line does not decay (hum) and is left out",
+                "lines do not decay (hum) and are left out");
 }
 
 /* The data with the few loudest strikes alone to be fitted: what those do not tell, none does. */
@@ -476,9 +477,9 @@ bool modal_find(const struct modal_data *d, const struct modal_options *o, struc
     fit_gains(&f, NULL);
     modal_fit_noise(&f, 0.0);
     if (!o->spectrogram) {
-        modal_settle_sweeps(&f, 8, 2);
+        modal_converge_sweeps(&f, 8, 2);
         modal_spread(&f);
-        modal_settle(&f);
+        modal_converge(&f);
         while (drop_unstable(&f) > 0)
             ;
     }

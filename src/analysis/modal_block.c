@@ -231,14 +231,14 @@ static void normal_of(const struct modal_block *b, int group, const struct group
 }
 
 /* How far a group's own poles are from the shared ones (omega, log d), and what a square of that weighs in chi. */
-static void apart_of(const struct modal_block *b, int group, double *apart, double *weight)
+static void deviations_of(const struct modal_block *b, int group, double *deviation, double *weight)
 {
     static const double least = 1e-11; /* no spread is less: 0 is one that nothing shows */
     for (int i = 0; i < b->m; i++) {
         cplx own = b->part[i * b->fit->data->groups + group].pole;
         double sigma[2] = {fmax(b->spread[i][0], least) * b->s[i].im, fmax(b->spread[i][1], least)};
-        apart[2 * i] = own.im - b->s[i].im;
-        apart[2 * i + 1] = real_log(own.re / b->s[i].re);
+        deviation[2 * i] = own.im - b->s[i].im;
+        deviation[2 * i + 1] = real_log(own.re / b->s[i].re);
         for (int q = 0; q < 2; q++)
             weight[2 * i + q] = 1.0 / (sigma[q] * sigma[q]);
     }
@@ -247,7 +247,7 @@ static void apart_of(const struct modal_block *b, int group, double *apart, doub
 enum { POLES = 2 * MODAL_BLOCK };
 
 /* to[p][p + 1]: (N + W)^-1 of a group and, last, times its gradient, N damped; returns what the step would take off. */
-static double own_inverse(const struct modal_block *b, const struct modal_normal *g, const double *apart,
+static double own_inverse(const struct modal_block *b, const struct modal_normal *g, const double *deviation,
                           const double *weight, double damping, double *to)
 {
     int p = 2 * b->m, n = p + 1;
@@ -257,7 +257,7 @@ static double own_inverse(const struct modal_block *b, const struct modal_normal
         memcpy(to + i * n, g->a + i * p, (size_t)p * sizeof *to);
         to[i * n + i] = (1.0 + damping) * to[i * n + i] + weight[i];
         scale[i] = (1.0 + damping) * g->scale[i] + weight[i];
-        to[i * n + p] = to[p * n + i] = g->right[i] - weight[i] * apart[i];
+        to[i * n + p] = to[p * n + i] = g->right[i] - weight[i] * deviation[i];
     }
     to[p * n + p] = 0.0;
     modal_block_sweep(to, n, 0, p, scale, swept);
@@ -266,7 +266,7 @@ static double own_inverse(const struct modal_block *b, const struct modal_normal
             to[i * n + j] = 0.0;
         for (int j = 0; j < p && !swept[i]; j++)
             to[j * n + i] = 0.0;
-        fall += to[i * n + p] * (g->right[i] - weight[i] * apart[i]);
+        fall += to[i * n + p] * (g->right[i] - weight[i] * deviation[i]);
     }
     return fall;
 }
@@ -278,14 +278,14 @@ static double solve(struct modal_block *b, double damping, double *step, double 
 {
     int p = 2 * b->m, n = p + 1, groups = b->fit->data->groups;
     struct arena *arena = arena_open();
-    double *inverse = ARENA_TAKE(arena, double, n *n), *a = ARENA_TAKE(arena, double, n *n), apart[POLES],
+    double *inverse = ARENA_TAKE(arena, double, n *n), *a = ARENA_TAKE(arena, double, n *n), deviation[POLES],
            weight[POLES], scale[POLES] = {0}, fall = 0.0;
     bool swept[POLES];
     for (int g = 0; g < groups; g++) {
         const struct modal_normal *e = &b->each[g];
         if (!e->used) continue;
-        apart_of(b, g, apart, weight);
-        fall += own_inverse(b, e, apart, weight, damping, inverse);
+        deviations_of(b, g, deviation, weight);
+        fall += own_inverse(b, e, deviation, weight, damping, inverse);
         for (int i = 0; i < p; i++) {
             double damped = weight[i] + damping * e->a[i * p + i];
             for (int j = 0; j < p; j++) {
@@ -315,10 +315,10 @@ static double solve(struct modal_block *b, double damping, double *step, double 
     }
     for (int g = 0; g < groups; g++) {
         if (!b->each[g].used) continue;
-        apart_of(b, g, apart, weight);
+        deviations_of(b, g, deviation, weight);
         for (int i = 0; i < p; i++)
-            apart[i] -= step[i];
-        own_inverse(b, &b->each[g], apart, weight, damping, inverse);
+            deviation[i] -= step[i];
+        own_inverse(b, &b->each[g], deviation, weight, damping, inverse);
         for (int i = 0; i < p; i++)
             own[g * p + i] = inverse[i * n + p];
     }
@@ -328,14 +328,14 @@ static double solve(struct modal_block *b, double damping, double *step, double 
 
 /* All groups: gains += what their columns take of what is left, noise, chi, and with full the poles' normal equations.
  */
-static void pass(struct modal_block *b, bool full, struct group *keep)
+static void pass(struct modal_block *b, bool full, struct group *to)
 {
     const struct modal_data *d = b->fit->data;
     struct arena *a = b->a, *inner = arena_open();
-    struct group *g = keep ? keep : ARENA_TAKE(inner, struct group, 1);
-    double apart[POLES], weight[POLES], sum = 0.0;
+    struct group *g = to ? to : ARENA_TAKE(inner, struct group, 1);
+    double deviation[POLES], weight[POLES], sum = 0.0;
     b->a = inner;
-    for (int k = 0; k < d->groups; k++, g += keep ? 1 : 0) {
+    for (int k = 0; k < d->groups; k++, g += to ? 1 : 0) {
         if (full) b->each[k].used = false;
         if (!group_make(b, k, full, g)) {
             g->n = 0;
@@ -353,9 +353,9 @@ static void pass(struct modal_block *b, bool full, struct group *keep)
         if (full) normal_of(b, k, g, &b->each[k]);
     }
     for (int k = 0; k < d->groups; k++) {
-        apart_of(b, k, apart, weight);
+        deviations_of(b, k, deviation, weight);
         for (int i = 0; i < 2 * b->m; i++)
-            sum += apart[i] * apart[i] * weight[i];
+            sum += deviation[i] * deviation[i] * weight[i];
     }
     b->chi = sum;
     arena_close(inner);
@@ -529,20 +529,20 @@ bool modal_block_polish(struct modal_block *b, int steps)
     return converged;
 }
 
-int modal_block_apart(struct modal_block *b, int i, int q, double *by, double *variance)
+int modal_block_deviations(struct modal_block *b, int i, int q, double *by, double *variance)
 {
     static const double blind = 0.01; /* of what is known of a strike's pole: if the strike says less it says nothing */
     int n = 2 * b->m + 1, strikes = 0;
     struct arena *inner = arena_open();
-    double *inverse = ARENA_TAKE(inner, double, n *n), apart[POLES], weight[POLES], value = q ? 1.0 : b->s[i].im;
+    double *inverse = ARENA_TAKE(inner, double, n *n), deviation[POLES], weight[POLES], value = q ? 1.0 : b->s[i].im;
     pass(b, true, NULL);
     for (int k = 0; k < b->fit->data->groups; k++) {
         if (!b->each[k].used) continue;
-        apart_of(b, k, apart, weight);
-        own_inverse(b, &b->each[k], apart, weight, 0.0, inverse);
+        deviations_of(b, k, deviation, weight);
+        own_inverse(b, &b->each[k], deviation, weight, 0.0, inverse);
         double all = 1.0 / inverse[(2 * i + q) * (n + 1)], strike = all - weight[2 * i + q];
         if (!(strike > blind * all)) continue;
-        by[strikes] = apart[2 * i + q] * all / (strike * value);
+        by[strikes] = deviation[2 * i + q] * all / (strike * value);
         variance[strikes++] = 1.0 / (strike * value * value);
     }
     arena_close(inner);
@@ -557,7 +557,7 @@ void modal_block_errors(struct modal_block *b, int i, double se[2], double *gain
     struct arena *inner = arena_open();
     struct group *g = ARENA_TAKE(inner, struct group, groups);
     double *all = ARENA_TAKE(inner, double, p *p), *inverse = ARENA_TAKE(inner, double, n *n), scale[POLES] = {0},
-           step[POLES], *own = ARENA_TAKE(inner, double, groups *p), apart[POLES], weight[POLES];
+           step[POLES], *own = ARENA_TAKE(inner, double, groups *p), deviation[POLES], weight[POLES];
     bool swept[POLES], shared[POLES];
     pass(b, true, g);
     solve(b, 0.0, step, own);
@@ -590,8 +590,8 @@ void modal_block_errors(struct modal_block *b, int i, double se[2], double *gain
             for (int q = 0; q < 2; q++)
                 row[2 * j + q] = (u[0] * re[0] + u[1] * im[0]) * by[0][q] + (u[0] * re[1] + u[1] * im[1]) * by[1][q];
         }
-        apart_of(b, k, apart, weight);
-        own_inverse(b, &b->each[k], apart, weight, 0.0, inverse);
+        deviations_of(b, k, deviation, weight);
+        own_inverse(b, &b->each[k], deviation, weight, 0.0, inverse);
         for (int j = 0; j < p; j++) /* own poles: (N + W)^-1 by the strike, W (N + W)^-1 times the shared ones' error */
             for (int l = 0; l < p; l++) {
                 sum += row[j] * inverse[j * n + l] * row[l];

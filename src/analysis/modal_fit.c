@@ -80,21 +80,21 @@ static void running_median(const double *x, long n, long half, double *to)
 static void smooth_power(const double *re, const double *im, long n, long half, double *to)
 {
     struct arena *a = arena_open();
-    long means = n / GROUP;
-    if (means < 1) means = 1;
-    double *mean = ARENA_TAKE(a, double, means), *median = ARENA_TAKE(a, double, means);
-    for (long k = 0; k < means; k++) {
+    long groups = n / GROUP;
+    if (groups < 1) groups = 1;
+    double *mean = ARENA_TAKE(a, double, groups), *median = ARENA_TAKE(a, double, groups);
+    for (long k = 0; k < groups; k++) {
         long count = 0;
         for (long i = k * GROUP; i < (k + 1) * GROUP && i < n; i++, count++)
             mean[k] += re[i] * re[i] + im[i] * im[i];
         mean[k] = count ? mean[k] / ((double)count * 0.9586) : 0.0;
     }
-    running_median(mean, means, half < (means - 1) / 2 ? half : (means - 1) / 2, median);
+    running_median(mean, groups, half < (groups - 1) / 2 ? half : (groups - 1) / 2, median);
     for (long i = 0; i < n; i++) {
         double at = ((double)i - 0.5 * (GROUP - 1)) / GROUP;
         long k = at > 0.0 ? (long)at : 0;
         double part = at > (double)k ? at - (double)k : 0.0;
-        to[i] = k + 1 < means ? median[k] + part * (median[k + 1] - median[k]) : median[means - 1];
+        to[i] = k + 1 < groups ? median[k] + part * (median[k + 1] - median[k]) : median[groups - 1];
     }
     arena_close(a);
 }

@@ -145,23 +145,24 @@ bool modal_block_polish(struct modal_block *b,
 void modal_block_errors(struct modal_block *b, int i, double se[2], double *gain_se, double *gain_shared);
 /* How far pole i of each strike is from the shared one by the strike alone (q 0: omega/omega, 1: log d), and the
  * variance of that; returns how many strikes there are. */
-int modal_block_apart(struct modal_block *b, int i, int q, double *by, double *variance);
+int modal_block_deviations(struct modal_block *b, int i, int q, double *by, double *variance);
 int modal_block_sweep(double *a, int n, int from, int to, const double *scale, bool *swept);
 
-/* modal_settle.c */
-int modal_settle_near(const struct modal_fit *f, int i, int most,
-                      int *of); /* components whose bands touch i's, i too, by frequency */
+/* modal_converge.c */
+int modal_converge_near(const struct modal_fit *f, int i, int most,
+                        int *of); /* components whose bands touch i's, i too, by frequency */
 /* Opens a block of those; returns where i is in it. */
-int modal_settle_open(struct modal_block *b, const struct modal_fit *f, int i, int most, struct arena *a);
-double modal_settle_refine(struct modal_fit *f, int n, const int *of,
-                           int steps); /* fits them anew, the greatest move in standard errors */
-void modal_settle_sweeps(struct modal_fit *f, int most, int rounds);
-double modal_settle_rise(struct modal_fit *f, int i); /* of chi when i goes and its neighbours are fitted anew */
-void modal_settle_drop(struct modal_fit *f, int i, int most); /* component i; the others of `most` are fitted anew */
-void modal_settle_eliminate(struct modal_fit *f, double limit);
-void modal_settle(struct modal_fit *f);
-int modal_settle_runaways(struct modal_fit *f); /* components at the bound of decays, or far louder than there is */
-double modal_settle_limit(const struct modal_fit *f, double chi4); /* of chi squared of 2 + 2 groups degrees, as likely
+int modal_converge_open(struct modal_block *b, const struct modal_fit *f, int i, int most, struct arena *a);
+double modal_converge_refine(struct modal_fit *f, int n, const int *of,
+                             int steps); /* fits them anew, the greatest move in standard errors */
+void modal_converge_sweeps(struct modal_fit *f, int most, int rounds);
+double modal_converge_rise(struct modal_fit *f, int i); /* of chi when i goes and its neighbours are fitted anew */
+void modal_converge_drop(struct modal_fit *f, int i, int most); /* component i; the others of `most` are fitted anew */
+void modal_converge_eliminate(struct modal_fit *f, double limit);
+void modal_converge(struct modal_fit *f);
+int modal_converge_runaways(struct modal_fit *f); /* components at the bound of decays, or far louder than there is */
+double modal_converge_limit(const struct modal_fit *f,
+                            double chi4); /* of chi squared of 2 + 2 groups degrees, as likely
                                                                       as chi4 of four */
 
 /* modal_spread.c */

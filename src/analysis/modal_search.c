@@ -376,11 +376,11 @@ static int candidates(const struct modal_fit *f, const struct residual *r, long 
 static int fit_in(struct modal_fit *f, int from)
 {
     for (int i = from; i < f->m; i++) {
-        int of[MODAL_BLOCK], near = modal_settle_near(f, i, 8, of);
-        if (f->c[i].moved > 1.0) modal_settle_refine(f, near, of, 5);
+        int of[MODAL_BLOCK], near = modal_converge_near(f, i, 8, of);
+        if (f->c[i].moved > 1.0) modal_converge_refine(f, near, of, 5);
     }
     int m = f->m;
-    return m - from - modal_settle_runaways(f);
+    return m - from - modal_converge_runaways(f);
 }
 
 int modal_search(struct modal_fit *f, double width, double least)
@@ -390,7 +390,7 @@ int modal_search(struct modal_fit *f, double width, double least)
     struct residual r;
     cplx(*y)[SAMPLES] = arena_take(a, (size_t)d->stretches, sizeof *y);
     int bands = 0, came = 0;
-    double limit = modal_settle_limit(f, enter);
+    double limit = modal_converge_limit(f, enter);
     modal_fit_noise(f, 8.0 * width);
     residual_make(f, a, &r);
     long wide = (long)rint(width / d->rate * (double)r.n);

@@ -123,9 +123,9 @@ static int residuals(const gsl_vector *x, void *context, gsl_vector *out)
         for (long k = p->bin - SIDE; k <= p->bin + SIDE; k++)
             most = fmax(most, measured(p, m, k));
         for (long k = p->bin - SIDE; k <= p->bin + SIDE; k++) {
-            double power = fmax(measured(p, m, k), 1e-290), doubt = sqrt(TRUST * TRUST + p->s->noise[k] / power);
+            double power = fmax(measured(p, m, k), 1e-290), uncertainty = sqrt(TRUST * TRUST + p->s->noise[k] / power);
             gsl_vector_set(out, i++,
-                           sqrt(power / most) / doubt * real_log((model(p, at, m, k) + p->s->noise[k]) / power));
+                           sqrt(power / most) / uncertainty * real_log((model(p, at, m, k) + p->s->noise[k]) / power));
         }
     }
     return GSL_SUCCESS;

@@ -27,8 +27,8 @@ bool diag_add(struct diag *d, struct diag_place at, const char *help, const char
 {
     char text[1024];
     va_list ap;
-    if (!d->errors) d->errors = ARENA_TAKE(d->arena, struct diag_error, DIAG_KEPT);
-    if (d->n < DIAG_KEPT) {
+    if (!d->errors) d->errors = ARENA_TAKE(d->arena, struct diag_error, DIAG_STORED);
+    if (d->n < DIAG_STORED) {
         va_start(ap, format);
         vsnprintf(text, sizeof text, format, ap);
         va_end(ap);
@@ -178,9 +178,9 @@ static int by_place(const void *pa, const void *pb)
 
 static int sorted(struct diag *d)
 {
-    int kept = d->n < DIAG_KEPT ? d->n : DIAG_KEPT;
-    qsort(d->errors, (size_t)kept, sizeof *d->errors, by_place);
-    return kept;
+    int stored = d->n < DIAG_STORED ? d->n : DIAG_STORED;
+    qsort(d->errors, (size_t)stored, sizeof *d->errors, by_place);
+    return stored;
 }
 
 const char *diag_text(struct diag *d)
@@ -188,8 +188,8 @@ const char *diag_text(struct diag *d)
     char *buffer = NULL;
     size_t size = 0;
     FILE *out = memory_stream(&buffer, &size);
-    int kept = sorted(d);
-    for (int i = 0; i < kept && i < DIAG_SHOWN; i++)
+    int stored = sorted(d);
+    for (int i = 0; i < stored && i < DIAG_SHOWN; i++)
         show(out, d, &d->errors[i]);
     if (d->n > DIAG_SHOWN) fprintf(out, "... and %d more\n", d->n - DIAG_SHOWN);
     fprintf(out, "%d error%s\n", d->n, d->n == 1 ? "" : "s");

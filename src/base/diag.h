@@ -41,11 +41,11 @@ struct diag_error {
 
 struct diag {
     struct arena *arena;
-    struct diag_error *errors; /* the first DIAG_KEPT                                           */
+    struct diag_error *errors; /* the first DIAG_STORED                                           */
     int n;                     /* all that were added                                           */
 };
 
-enum { DIAG_SHOWN = 20, DIAG_KEPT = 1000 };
+enum { DIAG_SHOWN = 20, DIAG_STORED = 1000 };
 
 struct diag *diag_open(struct arena *a);
 

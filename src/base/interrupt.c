@@ -31,11 +31,11 @@ static pthread_t waiter;
 static atomic_bool dismissed; /* it is to go */
 static bool waits;            /* there is such a thread */
 static atomic_bool seen;
-static atomic_flag told = ATOMIC_FLAG_INIT;
+static atomic_flag reported = ATOMIC_FLAG_INIT;
 static atomic_int child; /* 0: none */
 static pthread_rwlock_t names =
     PTHREAD_RWLOCK_WRITER_NONRECURSIVE_INITIALIZER_NP; /* held by all who hold, and for ever by the one who ends */
-static _Thread_local int held;
+static _Thread_local int depth;
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* of the list */
 static struct temporary *temporaries;
 
@@ -43,12 +43,12 @@ static struct temporary *temporaries;
 
 void interrupt_hold(void)
 {
-    if (held++ == 0) pthread_rwlock_rdlock(&names);
+    if (depth++ == 0) pthread_rwlock_rdlock(&names);
 }
 
 void interrupt_go(void)
 {
-    if (--held == 0) pthread_rwlock_unlock(&names);
+    if (--depth == 0) pthread_rwlock_unlock(&names);
 }
 
 void interrupt_temporary(const char *path)
@@ -68,10 +68,10 @@ void interrupt_forget(const char *path)
     struct temporary **at = &temporaries;
     while (*at && strcmp((*at)->path, path) != 0)
         at = &(*at)->next;
-    struct temporary *gone = *at;
-    if (gone) *at = gone->next;
+    struct temporary *removed = *at;
+    if (removed) *at = removed->next;
     pthread_mutex_unlock(&lock);
-    free(gone);
+    free(removed);
 }
 
 void interrupt_child(pid_t pid) { child = pid > 0 ? pid : 0; }
@@ -98,9 +98,9 @@ static int remove_one(const char *path, const struct stat *s, int kind, struct F
     return 0;
 }
 
-void interrupt_tell(void)
+void interrupt_report(void)
 {
-    while (atomic_flag_test_and_set(&told))
+    while (atomic_flag_test_and_set(&reported))
         pause();
 }
 
@@ -108,7 +108,7 @@ void interrupt_tell(void)
 static _Noreturn void end(void)
 {
     pthread_rwlock_wrlock(&names);
-    if (atomic_flag_test_and_set(&told))
+    if (atomic_flag_test_and_set(&reported))
         nanosleep(&(struct timespec){.tv_nsec = WORDS}, NULL);
     else
         lastwords(ERR_INTERRUPTED, "interrupted; run the same command again");

@@ -35,6 +35,6 @@ pid_t interrupt_wait(pid_t pid, int *status, struct rusage *used);
 
 /* May the interruption be told? Only the first who asks may: in an orderly end or in the other, and then has 0.1 s for
  * its words. It does not return where the program is being ended. */
-void interrupt_tell(void);
+void interrupt_report(void);
 
 #endif

@@ -41,7 +41,7 @@ FILE *memory_fopen(const char *path, const char *mode)
     return f;
 }
 
-void memory_spare(size_t bytes)
+void memory_available(size_t bytes)
 {
     void *volatile p = memory_take(bytes); /* volatile: else no call is made */
     free(p);

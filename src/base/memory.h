@@ -18,7 +18,7 @@ char *memory_realpath(const char *path);
 FILE *memory_fopen(const char *path, const char *mode);
 
 /* Ends the program unless so many bytes can be had: before a library is called that crashes where it gets none. */
-void memory_spare(size_t bytes);
+void memory_available(size_t bytes);
 
 /* A text that is written like a file: *text is there when memory_stream_end has closed the stream, and is freed by
  * free. */

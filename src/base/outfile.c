@@ -57,7 +57,7 @@ static bool try_hidden(struct outfile *o)
 }
 
 /* Tries to give it a hidden name, which goes with the program if that is interrupted. */
-static bool noted(struct outfile *o, bool (*try)(struct outfile *o))
+static bool try_registered(struct outfile *o, bool (*try)(struct outfile *o))
 {
     interrupt_hold();
     bool ok = try(o);
@@ -102,7 +102,7 @@ static const char *missing(const struct outfile *o)
 static bool open_one(struct outfile *o, const char *target, bool unnamed, struct err *e)
 {
     *o = (struct outfile){.fd = -1};
-    if (set_target(o, target, e) && ((unnamed && open_unnamed(o)) || noted(o, try_hidden))) return true;
+    if (set_target(o, target, e) && ((unnamed && open_unnamed(o)) || try_registered(o, try_hidden))) return true;
     err_set(e, err_system(ERR_CREATE), "%s: cannot be created: %s", target,
             errno == ENOENT ? missing(o) : strerror(errno));
     o->target[0] = '\0';
@@ -166,11 +166,11 @@ void outfile_put(struct outfile *o, const void *data, size_t n)
     if (fwrite(data, 1, n, o->stream) != n && !o->why) o->why = errno;
 }
 
-bool outfile_settle(struct outfile *o, struct err *e)
+bool outfile_finalise(struct outfile *o, struct err *e)
 {
     if (o->target[0] == '\0') return err_set(e, ERR_IO, "an output that is closed already cannot be committed");
     bool open = o->fd >= 0;
-    return !open || (flush_it(o) && (o->temporary[0] || noted(o, try_name)) && close_it(o)) || give_up(o, e);
+    return !open || (flush_it(o) && (o->temporary[0] || try_registered(o, try_name)) && close_it(o)) || give_up(o, e);
 }
 
 bool outfile_hash(struct outfile *o, char hex[HASH_TEXT], struct err *e)
@@ -187,7 +187,7 @@ bool outfile_hash(struct outfile *o, char hex[HASH_TEXT], struct err *e)
 
 bool outfile_commit(struct outfile *o, struct err *e)
 {
-    if (!outfile_settle(o, e)) return false;
+    if (!outfile_finalise(o, e)) return false;
     interrupt_hold();
     bool ok = rename(o->temporary, o->target) == 0;
     if (ok) interrupt_forget(o->temporary);

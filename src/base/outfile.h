@@ -23,8 +23,9 @@ bool outfile_open_hidden(struct outfile *o, const char *target,
                          struct err *e); /* _fd by the hidden name at once, for tests */
 void outfile_put(struct outfile *o, const void *data,
                  size_t n); /* into the stream; what goes wrong the settling says */
-bool outfile_settle(struct outfile *o,
-                    struct err *e); /* all of a commit but the rename: with several outputs, settle all, then commit */
+bool outfile_finalise(
+    struct outfile *o,
+    struct err *e); /* all of a commit but the rename: with several outputs, settle all, then commit */
 bool outfile_commit(struct outfile *o, struct err *e); /* settles and renames; closes either way; ERR_IO */
 bool outfile_hash(struct outfile *o, char hex[HASH_TEXT],
                   struct err *e);     /* of what is written so far; ERR_IO, then it is dropped */

@@ -11,9 +11,9 @@
 static const char *real_one(const char *folder, struct arena *a)
 {
     char *real = memory_realpath(folder);
-    const char *kept = real ? arena_text(a, real) : NULL;
+    const char *copy = real ? arena_text(a, real) : NULL;
     free(real);
-    return kept;
+    return copy;
 }
 
 static const char *joined(const char *folder, const char *name, size_t n, struct arena *a)

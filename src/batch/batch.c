@@ -19,7 +19,8 @@
 #include "num/resample.h"
 
 enum {
-    SHELF_MOST = 256 << 20 /* bytes of inputs that stay in memory; what is beyond is read again for every stimulus */
+    FILE_CACHE_MOST =
+        256 << 20 /* bytes of inputs that stay in memory; what is beyond is read again for every stimulus */
 };
 
 struct slot { /* what a job came to, until it is taken */
@@ -182,7 +183,7 @@ static bool level_all(struct batch *b, struct err *e)
     struct batch_report *r = b->report;
     r->full_scale = set_waits(&r->set) ? NAN : r->set.level.full_scale;
     if (!set_waits(&r->set) || !are_all_there(b) ||
-        shelf_changed(b->k.shelf, b->arena)) /* of two states no gain is found */
+        file_cache_changed(b->k.file_cache, b->arena)) /* of two states no gain is found */
         return true;
     if (!find_gain(b, &r->full_scale, e)) return false;
     b->n_now = 0;
@@ -272,7 +273,7 @@ static bool judge(struct batch *b, struct err *e)
     for (int i = 0; i < r->set.n; i++) {
         const struct tables_row *o = &r->rows[i];
         r->rendered += o->there && o->made;
-        r->kept += o->there && !o->made;
+        r->reused += o->there && !o->made;
         r->failed += o->kind != ERR_NONE;
         r->waiting += o->there && b->is[i].waits;
         worst = o->kind > worst ? o->kind : worst;
@@ -338,7 +339,7 @@ static void sync_folder(const struct batch *b)
 static bool end(struct batch *b, struct err *e)
 {
     struct batch_report *r = b->report;
-    b->changed = shelf_changed(b->k.shelf, b->arena);
+    b->changed = file_cache_changed(b->k.file_cache, b->arena);
     bool missing = false;
     for (int i = 0; i < r->set.n; i++)
         missing = missing || (b->ask->no_render && r->rows[i].kind);
@@ -352,33 +353,34 @@ static bool run_in_folder(struct batch *b, struct err *e)
 {
     if (!has_room(b, e)) return false;
     b->report->rendering = true;
-    b->k.doubt = !tables_are_there(b->ask->folder, b->arena);
+    b->k.unfinished = !tables_are_there(b->ask->folder, b->arena);
     tables_remove(b->ask->folder, b->arena);
     resample_prepare();
     if (!make_all(b, e)) return false;
     if (b->ask->shard.n > 1)
-        b->changed = shelf_changed(b->k.shelf, b->arena);
+        b->changed = file_cache_changed(b->k.file_cache, b->arena);
     else if (!level_all(b, e) || !end(b, e))
         return false;
     return judge(b, e);
 }
 
-static bool run(const struct batch_ask *ask, struct shelf *shelf, struct arena *a, struct batch_report *r,
+static bool run(const struct batch_ask *ask, struct file_cache *file_cache, struct arena *a, struct batch_report *r,
                 struct err *e)
 {
     int lock;
     *r = (struct batch_report){.messages = "", .no_effect = "", .full_scale = NAN};
     if (!design_read(ask->design, a, &r->design, &r->messages, e)) return false;
     r->set = set_make(&r->design, ask->program);
-    if (!set_plan(&r->set,
-                  &(struct set_plan_ask){ask->threads, shelf, ask->folder, ask->replace, ask->force || ask->replace}, a,
-                  &r->plan, e))
+    if (!set_plan(
+            &r->set,
+            &(struct set_plan_ask){ask->threads, file_cache, ask->folder, ask->replace, ask->force || ask->replace}, a,
+            &r->plan, e))
         return false;
     struct batch b = {.ask = ask,
                       .report = r,
                       .arena = a,
                       .is = ARENA_TAKE(a, struct stimulus, r->set.n),
-                      .k = {.set = &r->set, .folder = ask->folder, .shelf = shelf, .inputs = r->plan.inputs}};
+                      .k = {.set = &r->set, .folder = ask->folder, .file_cache = file_cache, .inputs = r->plan.inputs}};
     r->rows = ARENA_TAKE(a, struct tables_row, r->set.n);
     divide(&b);
     if (!ask->folder) return true;
@@ -386,7 +388,7 @@ static bool run(const struct batch_ask *ask, struct shelf *shelf, struct arena *
                                        ask->program, ask->replace, ask->shard.n > 1};
     if (!folder_look(&owner, a, e)) /* before anything is written */
         return false;
-    b.k.doubt = !tables_are_there(ask->folder, a);
+    b.k.unfinished = !tables_are_there(ask->folder, a);
     if (ask->dry || ask->missing) {
         b.k.seen_from = folder_place(ask->design, ask->folder, a);
         return look_at_folder(&b, e);
@@ -403,11 +405,11 @@ void batch_close(struct batch_report *r) { set_plan_close(&r->plan); }
 bool batch_run(const struct batch_ask *ask, struct arena *a, struct batch_report *r, struct err *e)
 {
     double start = stopwatch_wall();
-    struct shelf *shelf = shelf_open(SHELF_MOST);
-    fft_keep(true);
-    bool ok = run(ask, shelf, a, r, e);
-    fft_keep(false);
-    shelf_close(shelf);
+    struct file_cache *file_cache = file_cache_open(FILE_CACHE_MOST);
+    fft_cache_plans(true);
+    bool ok = run(ask, file_cache, a, r, e);
+    fft_cache_plans(false);
+    file_cache_close(file_cache);
     r->seconds = stopwatch_wall() - start;
     return ok;
 }

@@ -24,7 +24,7 @@ struct batch_report {
     struct tables_row *rows;     /* [set.n] NULL: nothing was planned                       */
     enum stimulus_state *states; /* [set.n] of a dry run that knows the folder; else NULL */
     bool *mine;                  /* [set.n] of this shard */
-    int n_mine, rendered, kept, failed, waiting;
+    int n_mine, rendered, reused, failed, waiting;
     bool rendering;            /* something was written, or found right */
     const char *missing;       /* "3,17": shards that are not whole, if they were asked for */
     double full_scale;         /* the set's; NAN: it has none, or it is not known yet */

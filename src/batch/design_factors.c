@@ -64,9 +64,9 @@ static bool starts(const char *path, const char *map)
 }
 
 /* A factor's key is looked at for each of its levels. */
-static bool is_told(const struct diag *d, const struct diag_place *at)
+static bool is_reported(const struct diag *d, const struct diag_place *at)
 {
-    for (int i = 0; i < d->n && i < DIAG_KEPT; i++)
+    for (int i = 0; i < d->n && i < DIAG_STORED; i++)
         if (d->errors[i].at.source == at->source && d->errors[i].at.line == at->line &&
             d->errors[i].at.column == at->column)
             return true;
@@ -90,7 +90,7 @@ static bool reserved(const struct design_reading *r, const struct yaml_node *key
     else if (starts(key->text, "output.duration") && d->length_rule != DESIGN_LENGTH_OWN)
         cure = "the design has one length rule for the set (length:, by default longest); write length: own to set "
                "durations here";
-    return cure && (is_told(r->yaml->diag, &key->at) ||
+    return cure && (is_reported(r->yaml->diag, &key->at) ||
                     !diag_add(r->yaml->diag, key->at, cure, "%s cannot be set here", key->text));
 }
 

@@ -101,8 +101,8 @@ static const char *called(const struct design_reading *r, const struct design_st
 }
 
 /* What would tell the two apart. */
-static const char *apart(const struct design_reading *r, const struct design_stimulus *a,
-                         const struct design_stimulus *b)
+static const char *difference(const struct design_reading *r, const struct design_stimulus *a,
+                              const struct design_stimulus *b)
 {
     if (a->recording || b->recording) return "give the recording a name: of its own";
     for (int f = 0; f < r->design->n_factors; f++)
@@ -128,7 +128,7 @@ static void clash(const struct design_reading *r, const struct design_stimulus *
                                      a->cell < b->cell || (a->cell == b->cell && a->replicate < b->replicate) ? a : b,
                                  *second = first == a ? b : a;
     if (strcmp(a->name, b->name) == 0)
-        diag_add(r->yaml->diag, place_of(r, second), apart(r, a, b), "two stimuli would be named '%s': %s; and %s",
+        diag_add(r->yaml->diag, place_of(r, second), difference(r, a, b), "two stimuli would be named '%s': %s; and %s",
                  diag_shown(r->yaml->diag, a->name), called(r, first), called(r, second));
     else if (strcasecmp(a->name, b->name) == 0)
         diag_add(r->yaml->diag, place_of(r, second),
@@ -332,7 +332,7 @@ static struct design_template template_default(const struct design_reading *r)
 
 /* ------------------------------------------------------------------ making */
 
-static const char *kept(struct names *x, const char *text, size_t n)
+static const char *copy_of(struct names *x, const char *text, size_t n)
 {
     if (x->left < n + 1) {
         x->chunk = arena_take(x->r->arena, CHUNK, 1);
@@ -369,7 +369,7 @@ static const char *expanded(struct names *x, const struct design_template *t, in
         memcpy(name + n, text, size);
         n += size;
     }
-    return kept(x, name, n);
+    return copy_of(x, name, n);
 }
 
 static int digits_of(long n) { return snprintf(NULL, 0, "%ld", n); }

@@ -132,7 +132,7 @@ static void look(const char *folder, struct arena *a, struct owner *was)
     if (fd >= 0) close(fd);
 }
 
-bool folder_is_noted(const char *folder, struct arena *a)
+bool folder_is_recorded(const char *folder, struct arena *a)
 {
     struct owner was;
     look(folder, a, &was);
@@ -312,7 +312,7 @@ bool folder_inputs_has(const struct folder_inputs *all, const char *path) { retu
 static bool is_foreign(const struct folder_output *o, struct arena *a)
 {
     struct stat s;
-    return o->unknown && lstat(o->path, &s) == 0 && !folder_is_noted(o->folder, a);
+    return o->unknown && lstat(o->path, &s) == 0 && !folder_is_recorded(o->folder, a);
 }
 
 bool folder_spares(const struct folder_inputs *all, const struct folder_output *o, struct arena *a, struct err *e)
@@ -519,7 +519,7 @@ static void walk(struct walk *x, const char *below)
         else if (!is_folder(whole, entry) && is_record_name(name))
             look_at_record(x, path);
         else if (strcmp(name, ".") != 0 && strcmp(name, "..") != 0 && is_folder(whole, entry) &&
-                 (!strcmp(name, ".rasp") || !folder_is_noted(whole, x->arena)))
+                 (!strcmp(name, ".rasp") || !folder_is_recorded(whole, x->arena)))
             walk(x, arena_format(x->arena, "%s/", path));
     }
     if (d) closedir(d);

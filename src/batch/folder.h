@@ -33,7 +33,7 @@ void folder_leave(int lock);
 bool folder_look(const struct folder_owner *o, struct arena *a, struct err *e);
 
 /* Does the folder say whose it is? If not, nothing in it is a set's. */
-bool folder_is_noted(const char *folder, struct arena *a);
+bool folder_is_recorded(const char *folder, struct arena *a);
 
 /* Where a design lies, seen from its folder, in UTF-8. A key does not know where the folder is, but the file names in
    an effective scene do. What comes through a pipe is called alike whatever comes, and names its files from nowhere:

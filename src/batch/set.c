@@ -145,12 +145,12 @@ static void hash_scene(struct trial *t)
     hash_bytes(text, strlen(text), t->sha256);
 }
 
-/* The texts it was read from lie on the shelf from now on, which knows whether they change while the set is rendered:
- * each stimulus reads them once more. */
+/* The texts it was read from lie in the file cache from now on, which knows whether they change while the set is
+ * rendered: each stimulus reads them once more. */
 static bool watch_sources(const struct planning *p, struct trial *t)
 {
     for (const char *const *file = t->scene.sources; *file; file++)
-        if (!shelf_sha256(p->ask->shelf, *file, t->arena, &t->e)) return false;
+        if (!file_cache_sha256(p->ask->file_cache, *file, t->arena, &t->e)) return false;
     return true;
 }
 
@@ -175,12 +175,12 @@ static bool estimate(const struct planning *p, int i, struct look *l)
     bool read = design_scene(p->set->design, i, t->arena, s, &t->messages, &t->e);
     t->diag = s->diag;
     if (!read || !watch_sources(p, t)) return false;
-    s->shelf = p->ask->shelf;
+    s->file_cache = p->ask->file_cache;
     hash_scene(t);
     l->drawn = draws(s);
     set_lay(p->set, s);
     design_scene_places(p->set->design, s, t->arena);
-    if (!plan_scene_estimate(s, t->arena, &x, &t->e)) return scene_places_tell(s, &t->e);
+    if (!plan_scene_estimate(s, t->arena, &x, &t->e)) return scene_places_report(s, &t->e);
     t->warnings = x.warnings;
     struct track_format f = sound_format(s, x.length.frames);
     l->seconds = (double)x.length.frames / f.rate;
@@ -216,7 +216,7 @@ static void report_short(const struct planning *p, int i, double seconds, struct
     if (!design_scene(p->set->design, i, t->arena, s, &t->messages, &t->e)) return;
     s->output.level = wants(p, s);
     design_scene_places(p->set->design, s, t->arena);
-    if (!sound_long_enough(s, frames_of(l, seconds), &t->e)) scene_places_tell(s, &t->e);
+    if (!sound_long_enough(s, frames_of(l, seconds), &t->e)) scene_places_report(s, &t->e);
 }
 
 /* ------------------------------------------------------------------ one form */
@@ -263,7 +263,7 @@ static bool is_otherwise(const struct planning *p, int i, struct look *l)
     bool response = !strcmp(key, "output.quantity") && s->output.quantity == QUANTITY_AUTO;
     err_about(&t->e, response ? s->contacts[0].name : NULL, response ? "surface.response" : key);
     design_scene_places(p->set->design, s, t->arena);
-    scene_places_tell(s, &t->e);
+    scene_places_report(s, &t->e);
     return true;
 }
 
@@ -310,7 +310,7 @@ static void warn(struct planning *p, int i, const char *text)
         o->warnings[o->n_warnings++] = (struct set_warning){arena_text(p->arena, text), name_of(p, i)};
 }
 
-static void settle(struct planning *p, int i, struct look *l)
+static void conclude(struct planning *p, int i, struct look *l)
 {
     struct trial *t = l->trial;
     l->trial = NULL;
@@ -365,7 +365,7 @@ static void took(void *context, int i)
     if (recording_of(p, i) || (!p->now[i] && (p->second || l->drawn))) return;
     if (l->trial && !p->second) hash_add(&p->scenes, l->trial->sha256, HASH_TEXT);
     if (l->trial && !l->trial->e.kind) note_files(p, p->first[i], &l->trial->scene);
-    settle(p, i, l);
+    conclude(p, i, l);
 }
 
 static void find_first(struct planning *p)
@@ -434,7 +434,7 @@ static void look_at_forms(struct planning *p)
     find_form(p);
     for (int i = 0; i < p->set->n; i++) {
         struct look *l = &p->looks[p->first[i]];
-        if (is_sound(p, i) && (p->first[i] == i ? !l->fault && is_otherwise(p, i, l) : l->otherwise)) settle(p, i, l);
+        if (is_sound(p, i) && (p->first[i] == i ? !l->fault && is_otherwise(p, i, l) : l->otherwise)) conclude(p, i, l);
     }
 }
 
@@ -446,12 +446,12 @@ static void look_at_recordings(struct planning *p)
         const char *file = recording_of(p, i);
         if (!file) continue;
         l->trial = trial_open();
-        const char *sha256 = shelf_sha256(p->ask->shelf, file, l->trial->arena, &l->trial->e);
+        const char *sha256 = file_cache_sha256(p->ask->file_cache, file, l->trial->arena, &l->trial->e);
         if (sha256) hash_add(&p->scenes, sha256, HASH_TEXT);
         if (!sha256 || !recording_check(file, &s->rate, &s->channels, &l->seconds, &l->trial->e))
             design_scene_recording(p->set->design, i, &l->trial->e);
         folder_inputs_add_file(p->out->inputs, file, "a recording");
-        settle(p, i, l);
+        conclude(p, i, l);
         l->cost = fmax(1, 1000 * l->seconds * s->rate);
         l->rate = s->rate;
         l->channels = s->channels;
@@ -469,7 +469,7 @@ static void look_at_levels_of_recordings(struct planning *p)
         if (!file || l->fault) continue;
         l->trial = trial_open();
         if (!recording_check_level(file, s, &l->trial->e)) design_scene_recording(p->set->design, i, &l->trial->e);
-        settle(p, i, l);
+        conclude(p, i, l);
     }
 }
 
@@ -501,7 +501,7 @@ static void look_at_levels(struct planning *p)
         if (recording_of(p, i) || (p->first[i] == i ? l->fault || !is_short(l, seconds) : !l->brief)) continue;
         if (p->first[i] == i) report_short(p, i, seconds, l);
         l->brief = true;
-        settle(p, i, l);
+        conclude(p, i, l);
     }
 }
 
@@ -553,12 +553,12 @@ static bool report(const struct set_plan *p, const struct set *s, const char *fo
                                    folder ? "; nothing was written" : "");
 }
 
-/* What the design was read from is known to the shelf, which sees whether it changes; a pipe is read and gone. */
+/* What the design was read from is known to the file cache, which sees whether it changes; a pipe is read and gone. */
 static bool watch_design(const struct set *s, const struct set_plan_ask *ask, struct arena *a, struct err *e)
 {
     struct stat status;
     for (const char *const *file = s->design->sources; *file; file++)
-        if (stat(*file, &status) == 0 && S_ISREG(status.st_mode) && !shelf_sha256(ask->shelf, *file, a, e))
+        if (stat(*file, &status) == 0 && S_ISREG(status.st_mode) && !file_cache_sha256(ask->file_cache, *file, a, e))
             return false;
     return true;
 }
@@ -574,7 +574,7 @@ static bool cmd_spares(const struct planning *p, struct err *e)
     struct stat status;
     struct arena *a = arena_open();
     struct folder_output o = {
-        .folder = folder, .unknown = !p->ask->replace && !folder_is_noted(folder, a), .links = p->ask->links};
+        .folder = folder, .unknown = !p->ask->replace && !folder_is_recorded(folder, a), .links = p->ask->links};
     bool ok = true, there = stat(folder, &status) == 0; /* an empty one cannot hold an input */
     arena_close(a);
     for (int i = 0; ok && there && i < s->n; i++) {

@@ -1,7 +1,7 @@
 /* A set of stimuli, planned: all scenes of a design are read, and their inputs opened, before anything is rendered. */
 #ifndef BATCH_SET_H
 #define BATCH_SET_H
-#include "base/shelf.h"
+#include "base/file_cache.h"
 #include "batch/design.h"
 #include "batch/folder.h"
 
@@ -53,10 +53,10 @@ enum { SET_FAULTS = 64 /* that are reported apart; the next one stands for all o
 
 struct set_plan_ask {
     int threads;
-    struct shelf *shelf; /* for what the scenes read                  */
-    const char *folder;  /* where the set goes; NULL: it is not said  */
-    bool replace;        /* what is there already may be anybody's    */
-    bool links;          /* symbolic links are written through        */
+    struct file_cache *file_cache; /* for what the scenes read                  */
+    const char *folder;            /* where the set goes; NULL: it is not said  */
+    bool replace;                  /* what is there already may be anybody's    */
+    bool links;                    /* symbolic links are written through        */
 };
 
 struct set_plan {

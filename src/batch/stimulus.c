@@ -52,7 +52,7 @@ static bool read_scene(struct work *w, struct err *e)
     if (!design_scene(set->design, w->i, w->arena, &w->scene, &messages, e)) return false;
     set_lay(set, &w->scene);
     design_scene_places(set->design, &w->scene, w->arena);
-    w->scene.shelf = w->k->shelf;
+    w->scene.file_cache = w->k->file_cache;
     w->inputs = inputs_watch(&w->scene, w->arena);
     const char *waits = !set_waits(set)          ? ""
                         : isnan(set->level.lufs) ? "waits"
@@ -86,7 +86,8 @@ static bool has_file(const struct work *w, const struct record_file *f, const st
     struct stat s;
     const char *path = arena_format(w->arena, "%s/%s", w->k->folder, f->path);
     if (stat(path, &s) != 0 || !S_ISREG(s.st_mode) || (double)s.st_size != f->size) return false;
-    if (!w->k->doubt && !is_later(&s.st_mtim, &record->st_ctim) && !is_later(&s.st_ctim, &record->st_ctim)) return true;
+    if (!w->k->unfinished && !is_later(&s.st_mtim, &record->st_ctim) && !is_later(&s.st_ctim, &record->st_ctim))
+        return true;
     *hashed = true;
     return hash_file(path, hex, &unreadable) && !strcmp(hex, f->sha256);
 }
@@ -218,7 +219,7 @@ static void remove_old(const struct work *w, const struct record *to)
 
 static bool inputs_same(const struct work *w, struct err *e)
 {
-    if (!w->file) return inputs_still(&w->inputs, e) || scene_places_tell(&w->scene, e);
+    if (!w->file) return inputs_still(&w->inputs, e) || scene_places_report(&w->scene, e);
     return !watch_changed(&w->inputs) ||
            err_set(e, ERR_INPUT, "%s: has changed while it was copied: run the same command again", w->file);
 }
@@ -340,7 +341,7 @@ static bool render(struct work *w, struct stimulus *s, struct err *e)
         return false;
     struct made m = {.render = render_make(&made, &(struct render_names){w->base, raw}, w->arena, &report, e),
                      .scene = {.fd = -1}};
-    if (!m.render) return scene_places_tell(&w->scene, e);
+    if (!m.render) return scene_places_report(&w->scene, e);
     struct record r = of_render(w, &report, waits);
     if (!commit(w, &r, &m, list_render(w, &report, &r, e), e)) return false;
     s->wall += report.seconds, s->cpu += report.cpu;
@@ -385,7 +386,7 @@ static bool put_scene(struct outfile *f, const struct work *w, struct record *r,
         memmove(&r->files[k + 1], &r->files[k], (size_t)(r->n_files++ - k) * sizeof *r->files);
     r->files[k] = (struct record_file){"scene", arena_format(w->arena, "%s.scene.yaml", w->name), false,
                                        arena_text(w->arena, hex), (double)strlen(text)};
-    return outfile_settle(f, e);
+    return outfile_finalise(f, e);
 }
 
 /* With room for one more. */

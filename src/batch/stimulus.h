@@ -24,11 +24,11 @@
 struct stimulus_set { /* what all stimuli are made with; several threads read it */
     const struct set *set;
     const char *folder;
-    const char *seen_from; /* folder_place */
-    struct shelf *shelf;   /* what stimuli share of their inputs */
+    const char *seen_from;         /* folder_place */
+    struct file_cache *file_cache; /* what stimuli share of their inputs */
     const struct folder_inputs *inputs;
-    bool doubt;     /* the last run did not end well: each file is hashed */
-    bool read_only; /* nothing is written, not even the time of a record */
+    bool unfinished; /* the last run did not end well: each file is hashed */
+    bool read_only;  /* nothing is written, not even the time of a record */
 };
 
 enum stimulus_state {

@@ -461,9 +461,9 @@ bool tables_write(const struct tables *t, const char **no_effect, struct err *e)
 
 void tables_remove(const char *folder, struct arena *a)
 {
-    static const int gone[] = {SUMS, MANIFEST, DICTIONARY};
+    static const int stale[] = {SUMS, MANIFEST, DICTIONARY};
     for (int k = 0; k < 3; k++)
-        unlink(arena_format(a, "%s/%s", folder, names[gone[k]]));
+        unlink(arena_format(a, "%s/%s", folder, names[stale[k]]));
 }
 
 bool tables_are_there(const char *folder, struct arena *a)

@@ -14,8 +14,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "analysis/distance.h"
 #include "analysis/convergence.h"
+#include "analysis/distance.h"
 #include "analysis/spectral_distance.h"
 #include "base/interrupt.h"
 #include "base/outfile.h"
@@ -26,9 +26,9 @@
 #include "num/real.h"
 #include "output/gnuplot.h"
 #include "output/mark.h"
+#include "pipeline/error_budget.h"
 #include "pipeline/outputs.h"
 #include "pipeline/plan.h"
-#include "pipeline/promise.h"
 #include "scene/accuracy.h"
 #include "scene/keys.h"
 #include "scene/rules.h"
@@ -606,7 +606,7 @@ static bool ask_read(struct accuracy_sweep *s, struct err *e)
 bool accuracy_silent(const struct scene *s)
 {
     for (int i = 0; i < s->n_contacts; i++)
-        if (s->contacts[i].gain != 0 && rules_heard(&s->contacts[i], &s->output)) return false;
+        if (s->contacts[i].gain != 0 && rules_audible(&s->contacts[i], &s->output)) return false;
     return true;
 }
 
@@ -619,7 +619,7 @@ static bool ask_files(const struct accuracy_sweep *s, struct err *e)
         struct outputs o = {.scene = &s->scene, .base = "", .paths = &paths[i], .kinds = &kind, .n = 1};
         struct outfile probe;
         if (!paths[i]) continue;
-        if (!outputs_spare(&o, 1, s->call->arena, &(struct err){0}))
+        if (!outputs_check_overwrite(&o, 1, s->call->arena, &(struct err){0}))
             return err_set(e, ERR_CREATE, "%s is a file that the scene reads: give --%s another name", paths[i],
                            i ? "plot" : "csv");
         bool force = args_given(&s->call->args, "force");
@@ -636,19 +636,19 @@ static bool ask_scene(struct accuracy_sweep *s, struct err *e)
     if (!read_values(&s->call->args, s->call->arena, own, e) || !cmd_read_scene(s->call, s->file, &s->scene, e))
         return false;
     struct scene asked = s->scene;
-    if (!promise_keep(&asked, s->call->arena, &s->scene, NULL, e)) return scene_places_tell(&asked, e);
+    if (!error_budget_apply(&asked, s->call->arena, &s->scene, NULL, e)) return scene_places_report(&asked, e);
     s->scene.contacts = asked.contacts; /* engines are chosen for each setting */
     s->force = accuracy_silent(&s->scene);
     if (s->force) s->scene.output.quantity = QUANTITY_FORCE;
     if (!ask_files(s, e)) return false;
-    if (!plan_scene_knobs(&s->scene, s->call->arena, &s->knobs, e)) return scene_places_tell(&s->scene, e);
+    if (!plan_scene_knobs(&s->scene, s->call->arena, &s->knobs, e)) return scene_places_report(&s->scene, e);
     accuracy_rows(s, own);
     return true;
 }
 
 /* ------------------------------------------------------------------ doing */
 
-static void told(const struct accuracy_sweep *s, int done, int all)
+static void progress(const struct accuracy_sweep *s, int done, int all)
 {
     if (isatty(STDERR_FILENO))
         fprintf(stderr, done < all ? "\r%s: render %d of %d " : "\r\033[K", s->file, done + 1, all);
@@ -665,22 +665,22 @@ static bool sweep(struct accuracy_sweep *s, struct err *e)
         for (int i = 0; ok && i < s->n_renders; i++) {
             struct accuracy_render *r = &s->renders[i];
             if (run > 0 && (!r->timed || r->code != 0)) continue;
-            told(s, done++, all);
+            progress(s, done++, all);
             ok = accuracy_child(s, i, e) && (run > 0 || r->code != 0 || accuracy_child_compare(s, i, e));
             accuracy_child_clear(s);
         }
-    told(s, all, all);
+    progress(s, all, all);
     return ok;
 }
 
 /* All that can fail is done before the first file gets its name. */
-static bool tell(struct accuracy_sweep *s, struct err *e)
+static bool report(struct accuracy_sweep *s, struct err *e)
 {
     struct outfile csv = {.fd = -1}, plot = {.fd = -1};
     bool ok = !s->csv || outfile_open(&csv, s->csv, e);
     if (ok && s->csv) {
         accuracy_report_table(s, csv.stream);
-        ok = outfile_settle(&csv, e);
+        ok = outfile_finalise(&csv, e);
     }
     ok = ok && (!s->plot || gnuplot_draw(&plot, s->plot, text_ends(s->plot, ".svg"), accuracy_report_plot, s, e));
     interrupt_hold();
@@ -699,7 +699,7 @@ static int accuracy_run(struct cmd_call *c, struct err *e)
     accuracy_child_end(&s);
     if (ok) {
         accuracy_judge(&s);
-        tell(&s, e);
+        report(&s, e);
     }
     return (int)e->kind;
 }

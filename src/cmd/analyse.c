@@ -493,7 +493,7 @@ static bool analyse_write(struct cmd_call *c, struct analysis *a, int svg, struc
     if (output) analyse_report_part(a, output, all, e);
     if (plot && e->kind == ERR_NONE) analyse_report_plot(a, plot, svg, all, e);
     for (int i = 0; e->kind == ERR_NONE && i < all->n; i++)
-        outfile_settle(&all->o[i], e);
+        outfile_finalise(&all->o[i], e);
     interrupt_hold();
     for (int i = 0; e->kind == ERR_NONE && i < all->n; i++)
         if (outfile_commit(&all->o[i], e)) a->written[a->n_written++] = all->name[i];

@@ -452,7 +452,7 @@ static void put_table(const struct part *p, int k, FILE *f)
     const struct analysis *a = p->a;
     struct frequency_polygon t;
     distribution_fit_polygon(a->statistics.white[k], a->statistics.n - 1, a->statistics.series[k].deviation.value,
-                           a->arena, &t);
+                             a->arena, &t);
     fprintf(f, "# density of the whitened %ss of %s, value in %s\nvalue,density\n", analyse_series_names[k],
             source_name(a), k ? "s" : "N");
     for (int i = 0; i < t.n; i++) {

@@ -175,7 +175,7 @@ static bool report_json(const struct batch_ask *ask, const struct batch_report *
     struct report r = report_open(stdout, true);
     r.ascii = true;
     report_set(&r, "title:s design_sha256:s stimuli:i ok:i waiting:i full_scale:n", b->design.title, b->set.sha256,
-               b->set.n, b->rendered + b->kept - b->waiting, b->waiting, b->full_scale);
+               b->set.n, b->rendered + b->reused - b->waiting, b->waiting, b->full_scale);
     report_list(&r, "failed");
     for (int i = 0; i < b->set.n; i++) {
         if (!b->rows[i].kind) continue;
@@ -189,7 +189,7 @@ static bool report_json(const struct batch_ask *ask, const struct batch_report *
     report_list(&r, "shard");
     report_set(&r, ":i :i", ask->shard.i, ask->shard.n);
     report_end(&r);
-    report_set(&r, "mine:i rendered:i kept:i", b->n_mine, b->rendered, b->kept);
+    report_set(&r, "mine:i rendered:i kept:i", b->n_mine, b->rendered, b->reused);
     report_list(&r, "left_over");
     for (int i = 0; i < b->stale.n_files; i++)
         report_value(&r, NULL, json_value_shown(b->stale.files[i]));
@@ -224,11 +224,11 @@ static void print_report(const struct batch_ask *ask, const struct batch_report 
     } else if (ask->shard.n > 1) {
         printf("%s: shard %d/%d: %d stimuli rendered, %d there already, %d failed, in %s; when all are there: the same "
                "command without --shard\n",
-               ask->folder, ask->shard.i, ask->shard.n, r->rendered, r->kept, r->failed, took);
+               ask->folder, ask->shard.i, ask->shard.n, r->rendered, r->reused, r->failed, took);
         return;
     } else {
-        printf("%s: %d stimuli rendered, %d there already, %d %s, in %s", ask->folder, r->rendered, r->kept, r->failed,
-               ask->no_render ? "missing" : "failed", took);
+        printf("%s: %d stimuli rendered, %d there already, %d %s, in %s", ask->folder, r->rendered, r->reused,
+               r->failed, ask->no_render ? "missing" : "failed", took);
         if (r->stale.removed)
             printf("; %d file%s left over removed", r->stale.removed, r->stale.removed == 1 ? "" : "s");
         if (!isnan(r->full_scale)) printf("; full_scale %s", keys_yaml_number(r->full_scale, a));

@@ -14,8 +14,8 @@
 #include "cmd/message.h"
 #include "cmd/report.h"
 #include "num/resample.h"
+#include "pipeline/error_budget.h"
 #include "pipeline/plan.h"
-#include "pipeline/promise.h"
 #include "scene/scene_places.h"
 
 struct promises {
@@ -29,11 +29,11 @@ struct promises {
 /* Whether the promise of stimulus i can be kept; its error is told with its place. */
 static bool holds(const struct design *d, int i, struct arena *a, struct err *e)
 {
-    struct scene s, kept;
+    struct scene s, chosen;
     const char *messages;
     bool ok = design_scene(d, i, a, &s, &messages, e);
     if (ok) design_scene_places(d, &s, a);
-    return ok && (promise_keep(&s, a, &kept, NULL, e) || scene_places_tell(&s, e));
+    return ok && (error_budget_apply(&s, a, &chosen, NULL, e) || scene_places_report(&s, e));
 }
 
 static bool look(void *context, int i)
@@ -111,12 +111,12 @@ static bool check_design(struct cmd_call *c, const char *file, const char **rema
 /* remark: of a design without fault; NULL: none. */
 static bool check_scene(struct cmd_call *c, const char *file, const char **remark, struct err *e)
 {
-    struct scene s, kept;
+    struct scene s, chosen;
     const char **warnings = NULL;
     if (design_is(file)) return check_design(c, file, remark, e);
     if (!cmd_read_scene(c, file, &s, e)) return false;
-    if (!promise_keep(&s, c->arena, &kept, NULL, e) || !plan_scene(&kept, c->arena, &warnings, e))
-        return scene_places_tell(&s, e);
+    if (!error_budget_apply(&s, c->arena, &chosen, NULL, e) || !plan_scene(&chosen, c->arena, &warnings, e))
+        return scene_places_report(&s, e);
     for (int i = 0; warnings[i]; i++)
         message_warning(c, file, warnings[i]);
     return true;

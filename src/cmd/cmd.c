@@ -345,7 +345,7 @@ int cmd_run(const struct command *m, int argc, char **argv)
     else
         code = m->run(&c, &e);
     message_end(&c);
-    if (e.kind == ERR_INTERRUPTED) interrupt_tell();
+    if (e.kind == ERR_INTERRUPTED) interrupt_report();
     if (e.kind) {
         message_error(&c, m->name, &e);
         code = (int)e.kind;

@@ -27,7 +27,7 @@ enum { COMPARE_SOUND_CRITERIA = 5 };
 struct criterion {
     const char *name;
     double limit, measured; /* NAN: has none */
-    bool held;
+    bool met;
     const char *says;
 };
 
@@ -41,7 +41,7 @@ struct verdict {
     struct distance_bands bands;
     struct criterion criteria[COMPARE_SOUND_CRITERIA];
     int n_criteria;
-    bool held, equal;
+    bool met, equal;
 };
 
 /* "frame 2 (0.000250 s), channel 1: A ..., B ...", "4000 Hz, channel 2: A ... dB, B ... dB". */
@@ -60,7 +60,7 @@ static const char *compare_sound_band(const struct verdict *v)
 static void judge(struct verdict *v, struct criterion c)
 {
     v->criteria[v->n_criteria++] = c;
-    v->held = v->held && c.held;
+    v->met = v->met && c.met;
 }
 
 /* Why no sample of A has a partner in B. */
@@ -72,12 +72,12 @@ static const char *unpaired(const struct verdict *v)
 static void judge_exact(struct verdict *v)
 {
     size_t n = v->d.frames * (size_t)v->sound[0].channels;
-    bool held = v->paired && v->d.differing == 0;
+    bool met = v->paired && v->d.differing == 0;
     const char *says = !v->paired ? unpaired(v)
-                       : held     ? "all samples compared are the same"
-                                  : arena_format(v->ask->arena, "%zu of %zu samples differ, the first at %s",
-                                                 v->d.differing, n, compare_sound_place(v, &v->d.first));
-    judge(v, (struct criterion){"exact", NAN, v->paired ? (double)v->d.differing : NAN, held, says});
+                       : met      ? "all samples compared are the same"
+                             : arena_format(v->ask->arena, "%zu of %zu samples differ, the first at %s", v->d.differing,
+                                            n, compare_sound_place(v, &v->d.first));
+    judge(v, (struct criterion){"exact", NAN, v->paired ? (double)v->d.differing : NAN, met, says});
 }
 
 /* A figure against a limit that it must not pass; sign +1: at most, -1: at least. */
@@ -85,10 +85,10 @@ static void judge_limit(struct verdict *v, struct criterion c, double sign, cons
 {
     const char *unit = unit_and_where[0];
     struct arena *a = v->ask->arena;
-    c.held = sign * c.measured <= sign * c.limit; /* not when it is NAN: not measured */
+    c.met = sign * c.measured <= sign * c.limit; /* not when it is NAN: not measured */
     if (isnan(c.measured) && !v->paired)
         c.says = unpaired(v);
-    else if (c.held)
+    else if (c.met)
         c.says = arena_format(a, "%.6g %s; %s %g %s is asked for", c.measured, unit, sign > 0 ? "at most" : "at least",
                               c.limit, unit);
     else
@@ -109,20 +109,20 @@ static void judge_all(struct verdict *v)
 {
     const struct compare_ask *ask = v->ask;
     const char *worst = compare_sound_place(v, &v->d.worst);
-    v->held = true;
+    v->met = true;
     const struct wav *a = &v->sound[0], *b = &v->sound[1];
 
     bool bands_alone = !ask->exact && isnan(ask->snr) && isnan(ask->lsb);
     double off = fabs((double)a->frames / a->rate - (double)b->frames / b->rate);
     bool near = bands_alone && off <= 1.000001 / fmin(a->rate, b->rate);
-    bool held = v->alike && (v->shape || near);
+    bool met = v->alike && (v->shape || near);
     const char *says = arena_format(ask->arena, "the sounds differ in%s%s%s", v->alike ? "" : " channels,",
                                     a->rate == b->rate ? "" : " rate,", off > 0 ? " length," : "");
     says = arena_format(ask->arena, "%.*s", (int)strlen(says) - 1, says); /* without the last comma */
-    if (held)
+    if (met)
         says = a->rate == b->rate ? "channels, rate and length are as they should be"
                                   : "channels and length are as they should be; rates may differ";
-    judge(v, (struct criterion){"form", NAN, NAN, held, says});
+    judge(v, (struct criterion){"form", NAN, NAN, met, says});
     if (ask->exact) judge_exact(v);
     if (!isnan(ask->snr))
         judge_limit(v, (struct criterion){"snr", ask->snr, v->d.snr_db, false, NULL}, -1,
@@ -235,8 +235,7 @@ static bool report_sounds(const struct verdict *v, struct err *e)
     const struct distance_bands *d = &v->bands;
     bool any = d->compared > 0;
     struct report r = report_open(v->ask->out, v->ask->json);
-    report_set(&r, "equal:b held:b audio_sha256:t", v->equal, v->held, (const char *const[]){v->hash[0], v->hash[1]},
-               2);
+    report_set(&r, "equal:b held:b audio_sha256:t", v->equal, v->met, (const char *const[]){v->hash[0], v->hash[1]}, 2);
     report_text(&r, "A %s\nB %s\nsha256  A %s B %s\n", v->ask->files[0], v->ask->files[1], v->hash[0], v->hash[1]);
     report_form(&r, v);
     if (v->equal)
@@ -256,9 +255,9 @@ static bool report_sounds(const struct verdict *v, struct err *e)
     for (int i = 0; i < v->n_criteria; i++) {
         const struct criterion *c = &v->criteria[i];
         report_object(&r, NULL);
-        report_set(&r, "name:s held:b limit:n measured:n says:s", c->name, c->held, c->limit, c->measured, c->says);
+        report_set(&r, "name:s held:b limit:n measured:n says:s", c->name, c->met, c->limit, c->measured, c->says);
         report_end(&r);
-        if (!v->equal) report_text(&r, "%s %s: %s\n", c->held ? "ok  " : "FAIL", c->name, c->says);
+        if (!v->equal) report_text(&r, "%s %s: %s\n", c->met ? "ok  " : "FAIL", c->name, c->says);
     }
     report_end(&r);
     return report_close(&r, 12, e);
@@ -269,8 +268,8 @@ int compare_sound(const struct compare_ask *ask, struct err *e)
     struct verdict *v = ARENA_TAKE(ask->arena, struct verdict, 1);
     v->ask = ask;
     if (!measure(v, e)) return (int)e->kind;
-    if (!(ask->quiet && v->held) && !report_sounds(v, e)) return (int)e->kind;
-    return v->held ? 0 : ERR_DIFFERS;
+    if (!(ask->quiet && v->met) && !report_sounds(v, e)) return (int)e->kind;
+    return v->met ? 0 : ERR_DIFFERS;
 }
 
 /* rasp compare for tables, CSV or NPY: columns by name, each with its tolerance. Comments before the header count only
@@ -281,8 +280,8 @@ struct tables {
     struct csv a, b;
     struct table_distance d;
     char hash[2][HASH_TEXT];
-    bool hashed;      /* both are files, not pipes: their bytes can be read again */
-    bool equal, held; /* not the least difference; every criterion met */
+    bool hashed;     /* both are files, not pipes: their bytes can be read again */
+    bool equal, met; /* not the least difference; every criterion met */
 };
 
 static bool table_measure(struct tables *t, struct err *e)
@@ -295,11 +294,11 @@ static bool table_measure(struct tables *t, struct err *e)
     if (!table_distance(both, ask->tolerances, ask->arena, &t->d, e)) return false;
     struct err none = {0};
     t->hashed = hash_file(ask->files[0], t->hash[0], &none) && hash_file(ask->files[1], t->hash[1], &none);
-    t->held =
+    t->met =
         t->a.rows == t->b.rows && !t->d.n_missing && !t->d.n_extra && !t->d.reordered && !(ask->exact && t->d.comment);
-    t->equal = t->held && !t->d.comment;
+    t->equal = t->met && !t->d.comment;
     for (size_t i = 0; i < t->d.n_columns; i++) {
-        t->held = t->held && t->d.columns[i].misses == 0;
+        t->met = t->met && t->d.columns[i].misses == 0;
         t->equal = t->equal && t->d.columns[i].misses == 0 && t->d.columns[i].largest == 0;
     }
     return true;
@@ -347,7 +346,7 @@ static bool report_tables(const struct tables *t, struct err *e)
 {
     const struct table_distance *d = &t->d;
     struct report r = report_open(t->ask->out, t->ask->json);
-    report_set(&r, "equal:b held:b file_sha256:0", t->equal, t->held);
+    report_set(&r, "equal:b held:b file_sha256:0", t->equal, t->met);
     report_text(&r, "A %s\nB %s\n", t->ask->files[0], t->ask->files[1]);
     if (t->hashed) {
         report_set(&r, "file_sha256:t", (const char *const[]){t->hash[0], t->hash[1]}, 2);
@@ -371,7 +370,7 @@ static bool report_tables(const struct tables *t, struct err *e)
     for (size_t i = 0; i < d->n_columns; i++)
         report_column(&r, t, &d->columns[i]);
     report_end(&r);
-    if (t->held)
+    if (t->met)
         report_text(&r, "%s: %zu rows, %zu columns\n", t->equal ? "equal" : "within the tolerances", t->a.rows,
                     t->a.columns);
     return report_close(&r, 12, e);
@@ -382,8 +381,8 @@ int compare_table(const struct compare_ask *ask, struct err *e)
     struct tables *t = ARENA_TAKE(ask->arena, struct tables, 1);
     t->ask = ask;
     if (!table_measure(t, e)) return (int)e->kind;
-    if (!(ask->quiet && t->held) && !report_tables(t, e)) return (int)e->kind;
-    return t->held ? 0 : ERR_DIFFERS;
+    if (!(ask->quiet && t->met) && !report_tables(t, e)) return (int)e->kind;
+    return t->met ? 0 : ERR_DIFFERS;
 }
 
 /* rasp compare FILE --hash SHA256: one sound or table against a hash that was kept. */
@@ -408,14 +407,14 @@ static int compare_hash(const struct compare_ask *ask, bool sound, struct err *e
 {
     char hex[HASH_TEXT];
     if (!file_hash(ask, sound, hex, e)) return (int)e->kind;
-    bool held = strcmp(hex, ask->hash) == 0;
-    if (ask->quiet && held) return 0;
+    bool met = strcmp(hex, ask->hash) == 0;
+    if (ask->quiet && met) return 0;
     struct report r = report_open(ask->out, ask->json);
-    report_set(&r, sound ? "held:b file:s audio_sha256:s expected:s" : "held:b file:s file_sha256:s expected:s", held,
+    report_set(&r, sound ? "held:b file:s audio_sha256:s expected:s" : "held:b file:s file_sha256:s expected:s", met,
                ask->files[0], hex, ask->hash);
-    report_text(&r, "%s\n%s sha256: %s%s%s\n", ask->files[0], held ? "ok  " : "FAIL", hex,
-                held ? "" : ", where the hash given is ", held ? "" : ask->hash);
-    return !report_close(&r, 0, e) ? (int)e->kind : held ? 0 : ERR_DIFFERS;
+    report_text(&r, "%s\n%s sha256: %s%s%s\n", ask->files[0], met ? "ok  " : "FAIL", hex,
+                met ? "" : ", where the hash given is ", met ? "" : ask->hash);
+    return !report_close(&r, 0, e) ? (int)e->kind : met ? 0 : ERR_DIFFERS;
 }
 
 /* By its first bytes, else by its name; a pipe is a table, for its bytes could not be read twice. ERR_INPUT: not there.

@@ -88,8 +88,8 @@ static struct golden_files in_folder(const char *folder, struct arena *a)
 struct golden_files golden_files_of(const struct golden *g, const char *scene, struct arena *a, struct err *e)
 {
     struct golden_files files = {NULL, 0};
-    if (g->kept) {
-        const char *folder = arena_format(a, "%s/%s", g->kept, scene);
+    if (g->saved) {
+        const char *folder = arena_format(a, "%s/%s", g->saved, scene);
         files = in_folder(folder, a);
         for (int i = 0; i < files.n; i++)
             hash_file(arena_format(a, "%s/%s", folder, files.list[i].name), files.list[i].sha256, e);
@@ -109,12 +109,12 @@ const char **golden_strays(const struct golden *g, struct arena *a)
 {
     struct golden_files all = {NULL, 0};
     struct dirent **entries;
-    int n = g->kept ? scandir(g->kept, &entries, NULL, alphasort) : -1;
+    int n = g->saved ? scandir(g->saved, &entries, NULL, alphasort) : -1;
     for (int i = 0; i < n; i++) {
         const char *name = entries[i]->d_name;
         if (*name != '.' && is_output(name)) golden_add(&all, arena_text(a, name), a);
         if (*name != '.' && !golden_has(g, name, strlen(name))) {
-            struct golden_files files = in_folder(arena_format(a, "%s/%s", g->kept, name), a);
+            struct golden_files files = in_folder(arena_format(a, "%s/%s", g->saved, name), a);
             for (int k = 0; k < files.n; k++)
                 golden_add(&all, arena_format(a, "%s/%s", name, files.list[k].name), a);
         }
@@ -191,7 +191,7 @@ static bool limits(struct golden *g, struct golden_scene *s, const char *folder,
     s->tables = tables ? own : common;
     s->sounds.exact = !sounds && !compare_limit_of_sounds(all);
     s->tables.exact = !tables && !compare_limit_of_tables(all);
-    return g->kept || (s->sounds.exact && s->tables.exact) ||
+    return g->saved || (s->sounds.exact && s->tables.exact) ||
            err_set(e, ERR_USAGE,
                    "--%s: where only hashes are kept there is no sound or table to measure from; keep files, too, with "
                    "--kept",
@@ -368,17 +368,17 @@ void golden_report_strays(const struct golden *g, const char *const *strays, int
 static bool begin(struct golden *g, struct cmd_call *c, struct err *e)
 {
     *g = (struct golden){.call = c,
-                         .kept = args_value(&c->args, "kept"),
+                         .saved = args_value(&c->args, "kept"),
                          .hashes = args_value(&c->args, "hashes"),
                          .effective = args_given(&c->args, "effective"),
                          .tap = args_given(&c->args, "tap"),
                          .quiet = args_given(&c->args, "quiet")};
-    if ((g->kept && !*g->kept) || (g->hashes && !*g->hashes))
-        return err_set(e, ERR_USAGE, "--%s is empty", g->kept && !*g->kept ? "kept" : "hashes");
-    if (g->kept && !strcmp(g->kept, "-"))
+    if ((g->saved && !*g->saved) || (g->hashes && !*g->hashes))
+        return err_set(e, ERR_USAGE, "--%s is empty", g->saved && !*g->saved ? "kept" : "hashes");
+    if (g->saved && !strcmp(g->saved, "-"))
         return err_set(e, ERR_USAGE, "--kept -: what is kept is a folder of files; one of that name is ./-");
-    if (!g->kept && !g->hashes) g->kept = "golden";
-    if (g->kept) g->kept = batch_folder(c->arena, g->kept);
+    if (!g->saved && !g->hashes) g->saved = "golden";
+    if (g->saved) g->saved = batch_folder(c->arena, g->saved);
     return batch_threads(c, &g->threads, e) && golden_list(g, e) && golden_run_folder(g, e);
 }
 

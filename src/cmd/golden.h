@@ -41,7 +41,7 @@ struct golden {
     struct golden_scene *scenes;
     int n;
     bool whole;               /* all operands are lists: nothing else should be kept    */
-    const char *kept;         /* folder of files; NULL: hashes only                     */
+    const char *saved;        /* folder of files; NULL: hashes only                     */
     const char *hashes;       /* file of hashes; NULL: none                             */
     struct golden_files sums; /* its lines, NAME/FILE                                   */
     const char *work;         /* folder of the renders                                  */

@@ -74,7 +74,7 @@ static bool render(const struct golden *g, struct golden_scene *s, int pass, con
         err_set(e, ERR_CREATE, "the folder %s cannot be created: %s", arena_text(s->arena, folder), strerror(errno));
     ok = ok && (!from || scene_read(from, NULL, a, &read, &messages, e)) &&
          (render_scene(from ? &read : &s->scene, base, a, &report, e) ||
-          scene_places_tell(from ? &read : &s->scene, e)) &&
+          scene_places_report(from ? &read : &s->scene, e)) &&
          note_files(s, pass, &report, e);
     arena_close(a);
     return ok;
@@ -171,57 +171,57 @@ static void judge_bytes(struct golden_scene *s, const char *name, const char *co
 }
 
 /* Is the kept file the one that was written? */
-static void judge_hash(const struct golden *g, struct golden_scene *s, const struct golden_file *kept)
+static void judge_hash(const struct golden *g, struct golden_scene *s, const struct golden_file *saved)
 {
     const struct golden_file *sum =
-        g->hashes && g->kept ? golden_find(&g->sums, arena_format(s->arena, "%s/%s", s->name, kept->name)) : NULL;
-    if (sum && strcmp(sum->sha256, kept->sha256) != 0)
-        problem(s, kept->name, NULL,
+        g->hashes && g->saved ? golden_find(&g->sums, arena_format(s->arena, "%s/%s", s->name, saved->name)) : NULL;
+    if (sum && strcmp(sum->sha256, saved->sha256) != 0)
+        problem(s, saved->name, NULL,
                 "the kept file is not the one whose hash is kept in %s: it was changed or damaged since", g->hashes);
-    else if (!sum && g->hashes && g->kept)
-        problem(s, kept->name, NULL, "has no hash in %s", g->hashes);
+    else if (!sum && g->hashes && g->saved)
+        problem(s, saved->name, NULL, "has no hash in %s", g->hashes);
 }
 
-static void judge_file(const struct golden *g, struct golden_scene *s, const struct golden_file *kept, int pass)
+static void judge_file(const struct golden *g, struct golden_scene *s, const struct golden_file *saved, int pass)
 {
-    const struct golden_file *made = golden_find(&s->made[pass], kept->name);
-    const char *new = path_of(g, s, pass, kept->name, s->arena);
-    if (pass == 0) judge_hash(g, s, kept);
+    const struct golden_file *made = golden_find(&s->made[pass], saved->name);
+    const char *new = path_of(g, s, pass, saved->name, s->arena);
+    if (pass == 0) judge_hash(g, s, saved);
     if (!made)
-        problem(s, kept->name, NULL, "is kept, but not made any more");
-    else if (strcmp(made->sha256, kept->sha256) == 0)
+        problem(s, saved->name, NULL, "is kept, but not made any more");
+    else if (strcmp(made->sha256, saved->sha256) == 0)
         return;
-    else if (g->kept)
-        judge_bytes(s, kept->name,
-                    (const char *[]){arena_format(s->arena, "%s/%s/%s", g->kept, s->name, kept->name), new},
+    else if (g->saved)
+        judge_bytes(s, saved->name,
+                    (const char *[]){arena_format(s->arena, "%s/%s/%s", g->saved, s->name, saved->name), new},
                     pass ? "what is kept (rendered from the effective scene)" : "what is kept");
     else
         problem(
-            s, kept->name, NULL,
+            s, saved->name, NULL,
             "is not what is kept%s: its sha256 is %s, where %s has %s; how far it is off only kept files could tell",
-            pass ? " (rendered from the effective scene)" : "", made->sha256, g->hashes, kept->sha256);
+            pass ? " (rendered from the effective scene)" : "", made->sha256, g->hashes, saved->sha256);
 }
 
 /* what was made against what is kept       */
 static void judge(const struct golden *g, struct golden_scene *s, int pass)
 {
     struct err why = {0};
-    struct golden_files kept = golden_files_of(g, s->name, s->arena, &why);
+    struct golden_files saved = golden_files_of(g, s->name, s->arena, &why);
     if (why.kind)
         problem(s, "", NULL, "%s", why.text);
     else if (s->made[pass].n == 0)
         problem(s, "", NULL, "it makes neither a sound nor a table: there is nothing to keep");
-    else if (kept.n == 0) {
+    else if (saved.n == 0) {
         struct arena *a = s->arena;
         problem(s, "", NULL, "nothing is kept of it; this makes it: rasp golden update%s%s%s%s %s",
-                g->kept ? " --kept " : "", g->kept ? g->kept : "", g->hashes ? " --hashes " : "",
+                g->saved ? " --kept " : "", g->saved ? g->saved : "", g->hashes ? " --hashes " : "",
                 g->hashes ? g->hashes : "",
                 *s->at ? arena_format(a, "%.*s", (int)(strchr(s->at, ':') - s->at), s->at) : s->file);
     }
-    for (int i = 0; !why.kind && i < kept.n; i++)
-        judge_file(g, s, &kept.list[i], pass);
-    for (int i = 0; !why.kind && kept.n && i < s->made[pass].n; i++)
-        if (!golden_find(&kept, s->made[pass].list[i].name))
+    for (int i = 0; !why.kind && i < saved.n; i++)
+        judge_file(g, s, &saved.list[i], pass);
+    for (int i = 0; !why.kind && saved.n && i < s->made[pass].n; i++)
+        if (!golden_find(&saved, s->made[pass].list[i].name))
             problem(s, s->made[pass].list[i].name, NULL, "is made, but not kept");
 }
 
@@ -415,7 +415,7 @@ static bool copy(struct writing *w, const char *from, const char *to, struct err
     if (ok) {
         w->n++;
         outfile_put(o, b.at, b.n);
-        ok = outfile_settle(o, e);
+        ok = outfile_finalise(o, e);
     }
     arena_close(a);
     return ok;
@@ -431,23 +431,23 @@ static bool write_scene(struct writing *w, const struct golden_scene *s, struct 
 {
     struct golden *g = w->g;
     struct arena *a = g->call->arena;
-    struct golden_files kept = golden_files_of(g, s->name, a, e);
-    const char *folder = arena_format(a, "%s/%s", g->kept ? g->kept : "", s->name);
-    if (e->kind || (g->kept && !make_folder(w, folder, e))) return false;
+    struct golden_files saved = golden_files_of(g, s->name, a, e);
+    const char *folder = arena_format(a, "%s/%s", g->saved ? g->saved : "", s->name);
+    if (e->kind || (g->saved && !make_folder(w, folder, e))) return false;
     for (int i = 0; i < s->made[0].n; i++) {
-        const struct golden_file *made = &s->made[0].list[i], *old = golden_find(&kept, made->name);
+        const struct golden_file *made = &s->made[0].list[i], *old = golden_find(&saved, made->name);
         bool same = old && strcmp(old->sha256, made->sha256) == 0;
         w->changed += !same;
         say(g, same ? "same" : old ? "changed" : "new", s->name, made->name);
-        if (g->kept && !same &&
+        if (g->saved && !same &&
             !copy(w, path_of(g, s, 0, made->name, a), arena_format(a, "%s/%s", folder, made->name), e))
             return false;
     }
-    for (int i = 0; i < kept.n; i++)
-        if (!golden_find(&s->made[0], kept.list[i].name)) {
+    for (int i = 0; i < saved.n; i++)
+        if (!golden_find(&s->made[0], saved.list[i].name)) {
             w->changed++;
-            say(g, "removed", s->name, kept.list[i].name);
-            if (g->kept) w->removed[w->n_removed++] = arena_format(a, "%s/%s", folder, kept.list[i].name);
+            say(g, "removed", s->name, saved.list[i].name);
+            if (g->saved) w->removed[w->n_removed++] = arena_format(a, "%s/%s", folder, saved.list[i].name);
         }
     return true;
 }
@@ -473,7 +473,7 @@ static bool write_hashes(struct writing *w, struct err *e)
     w->n++;
     for (int i = 0; i < all.n; i++)
         fprintf(o->stream, "%s  %s\n", all.list[i].sha256, all.list[i].name);
-    return outfile_settle(o, e);
+    return outfile_finalise(o, e);
 }
 
 static bool write_all(struct golden *g, struct writing *w, struct err *e)
@@ -495,7 +495,7 @@ static bool write_all(struct golden *g, struct writing *w, struct err *e)
         limit.rlim_cur = limit.rlim_max;
         setrlimit(RLIMIT_NOFILE, &limit);
     }
-    bool ok = !e->kind && (!g->kept || make_folder(w, g->kept, e));
+    bool ok = !e->kind && (!g->saved || make_folder(w, g->saved, e));
     for (int i = 0; ok && i < g->n; i++)
         ok = write_scene(w, &g->scenes[i], e);
     ok = ok && (!g->hashes || write_hashes(w, e));
@@ -511,8 +511,8 @@ static bool write_all(struct golden *g, struct writing *w, struct err *e)
     interrupt_go();
     for (int i = 0; i < w->n; i++)
         outfile_drop(&w->files[i]);
-    for (int i = 0; !ok && g->kept && i < g->n; i++)
-        rmdir(arena_format(a, "%s/%s", g->kept, g->scenes[i].name)); /* where nothing was in it */
+    for (int i = 0; !ok && g->saved && i < g->n; i++)
+        rmdir(arena_format(a, "%s/%s", g->saved, g->scenes[i].name)); /* where nothing was in it */
     forget_folders(w);
     return ok;
 }
@@ -526,7 +526,7 @@ int golden_run_update(struct golden *g, struct err *e)
         printf("%d scene%s rendered twice; %d file%s changed\n", g->n, g->n == 1 ? "" : "s", w.changed,
                w.changed == 1 ? "" : "s");
     const char **strays = g->whole ? golden_strays(g, g->call->arena) : NULL;
-    for (; g->kept && strays && *strays; strays++)
+    for (; g->saved && strays && *strays; strays++)
         message_warning(g->call, *strays, "no scene makes it; rasp golden check will fail until it is removed");
     return 0;
 }

@@ -224,7 +224,7 @@ static void put(struct cmd_call *c, json_t *o)
 void message_scene(struct cmd_call *c, const struct diag *d, const char *messages, enum err_kind kind)
 {
     struct messages *t = of(c);
-    for (int i = 0; (t->json || t->collected) && d && i < d->n && i < DIAG_KEPT; i++)
+    for (int i = 0; (t->json || t->collected) && d && i < d->n && i < DIAG_STORED; i++)
         put(c, of_diag(&d->errors[i], kind, c->arena));
     t->reported = (t->json || t->collected) && d && d->n > 0;
     if (t->json) return;

@@ -61,7 +61,8 @@ static void length(FILE *f, const char *name, double value)
 
 static void object(FILE *f, const struct object_given *g)
 {
-    bool held = g->shape == OBJECT_BAR || g->shape == OBJECT_ROD || g->shape == OBJECT_PLATE || g->shape == OBJECT_DISK;
+    bool has_edges =
+        g->shape == OBJECT_BAR || g->shape == OBJECT_ROD || g->shape == OBJECT_PLATE || g->shape == OBJECT_DISK;
     bool slender = g->shape == OBJECT_BAR || g->shape == OBJECT_ROD;
     fprintf(f, "# object: %s", word("surface.object.shape", g->shape));
     length(f, "length", g->length);
@@ -70,7 +71,7 @@ static void object(FILE *f, const struct object_given *g)
     length(f, g->shape == OBJECT_ROD ? "wall" : "thickness", g->thickness);
     if (!isnan(g->tension)) fprintf(f, ", tension %.9g N", g->tension);
     if (!isnan(g->surface_tension)) fprintf(f, ", tension %.9g N/m", g->surface_tension);
-    if (held) fprintf(f, ", edges %s", word("surface.object.edges", g->edges));
+    if (has_edges) fprintf(f, ", edges %s", word("surface.object.edges", g->edges));
     if (slender) fprintf(f, ", %s", word("surface.object.waves", g->waves));
     fputc('\n', f);
 }

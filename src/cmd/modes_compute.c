@@ -50,7 +50,7 @@ static bool read_face(struct compute *k, struct err *e)
 {
     int face = BOUNDARY_TOP;
     if (!args_word(&k->c->args, "face", boundary_map_sides, &face, e)) return false;
-    boundary_map_make(&k->mesh, &k->boundary, face, &k->chart);
+    boundary_map_make(&k->mesh, &k->boundary, face, &k->map);
     const double *low = k->boundary.low, *high = k->boundary.high;
     if (face >= BOUNDARY_AROUND && (low[0] >= 0 || high[0] <= 0 || low[1] >= 0 || high[1] <= 0))
         return err_set(e, ERR_SCENE,
@@ -117,7 +117,7 @@ static bool read_points(struct compute *k, const char *file, struct err *e)
 /* What is slender is touched along its middle, all else on a grid. */
 static bool read_places(struct compute *k, struct modes_fit *fit, struct err *e)
 {
-    const struct boundary_map *c = &k->chart;
+    const struct boundary_map *c = &k->map;
     double wide = c->high[0] - c->low[0], high = c->high[1] - c->low[1];
     struct modes_ground ground = {.self = c,
                                   .off = off,
@@ -146,7 +146,7 @@ static double gains_at(const void *self, double x, double y, const struct modes_
 {
     const struct compute *k = self;
     struct boundary_point at;
-    if (!boundary_map_point(&k->chart, x, y, &at)) return (double)INFINITY;
+    if (!boundary_map_point(&k->map, x, y, &at)) return (double)INFINITY;
     solid_participation(&k->modes, &at, k->phi);
     for (int i = 0; i < k->n; i++) {
         to->frequency[i] = k->frequency[i];
@@ -184,7 +184,7 @@ static bool read_listen(struct compute *k, struct err *e)
     if (!text) return true;
     if (commas != 2) {
         if (!modes_lengths(k->c, "listen", "X,Y", 2, at, e)) return false;
-        return boundary_map_point(&k->chart, at[0], at[1], &k->ear) ||
+        return boundary_map_point(&k->map, at[0], at[1], &k->ear) ||
                err_set(e, ERR_SCENE,
                        "--listen: the place (%.9g, %.9g) m lies off the object; a point X,Y,Z of space takes the "
                        "nearest of the surface",
@@ -242,7 +242,7 @@ static void inputs_hash(const struct compute *k, char hex[HASH_TEXT])
 {
     const struct compute_material *m = &k->material;
     const double numbers[] = {m->alpha, m->beta, m->loss, m->elastic.density, k->top, k->origin[0], k->origin[1]};
-    const long wholes[] = {k->most,   k->order,     k->quantity, k->chart.face,
+    const long wholes[] = {k->most,   k->order,     k->quantity, k->map.face,
                            k->places, k->elsewhere, m->own,      m->own_damping};
     struct hash h = hash_start();
     add_text(&h, "rasp modes compute, table 2");
@@ -395,7 +395,7 @@ static bool write_table(const struct compute *k, const char *file, const char *i
         fputs("# places: points of a list, the nearest of the surface\n", f);
     else
         fprintf(f, "# places: on the solid as seen from its side '%s': its %s, moved by (%.9g, %.9g) m\n",
-                boundary_map_sides[k->chart.face], axes[k->chart.face], k->origin[0], k->origin[1]);
+                boundary_map_sides[k->map.face], axes[k->map.face], k->origin[0], k->origin[1]);
     modes_places_write(f, k->error, &k->laid, k->c->arena);
     fprintf(f, "# radius_m: %.9g\n", sqrt(k->boundary.outer / (4.0 * REAL_PI)));
     const struct boundary *b = &k->boundary;

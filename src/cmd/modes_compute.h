@@ -25,7 +25,7 @@ struct compute {
     int n_fixed;
     double top; /* Hz */
     long most, order;
-    struct boundary_map chart;
+    struct boundary_map map;
     double origin[2]; /* m */
     int quantity;     /* enum modes_quantity */
     int places;

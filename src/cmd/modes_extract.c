@@ -305,10 +305,10 @@ static bool write_outputs(struct modes_extract *x, struct err *e)
     struct wav_out *sounds[2] = {NULL, NULL};
     bool ok = outfile_open(table, file[MODES_EXTRACT_TABLE], e);
     if (ok) modes_extract_write_table(table->stream, x);
-    ok = ok && outfile_settle(table, e) && sound(x, MODES_EXTRACT_RESYNTHESIS, &sounds[0], e) &&
+    ok = ok && outfile_finalise(table, e) && sound(x, MODES_EXTRACT_RESYNTHESIS, &sounds[0], e) &&
          sound(x, MODES_EXTRACT_RESIDUAL, &sounds[1], e) &&
-         (!plot ||
-          (gnuplot_draw(picture, plot, x->given.svg, modes_extract_write_picture, x, e) && outfile_settle(picture, e)));
+         (!plot || (gnuplot_draw(picture, plot, x->given.svg, modes_extract_write_picture, x, e) &&
+                    outfile_finalise(picture, e)));
     interrupt_hold();
     for (int k = 0; k < 2; k++)
         if (sounds[k] && !ok)

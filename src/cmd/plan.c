@@ -6,8 +6,8 @@
 #include "cmd/cmd.h"
 #include "cmd/message.h"
 #include "cmd/report.h"
+#include "pipeline/error_budget.h"
 #include "pipeline/plan.h"
-#include "pipeline/promise.h"
 #include "scene/ablation.h"
 #include "scene/keys.h"
 #include "scene/scene_places.h"
@@ -55,19 +55,20 @@ static const struct args_option plan_options[] = {
 
 static bool plan_one(struct cmd_call *c, const char *file, struct report *r, struct err *e)
 {
-    struct scene s, kept;
-    struct promise promise;
+    struct scene s, chosen;
+    struct error_budget error_budget;
     const char **warnings = NULL;
     if (!cmd_read_scene(c, file, &s, e)) return false;
-    const struct plan *plans =
-        promise_keep(&s, c->arena, &kept, &promise, e) ? plan_scene(&kept, c->arena, &warnings, e) : NULL;
+    const struct plan *plans = error_budget_apply(&s, c->arena, &chosen, &error_budget, e)
+                                   ? plan_scene(&chosen, c->arena, &warnings, e)
+                                   : NULL;
     for (int i = 0; plans && i < s.n_contacts; i++)
         if (!plan_known(&plans[i], e)) return false;
-    if (!plans) return scene_places_tell(&s, e);
+    if (!plans) return scene_places_report(&s, e);
     for (int i = 0; warnings[i]; i++)
         message_warning(c, file, warnings[i]);
     report_object(r, NULL);
-    report_set(r, "file:e accuracy:e", s.file, promise.text);
+    report_set(r, "file:e accuracy:e", s.file, error_budget.text);
     report_list(r, "contacts");
     for (int i = 0; i < s.n_contacts; i++) {
         const struct plan *p = &plans[i];
@@ -89,7 +90,7 @@ static bool plan_one(struct cmd_call *c, const char *file, struct report *r, str
     }
     report_end(r);
     report_end(r);
-    if (promise.text) report_text(r, "%s\n", text_shown(c->arena, promise.text));
+    if (error_budget.text) report_text(r, "%s\n", text_shown(c->arena, error_budget.text));
     return true;
 }
 

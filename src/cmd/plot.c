@@ -218,14 +218,14 @@ static bool sound_gather(struct plot_page *p, struct err *e)
 
 enum { MOST = 4000 };
 
-static void add(struct plot_page *p, const struct plot_path *way)
+static void add(struct plot_page *p, const struct plot_path *path)
 {
     bool moves = false;
-    for (int i = 1; i < way->n; i++)
-        moves = moves || way->at[i][0] != way->at[0][0] || way->at[i][1] != way->at[0][1];
+    for (int i = 1; i < path->n; i++)
+        moves = moves || path->at[i][0] != path->at[0][0] || path->at[i][1] != path->at[0][1];
     if (!moves) return;
     p->ways = arena_more(p->arena, p->ways, p->n_ways, sizeof *p->ways);
-    p->ways[p->n_ways++] = *way;
+    p->ways[p->n_ways++] = *path;
 }
 
 /* Where a contact was in the time shown, by its table; one that stays has no way. Columns of x, y and speed; the last
@@ -233,21 +233,21 @@ static void add(struct plot_page *p, const struct plot_path *way)
 static bool path_of_table(struct plot_page *p, const char *name, const struct csv *csv, const double *times,
                           struct err *e)
 {
-    struct plot_path way = {.name = name};
+    struct plot_path path = {.name = name};
     int column[3] = {csv_column(csv, "x_m"), csv_column(csv, "y_m"), csv_column(csv, "speed_m_per_s")};
     size_t shown = 0, each = 0;
     if (column[0] < 0 || column[1] < 0) return true;
     for (size_t row = 0; row < csv->rows; row++)
         shown += times[row] >= p->from && times[row] <= p->to;
     size_t step = (shown + MOST - 1) / MOST;
-    way.at = (double(*)[3])arena_take(p->arena, MOST + 2, sizeof *way.at);
+    path.at = (double(*)[3])arena_take(p->arena, MOST + 2, sizeof *path.at);
     for (size_t row = 0; row < csv->rows; row++) {
         if (!(times[row] >= p->from && times[row] <= p->to) || (each++ % step && each != shown)) continue;
-        double *to = way.at[way.n++];
+        double *to = path.at[path.n++];
         for (int k = 0; k < 3; k++)
             if (column[k] >= 0 && !csv_number(csv, row, column[k], &to[k], e)) return false;
     }
-    add(p, &way);
+    add(p, &path);
     return true;
 }
 
@@ -257,15 +257,15 @@ static bool path_of_scene(struct plot_page *p, const struct scene *s, const stru
     if (!trajectory_make(&c->motion, trajectory_seed(s, c), p->arena, &tr, e)) return false;
     double from = fmax(p->from - c->start, 0), to = fmin(p->to - c->start, tr.duration),
            *t = ARENA_TAKE(p->arena, double, 4 * MOST), *x = t + MOST, *y = x + MOST, *du = y + MOST;
-    struct plot_path way = {s->n_contacts > 1 ? c->name : "", MOST,
-                            (double(*)[3])arena_take(p->arena, MOST, sizeof *way.at)};
+    struct plot_path path = {s->n_contacts > 1 ? c->name : "", MOST,
+                             (double(*)[3])arena_take(p->arena, MOST, sizeof *path.at)};
     if (!(from < to)) return true;
     for (int i = 0; i < MOST; i++)
         t[i] = from + (to - from) * i / (MOST - 1);
     trajectory_at(&tr, MOST, t, (struct trajectory_out){.x = x, .y = y, .du = du});
     for (int i = 0; i < MOST; i++)
-        memcpy(way.at[i], (const double[3]){x[i], y[i], fabs(du[i])}, sizeof way.at[i]);
-    add(p, &way);
+        memcpy(path.at[i], (const double[3]){x[i], y[i], fabs(du[i])}, sizeof path.at[i]);
+    add(p, &path);
     return true;
 }
 
@@ -333,15 +333,15 @@ static bool modes_of(const struct response *r, double rate, struct arena *a, str
     return ok;
 }
 
-static void add_body(struct plot_page *p, const struct modes *m, const struct plot_path *way, double share,
+static void add_body(struct plot_page *p, const struct modes *m, const struct plot_path *path, double share,
                      const char *name)
 {
     struct modes_point point = modes_point_make(p->arena, m->n);
     struct plot_body *b = &p->bodies[p->n_bodies++];
     *b = (struct plot_body){name, m->n, ARENA_TAKE(p->arena, struct plot_mode, m->n)};
     for (int k = 0; k < PLACES; k++) {
-        int at = way ? (int)((long)k * (way->n - 1) / (PLACES - 1)) : -1;
-        struct modes_where where = {at < 0 ? m->home[0] : way->at[at][0], at < 0 ? m->home[1] : way->at[at][1],
+        int at = path ? (int)((long)k * (path->n - 1) / (PLACES - 1)) : -1;
+        struct modes_where where = {at < 0 ? m->home[0] : path->at[at][0], at < 0 ? m->home[1] : path->at[at][1],
                                     (double)k / (PLACES - 1)};
         modes_at(m, &where, &point);
         for (int i = 0; i < m->n; i++)

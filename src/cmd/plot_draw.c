@@ -28,11 +28,11 @@ static double size_of(const struct view *v) { return fmax(v->high[0] - v->low[0]
 /* All of the way, and of what it lies on. */
 static struct view view_of(const struct plot_page *p)
 {
-    struct view way = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}}, all;
+    struct view path = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}}, all;
     for (int i = 0; i < p->n_ways; i++)
         for (int k = 0; k < p->ways[i].n; k++)
-            take(&way, p->ways[i].at[k][0], p->ways[i].at[k][1]);
-    all = way;
+            take(&path, p->ways[i].at[k][0], p->ways[i].at[k][1]);
+    all = path;
     for (int i = 0; i < p->n_grounds; i++) {
         const struct plot_ground *g = &p->grounds[i];
         if (g->box) {
@@ -42,7 +42,7 @@ static struct view view_of(const struct plot_page *p)
         for (int k = 0; k < g->n; k++)
             take(&all, g->places[k][0], g->places[k][1]);
     }
-    return size_of(&all) > FAR * size_of(&way) ? way : all;
+    return size_of(&all) > FAR * size_of(&path) ? path : all;
 }
 
 static void data(const struct plot_page *p, double unit, const struct view *v, FILE *f)

@@ -101,7 +101,7 @@ static bool summary_again(struct render_report *r, double measured, struct arena
         path = strcmp(r->files[i].kind, "summary") ? path : r->files[i].path;
     bool ok = outfile_open(&file, path, e);
     if (ok) fputs(r->summary, file.stream);
-    ok = ok && outfile_settle(&file, e) && outfile_commit(&file, e);
+    ok = ok && outfile_finalise(&file, e) && outfile_commit(&file, e);
     outfile_drop(&file);
     return ok;
 }
@@ -152,7 +152,7 @@ static bool render_verify(struct cmd_call *c, const char *file, const struct sce
                    "accuracy.error: %.6g dB is not kept: %.1f dB measured against the reference; the files stay as "
                    "they are: ask for less (accuracy.error: %.0f dB), or say the knobs",
                    asked->accuracy.error, measured, ceil(measured)) ||
-           scene_places_tell(asked, e);
+           scene_places_report(asked, e);
 }
 
 static const struct args_option render_options[] = {
@@ -240,7 +240,7 @@ static struct outputs *render_read(struct cmd_call *c, struct err *e)
         if (!base || !cmd_read_scene(c, file, &scenes[i], e)) return NULL;
         all[i] = outputs_make(&scenes[i], base, c->arena);
     }
-    return outputs_distinct(all, n, c->arena, e) && outputs_spare(all, n, c->arena, e) &&
+    return outputs_distinct(all, n, c->arena, e) && outputs_check_overwrite(all, n, c->arena, e) &&
                    outputs_replace(all, n, args_given(&c->args, "force"), c->arena, e) && render_folder(c, e)
                ? all
                : NULL;
@@ -250,11 +250,11 @@ static struct outputs *render_read(struct cmd_call *c, struct err *e)
 static bool render_one(struct cmd_call *c, int i, const struct outputs *o, bool array, int *printed, struct err *e)
 {
     struct render_report report;
-    if (!render_scene(o->scene, o->base, c->arena, &report, e)) return scene_places_tell(o->scene, e);
-    bool kept = !args_given(&c->args, "verify") || render_verify(c, c->args.operands[i], o->scene, &report, e);
+    if (!render_scene(o->scene, o->base, c->arena, &report, e)) return scene_places_report(o->scene, e);
+    bool verified = !args_given(&c->args, "verify") || render_verify(c, c->args.operands[i], o->scene, &report, e);
     fputs(!array ? "" : (*printed)++ ? "," : "[", stdout);
     render_print(c, o->scene, &report);
-    return kept;
+    return verified;
 }
 
 static int render_run(struct cmd_call *c, struct err *e)

@@ -398,7 +398,7 @@ static bool crop_range(const char *what, double from, double size, double pitch,
 }
 
 /* Keeps columns x[0] .. and rows y[0] ..; in place. */
-static void keep(struct heightfile *h, const size_t x[2], const size_t y[2])
+static void crop_to(struct heightfile *h, const size_t x[2], const size_t y[2])
 {
     for (size_t j = 0; j < y[1]; j++)
         memmove(h->z + j * x[1], h->z + (y[0] + j) * h->columns + x[0], x[1] * sizeof *h->z);
@@ -419,7 +419,7 @@ static bool crop(struct convert *v, struct err *e)
     if (!crop_range("width", v->crop[0], v->crop[2], h->pitch_x, h->columns, x, e) ||
         (h->rows > 1 && !crop_range("height", v->crop[1], v->crop[3], h->pitch_y, h->rows, y, e)))
         return false;
-    keep(h, x, y);
+    crop_to(h, x, y);
     return true;
 }
 
@@ -433,7 +433,7 @@ static bool take_row(struct convert *v, struct err *e)
     if ((size_t)k >= v->h.rows)
         return err_set(e, ERR_SCENE, "--row: row %ld is asked for, and the map has rows 0 to %zu", k, v->h.rows - 1);
     y[0] = (size_t)k;
-    keep(&v->h, x, y);
+    crop_to(&v->h, x, y);
     return true;
 }
 

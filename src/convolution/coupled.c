@@ -33,7 +33,7 @@ static void make_modes(struct arena *a, const struct coupled_ask *ask, struct co
     m->decay = padded_copy(a, m->padded, ask->decay, ask->n);
     double **const zeroed[] = {&m->q,      &m->p,      &m->phi,  &m->phi_to, &m->square, &m->inertia,
                                &m->spring, &m->turn,   &m->pull, &m->push,   &m->drain,  &m->stay,
-                               &m->carry,  &m->thrust, &m->tilt, &m->swing,  &m->ahead,  &m->slant};
+                               &m->carry,  &m->thrust, &m->tilt, &m->swing,  &m->ahead,  &m->slope_phi};
     for (size_t i = 0; i < sizeof zeroed / sizeof zeroed[0]; i++)
         *zeroed[i] = ARENA_TAKE(a, double, m->padded);
     for (int i = 0; i < m->padded; i++) {
@@ -182,7 +182,7 @@ static bool unbalanced(const struct coupled *c, double bound, const char *whose,
                    s->iterations_most);
 }
 
-bool coupled_balance(struct coupled *c, bool held, struct err *e)
+bool coupled_balance(struct coupled *c, bool bounded, struct err *e)
 {
     struct coupled_state *s = &c->state;
     double greatest;
@@ -196,7 +196,7 @@ bool coupled_balance(struct coupled *c, bool held, struct err *e)
     s->highest = fmax(s->highest, fmax(greatest, fabs(s->energy)));
     account(c, &(struct coupled_account){0}, s);
     double bound = (1e-10 + 4 * DBL_EPSILON * (double)s->steps) * s->highest;
-    return !held || fabs(s->residual) <= bound || unbalanced(c, bound, whose, e);
+    return !bounded || fabs(s->residual) <= bound || unbalanced(c, bound, whose, e);
 }
 
 /* Steps and fractions apart: hours of steps leave a fraction few digits. */

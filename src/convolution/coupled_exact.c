@@ -216,7 +216,7 @@ bool coupled_exact_run(struct coupled *c, int steps, const double *surface, cons
                 "exact_impact: step %ld (penetration %g m, closing at %g m/s) was not solved in %d iterations",
                 c->state.steps + i, before, slope - c->speed, ITERATIONS_MOST);
         take(c, &s, to);
-        coupled_touch(c, c->state.steps + i, before, s.xi, landing);
+        coupled_count_contact(c, c->state.steps + i, before, s.xi, landing);
         force[i] = c->force;
     }
     c->state.steps += steps;

@@ -36,7 +36,7 @@
    A the penetration without force, m; B > 0 what 1 N takes off it. V is convex, so f never falls as xi+ rises and there
    is one root. Only + - * / sqrt. */
 
-struct coupled_pinch {
+struct coupled_contact_solve {
     double stiffness;   /* (2/5) k                                   */
     double rate;        /* mu / h                                    */
     double from, root;  /* xi and, if it is above 0, its square root; 0 */
@@ -46,24 +46,24 @@ struct coupled_pinch {
 };
 
 /* The same in pieces for steps in contact, so that who has other work can lay it between: each piece is a chain of 30
-   to 60 cycles' latency. Where coupled_pinch_stays, x = coupled_pinch_first, then x = coupled_pinch_pass, then
-   coupled_pinch_close, or, where that says no, coupled_pinch_on. */
+   to 60 cycles' latency. Where coupled_contact_solve_stays, x = coupled_contact_solve_first, then x =
+   coupled_contact_solve_pass, then coupled_contact_solve_close, or, where that says no, coupled_contact_solve_on. */
 
 /* Are both penetrations above 0? f(0) = (2/5) k xi^1.5 max(0, least). */
-static inline bool coupled_pinch_stays(const struct coupled_pinch *k, double a, double b)
+static inline bool coupled_contact_solve_stays(const struct coupled_contact_solve *k, double a, double b)
 {
     double least = 1 - k->rate * k->from;
     return k->from > 0 && a > (least > 0 ? b * k->stiffness * k->from * k->root * least : 0);
 }
 
-static inline double coupled_pinch_first(const struct coupled_pinch *k, double guess)
+static inline double coupled_contact_solve_first(const struct coupled_contact_solve *k, double guess)
 {
     return guess > 0 ? sqrt(guess) : k->root;
 }
 
 /* The polynomial in b = sqrt(xi+) at x, by Halley's method (of third order): what x has to be lowered by; NAN where the
  * force would be cut off. */
-static inline double coupled_pinch_pass(const struct coupled_pinch *k, double a, double b, double x)
+static inline double coupled_contact_solve_pass(const struct coupled_contact_solve *k, double a, double b, double x)
 {
     const double r = k->root, square = k->from, cube = square * r, kb = k->stiffness * b, rate = k->rate;
     double xx = x * x, s = x + r, factor = 1 + rate * (xx - square), n = xx * (xx + r * x + square) + cube * s;
@@ -76,7 +76,7 @@ static inline double coupled_pinch_pass(const struct coupled_pinch *k, double a,
 
 /* x: after the pass that lowered it by change. When that moved it by less than 2^-18 of itself the next one would be
  * below the rounding. False: not settled. */
-static inline bool coupled_pinch_close(struct coupled_pinch *k, double x, double change)
+static inline bool coupled_contact_solve_close(struct coupled_contact_solve *k, double x, double change)
 {
     const double r = k->root, square = k->from, cube = square * r;
     if (!(x > 0) || !(fabs(change) <= 0x1p-18 * x)) return false;
@@ -100,7 +100,7 @@ static inline bool coupled_pinch_close(struct coupled_pinch *k, double x, double
 enum { HALLEY = 8, PASSES = 60 }; /* most passes of Halley's method; of Newton's and halving */
 
 /* Force at xi+ and, in *slope, its derivative. Not both penetrations <= 0. */
-static double force_at(struct coupled_pinch *k, double to, double *slope)
+static double force_at(struct coupled_contact_solve *k, double to, double *slope)
 {
     double steep, b = to > 0 ? sqrt(to) : 0, a = k->root;
     if (k->from > 0 && to > 0) {
@@ -128,7 +128,7 @@ static double force_at(struct coupled_pinch *k, double to, double *slope)
 /* The root between 0 and A, to the rounding of either side. The equation's left side is convex, so Newton's method
    comes down to it from A; should rounding turn it round, halving goes on: a step is taken as long as it stays between
    and at least halves the last one. */
-static bool search(struct coupled_pinch *k, double a, double b)
+static bool search(struct coupled_contact_solve *k, double a, double b)
 {
     double low = 0, high = a, at = a, last = 2 * a, slope;
     double enough = 2 * DBL_EPSILON * (fabs(a) + fabs(k->from));
@@ -148,7 +148,7 @@ static bool search(struct coupled_pinch *k, double a, double b)
 }
 
 /* xi+ <= 0 < xi; f (xi - xi+) = V(xi) max(0, 1 - mu (xi - xi+) / h). */
-static void part(struct coupled_pinch *k, double a, double b)
+static void part(struct coupled_contact_solve *k, double a, double b)
 {
     double v = k->stiffness * k->from * k->from * k->root, half = (k->from - a - b * v * k->rate) / 2;
     double wide = sqrt(half * half + b * v), y = half > 0 ? half + wide : b * v / (wide - half), slope;
@@ -158,23 +158,24 @@ static void part(struct coupled_pinch *k, double a, double b)
 }
 
 /* From an x that is not settled after k->passes passes. */
-static bool coupled_pinch_on(struct coupled_pinch *k, double a, double b, double x)
+static bool coupled_contact_solve_on(struct coupled_contact_solve *k, double a, double b, double x)
 {
     while (x > 0 && k->passes < HALLEY) {
-        double change = coupled_pinch_pass(k, a, b, x);
+        double change = coupled_contact_solve_pass(k, a, b, x);
         x -= change;
         k->passes++;
-        if (coupled_pinch_close(k, x, change)) return true;
+        if (coupled_contact_solve_close(k, x, change)) return true;
     }
     return search(k, a, b);
 }
 
 /* Fills to, to_root, gradient (DV), force and passes; guess: of xi+, where both are in contact. False: no root found,
  * or a value is not finite. */
-static bool coupled_pinch(struct coupled_pinch *k, double a, double b, double guess)
+static bool coupled_contact_solve(struct coupled_contact_solve *k, double a, double b, double guess)
 {
     k->passes = 0;
-    if (coupled_pinch_stays(k, a, b)) return coupled_pinch_on(k, a, b, coupled_pinch_first(k, guess));
+    if (coupled_contact_solve_stays(k, a, b))
+        return coupled_contact_solve_on(k, a, b, coupled_contact_solve_first(k, guess));
     if (k->from > 0) {
         part(k, a, b);
         return true;
@@ -190,42 +191,42 @@ static bool coupled_pinch(struct coupled_pinch *k, double a, double b, double gu
 
    With swing P = h p / 2 a step is d = turn P - pull q + push phibar f, q += d, P = d - P; so two steps without a force
    take q to stay q + carry P, stay = (1 - pull)^2 - turn pull, carry = turn (turn - pull). Places are counted in steps
-   of a run, in which phi is straight: phi after `on` steps is phi + on slant. */
+   of a run, in which phi is straight: phi after `on` steps is phi + on slope_phi. */
 
-struct coupled_chorus {
+struct coupled_modal_sum {
     double next,
         later; /* sum phi q at the end of the step to come, and of the one after it, as if no force acted in either */
-    double place; /* sum slant q */
-    struct coupled_voices {
+    double place; /* sum slope_phi q */
+    struct coupled_accumulators {
         _Alignas(64) double lost[LANES];                 /* J, of the steps that have ended since begin */
         double later[LANES], slope[LANES], place[LANES]; /* of the pieces that have been gone through   */
     } lanes;
 };
 
-/* The modes' answers to 1 N as polynomials of the step's number (coupled_chorus_along). */
+/* The modes' answers to 1 N as polynomials of the step's number (coupled_modal_sum_along). */
 struct coupled_answers {
-    double press[3]; /* sum push phi^2, push phi slant, push slant^2: sum phi+ q+ per N of the step */
+    double press[3]; /* sum push phi^2, push phi slope_phi, push slope_phi^2: sum phi+ q+ per N of the step */
     double reply[3]; /* the same of (1 + turn - pull) push: one step later                          */
 };
 
-/* sum push (phi + to slant) (phi + middle slant), and so on. */
-static inline double coupled_chorus_along(const double *c, double to, double middle)
+/* sum push (phi + to slope_phi) (phi + middle slope_phi), and so on. */
+static inline double coupled_modal_sum_along(const double *c, double to, double middle)
 {
     return c[0] + (to + middle) * c[1] + to * middle * c[2];
 }
 
 /* What advance would end the step with, nothing being moved. */
 struct coupled_look {
-    double energy, lost, place; /* J of the modes; J in that step and those before it; sum slant q */
+    double energy, lost, place; /* J of the modes; J in that step and those before it; sum slope_phi q */
 };
 
 /* Added in pairs: a tree is three additions deep, a row seven. */
-static inline double coupled_chorus_sum(const double *s)
+static inline double coupled_modal_sum_total(const double *s)
 {
     return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
 }
 
-static inline void coupled_chorus_open(struct coupled_chorus *sum)
+static inline void coupled_modal_sum_open(struct coupled_modal_sum *sum)
 {
     memset(sum->lanes.later, 0, sizeof sum->lanes.later);
     memset(sum->lanes.slope, 0, sizeof sum->lanes.slope);
@@ -234,9 +235,9 @@ static inline void coupled_chorus_open(struct coupled_chorus *sum)
 
 /* lean: bar force. 11 multiplications and 10 additions a mode; for callers that are LANES_CLONES. The lanes go to
    memory as a whole: gcc takes those of a local struct apart, and putting them together again costs 30 cycles. */
-static inline __attribute__((always_inline)) void coupled_chorus_some(const struct coupled_modes *m, const int some[2],
-                                                                      double force, double lean,
-                                                                      struct coupled_voices *to)
+static inline __attribute__((always_inline)) void coupled_modal_sum_some(const struct coupled_modes *m,
+                                                                         const int some[2], double force, double lean,
+                                                                         struct coupled_accumulators *to)
 {
     double lost[LANES], later[LANES], slope[LANES], place[LANES];
     memcpy(lost, to->lost, sizeof lost);
@@ -244,7 +245,8 @@ static inline __attribute__((always_inline)) void coupled_chorus_some(const stru
     memcpy(slope, to->slope, sizeof slope);
     memcpy(place, to->place, sizeof place);
     double *restrict q = m->q, *restrict swing = m->swing, *restrict ahead = m->ahead;
-    const double *restrict phi = m->phi, *restrict slant = m->slant, *restrict turn = m->turn, *restrict pull = m->pull;
+    const double *restrict phi = m->phi, *restrict slope_phi = m->slope_phi, *restrict turn = m->turn,
+                           *restrict pull = m->pull;
     const double *restrict thrust = m->thrust, *restrict tilt = m->tilt, *restrict drain = m->drain,
                            *restrict stay = m->stay, *restrict carry = m->carry;
     for (int i = some[0]; i < some[1]; i += LANES)
@@ -256,9 +258,9 @@ static inline __attribute__((always_inline)) void coupled_chorus_some(const stru
             swing[i + l] = s;
             ahead[i + l] = turn[i + l] * s - pull[i + l] * x;
             lost[l] += drain[i + l] * (d * d);
-            place[l] += slant[i + l] * x;
+            place[l] += slope_phi[i + l] * x;
             later[l] += phi[i + l] * far;
-            slope[l] += slant[i + l] * far;
+            slope[l] += slope_phi[i + l] * far;
         }
     memcpy(to->lost, lost, sizeof lost);
     memcpy(to->later, later, sizeof later);
@@ -266,83 +268,84 @@ static inline __attribute__((always_inline)) void coupled_chorus_some(const stru
     memcpy(to->place, place, sizeof place);
 }
 
-static inline __attribute__((always_inline)) void coupled_chorus_close(struct coupled_chorus *sum, double on)
+static inline __attribute__((always_inline)) void coupled_modal_sum_close(struct coupled_modal_sum *sum, double on)
 {
-    const struct coupled_voices *v = &sum->lanes;
+    const struct coupled_accumulators *v = &sum->lanes;
     double later[LANES];
 #pragma omp simd
     for (int l = 0; l < LANES; l++)
         later[l] = v->later[l] + on * v->slope[l];
-    sum->later = coupled_chorus_sum(later);
-    sum->place = coupled_chorus_sum(v->place);
+    sum->later = coupled_modal_sum_total(later);
+    sum->place = coupled_modal_sum_total(v->place);
 }
 
 /* Bits do not depend on the instruction set: sums run over LANES accumulators and then in one
  * tree. */
-/* Of the steps to phi_to (NULL: phi stays); sets slant. */
+/* Of the steps to phi_to (NULL: phi stays); sets slope_phi. */
 LANES_CLONES
-static void coupled_chorus_answers(const struct coupled_modes *m, int steps, const double *phi_to,
-                                   struct coupled_answers *to)
+static void coupled_modal_sum_answers(const struct coupled_modes *m, int steps, const double *phi_to,
+                                      struct coupled_answers *to)
 {
     double press[3][LANES] = {{0}}, reply[3][LANES] = {{0}}, share = 1.0 / steps;
-    double *restrict slants = m->slant, *restrict thrust = m->thrust, *restrict tilt = m->tilt;
+    double *restrict slopes = m->slope_phi, *restrict thrust = m->thrust, *restrict tilt = m->tilt;
     const double *end = phi_to ? phi_to : m->phi;
     for (int i = 0; i < m->padded; i += LANES)
 #pragma omp simd
         for (int l = 0; l < LANES; l++) {
-            double phi = m->phi[i + l], slant = (end[i + l] - phi) * share, push = m->push[i + l];
+            double phi = m->phi[i + l], slope_phi = (end[i + l] - phi) * share, push = m->push[i + l];
             double later = (1 + m->turn[i + l] - m->pull[i + l]) * push;
-            slants[i + l] = slant;
+            slopes[i + l] = slope_phi;
             thrust[i + l] = push * phi;
-            tilt[i + l] = push * slant;
+            tilt[i + l] = push * slope_phi;
             press[0][l] += push * (phi * phi);
-            press[1][l] += push * (phi * slant);
-            press[2][l] += push * (slant * slant);
+            press[1][l] += push * (phi * slope_phi);
+            press[2][l] += push * (slope_phi * slope_phi);
             reply[0][l] += later * (phi * phi);
-            reply[1][l] += later * (phi * slant);
-            reply[2][l] += later * (slant * slant);
+            reply[1][l] += later * (phi * slope_phi);
+            reply[2][l] += later * (slope_phi * slope_phi);
         }
     for (int k = 0; k < 3; k++) {
-        to->press[k] = coupled_chorus_sum(press[k]);
-        to->reply[k] = coupled_chorus_sum(reply[k]);
+        to->press[k] = coupled_modal_sum_total(press[k]);
+        to->reply[k] = coupled_modal_sum_total(reply[k]);
     }
 }
 
 /* From step `on - 1` of the run, whose ends are known. */
 LANES_CLONES
-static void coupled_chorus_begin(const struct coupled_modes *m, double on, struct coupled_chorus *sum)
+static void coupled_modal_sum_begin(const struct coupled_modes *m, double on, struct coupled_modal_sum *sum)
 {
     double next[LANES] = {0}, later[LANES] = {0}, place[LANES] = {0};
     double *restrict ahead = m->ahead;
     for (int i = 0; i < m->padded; i += LANES)
 #pragma omp simd
         for (int l = 0; l < LANES; l++) {
-            double x = m->q[i + l], v = m->swing[i + l], phi = m->phi[i + l], slant = m->slant[i + l];
+            double x = m->q[i + l], v = m->swing[i + l], phi = m->phi[i + l], slope_phi = m->slope_phi[i + l];
             double free = m->turn[i + l] * v - m->pull[i + l] * x, far = m->stay[i + l] * x + m->carry[i + l] * v;
-            place[l] += slant * x;
+            place[l] += slope_phi * x;
             ahead[i + l] = free;
-            next[l] += (phi + on * slant) * (x + free);
-            later[l] += (phi + (on + 1) * slant) * far;
+            next[l] += (phi + on * slope_phi) * (x + free);
+            later[l] += (phi + (on + 1) * slope_phi) * far;
         }
-    *sum = (struct coupled_chorus){
-        .next = coupled_chorus_sum(next), .later = coupled_chorus_sum(later), .place = coupled_chorus_sum(place)};
+    *sum = (struct coupled_modal_sum){.next = coupled_modal_sum_total(next),
+                                      .later = coupled_modal_sum_total(later),
+                                      .place = coupled_modal_sum_total(place)};
 }
 
 /* Ends a step whose force is known (bar: its middle) and goes ahead by two (on: the end of the second): that is
-   coupled_chorus_open, _some from 0 to padded, in pieces of whole LANES, and _close. */
+   coupled_modal_sum_open, _some from 0 to padded, in pieces of whole LANES, and _close. */
 LANES_CLONES
-static void coupled_chorus_advance(const struct coupled_modes *m, double bar, double on, double force,
-                                   struct coupled_chorus *sum)
+static void coupled_modal_sum_advance(const struct coupled_modes *m, double bar, double on, double force,
+                                      struct coupled_modal_sum *sum)
 {
-    coupled_chorus_open(sum);
-    coupled_chorus_some(m, (int[]){0, m->padded}, force, bar * force, &sum->lanes);
-    coupled_chorus_close(sum, on);
+    coupled_modal_sum_open(sum);
+    coupled_modal_sum_some(m, (int[]){0, m->padded}, force, bar * force, &sum->lanes);
+    coupled_modal_sum_close(sum, on);
 }
 
 /* step: s */
 LANES_CLONES
-static struct coupled_look coupled_chorus_look(const struct coupled_modes *m, double bar, double force, double step,
-                                               const struct coupled_chorus *sum)
+static struct coupled_look coupled_modal_sum_look(const struct coupled_modes *m, double bar, double force, double step,
+                                                  const struct coupled_modal_sum *sum)
 {
     double energy[LANES] = {0}, place[LANES] = {0}, lost[LANES], rate = 2 / step;
     memcpy(lost, sum->lanes.lost, sizeof lost);
@@ -352,15 +355,16 @@ static struct coupled_look coupled_chorus_look(const struct coupled_modes *m, do
             double d = m->ahead[i + l] + (m->thrust[i + l] * force + m->tilt[i + l] * (bar * force)),
                    x = m->q[i + l] + d, p = (d - m->swing[i + l]) * rate;
             lost[l] += m->drain[i + l] * (d * d);
-            place[l] += m->slant[i + l] * x;
+            place[l] += m->slope_phi[i + l] * x;
             energy[l] += 0.5 * (m->inertia[i + l] * p * p + m->spring[i + l] * x * x);
         }
-    return (struct coupled_look){coupled_chorus_sum(energy), coupled_chorus_sum(lost), coupled_chorus_sum(place)};
+    return (struct coupled_look){coupled_modal_sum_total(energy), coupled_modal_sum_total(lost),
+                                 coupled_modal_sum_total(place)};
 }
 
 #define INLINE static inline __attribute__((always_inline))
 
-enum { SPELL = 256 }; /* steps between two closings of the ledger */
+enum { BATCH = 256 }; /* steps between two closings of the ledger */
 
 bool coupled_gradient_make(struct coupled *c, struct err *e)
 {
@@ -395,8 +399,8 @@ struct gradient_run {
     struct coupled *c;
     double own; /* h^2 / 2m                                                        */
     struct coupled_answers answers;
-    struct coupled_chorus sum;
-    struct coupled_pinch pinch;
+    struct coupled_modal_sum sum;
+    struct coupled_contact_solve contact;
     bool moves;              /* phi does                                                        */
     double wide;             /* xi+ - xi of the last step                                       */
     double work, loss;       /* J, by the surface and in the contact, in this spell             */
@@ -409,14 +413,14 @@ static bool stuck(const struct gradient_run *r, long step, double free, double y
                    "step %ld of the coupled contact has no solution after %d passes (penetration %g m, %g m without a "
                    "force, %g m/N; the place moves too far in one step, "
                    "or a value is not finite)",
-                   step, r->pinch.passes, r->pinch.from, free, yield);
+                   step, r->contact.passes, r->contact.from, free, yield);
 }
 
 /* The ball and the ledger, from a force that is found. work: by the surface, per N. */
 INLINE void take(struct gradient_run *r, long step, double free, double work)
 {
     struct coupled *c = r->c;
-    struct coupled_pinch *k = &r->pinch;
+    struct coupled_contact_solve *k = &r->contact;
     double h = c->ask.step, net = k->force - c->ask.weight, wide = k->to - k->from;
     c->height += h * c->speed + r->own * net;
     c->speed += h / c->ask.mass * net;
@@ -427,7 +431,7 @@ INLINE void take(struct gradient_run *r, long step, double free, double work)
         c->state.iterations += k->passes;
         c->state.iterations_most = k->passes > c->state.iterations_most ? k->passes : c->state.iterations_most;
         c->state.contact_steps++;
-        coupled_touch(c, step, k->from, k->to, (free - k->from) / h);
+        coupled_count_contact(c, step, k->from, k->to, (free - k->from) / h);
     }
     coupled_rise(c, k->to);
     r->wide = wide;
@@ -447,9 +451,9 @@ INLINE void lean(struct gradient_run *r, double force, double before, double aft
 }
 
 /* The ball's fields that change with every step but are read between spells only. */
-static void settle(struct gradient_run *r)
+static void store_ball(struct gradient_run *r)
 {
-    r->c->penetration = r->pinch.from;
+    r->c->penetration = r->contact.from;
     r->c->closing = r->wide / r->c->ask.step;
 }
 
@@ -458,61 +462,63 @@ static void finish(struct gradient_run *r, int to)
 {
     struct coupled_modes *m = &r->c->modes;
     double before = r->sum.place;
-    coupled_chorus_advance(m, to - 0.5, to + 2.0, r->c->force, &r->sum);
+    coupled_modal_sum_advance(m, to - 0.5, to + 2.0, r->c->force, &r->sum);
     lean(r, r->c->force, before, r->sum.place);
-    coupled_sum_add(&r->c->mode_loss, coupled_chorus_sum(r->sum.lanes.lost));
+    coupled_sum_add(&r->c->mode_loss, coupled_modal_sum_total(r->sum.lanes.lost));
     for (int i = 0; i < m->padded; i++)
         m->p[i] = m->swing[i] * (2 / r->c->ask.step);
 }
 
-/* A step's force, and the modes' end of the step before (on: as coupled_chorus_advance has it), whose force is known.
+/* A step's force, and the modes' end of the step before (on: as coupled_modal_sum_advance has it), whose force is
+   known.
    Each fills the other's latencies, which is why they are laid between each other in pieces: 50 modes take 230 cycles a
    step so (AVX-512), 390 one after the other, whichever is first, as no CPU looks far enough ahead. */
 INLINE bool press(struct gradient_run *r, double free, double yield, double on)
 {
     const struct coupled *c = r->c;
-    struct coupled_pinch *k = &r->pinch;
+    struct coupled_contact_solve *k = &r->contact;
     const struct coupled_modes *m = &c->modes;
     const int end = m->padded, half = end / (2 * LANES) * LANES;
     const double last = c->force, lean = (on - 2.5) * last,
                  guess = free - yield * (3 * (last - c->force_before) + c->own[0]);
-    const bool stays = coupled_pinch_stays(k, free, yield);
-    struct coupled_chorus *sum = &r->sum;
+    const bool stays = coupled_contact_solve_stays(k, free, yield);
+    struct coupled_modal_sum *sum = &r->sum;
     double x = 0, change = 0;
-    if (on == 0) return coupled_pinch(k, free, yield, guess);
-    if (stays) x = coupled_pinch_first(k, guess);
-    coupled_chorus_open(sum);
-    coupled_chorus_some(m, (int[]){0, half}, last, lean, &sum->lanes);
+    if (on == 0) return coupled_contact_solve(k, free, yield, guess);
+    if (stays) x = coupled_contact_solve_first(k, guess);
+    coupled_modal_sum_open(sum);
+    coupled_modal_sum_some(m, (int[]){0, half}, last, lean, &sum->lanes);
     if (stays) {
-        change = coupled_pinch_pass(k, free, yield, x);
+        change = coupled_contact_solve_pass(k, free, yield, x);
         x -= change;
         k->passes = 1;
     }
-    coupled_chorus_some(m, (int[]){half, end}, last, lean, &sum->lanes);
-    coupled_chorus_close(sum, on);
-    return stays ? coupled_pinch_close(k, x, change) || coupled_pinch_on(k, free, yield, x)
-                 : coupled_pinch(k, free, yield, guess);
+    coupled_modal_sum_some(m, (int[]){half, end}, last, lean, &sum->lanes);
+    coupled_modal_sum_close(sum, on);
+    return stays ? coupled_contact_solve_close(k, x, change) || coupled_contact_solve_on(k, free, yield, x)
+                 : coupled_contact_solve(k, free, yield, guess);
 }
 
 /* Steps first + 1 to `to` of the run, in a spell that began after step `from`. */
 LANES_CLONES
-static bool steps_on(struct gradient_run *r, const int spell[3], const double *surface, double *force, struct err *e)
+static bool steps_on(struct gradient_run *r, const int batch[3], const double *surface, double *force, struct err *e)
 {
     struct coupled *c = r->c;
-    const int from = spell[0], first = spell[1], to = spell[2];
+    const int from = batch[0], first = batch[1], to = batch[2];
     const double h = c->ask.step, drop = r->own * c->ask.weight;
     for (int j = first + 1; j <= to; j++) {
         const bool behind = c->modes.padded > 0 && j > from + 1;
         const double last = c->force, place = r->sum.place, next = surface[j - 1] - c->origin;
-        double bent = behind ? r->sum.later + last * coupled_chorus_along(r->answers.reply, j, j - 1.5) : r->sum.next;
+        double bent =
+            behind ? r->sum.later + last * coupled_modal_sum_along(r->answers.reply, j, j - 1.5) : r->sum.next;
         double free = (next - bent) - (c->height + (h * c->speed - drop)),
-               yield = r->own + coupled_chorus_along(r->answers.press, j, j - 0.5);
+               yield = r->own + coupled_modal_sum_along(r->answers.press, j, j - 0.5);
         if (!(yield > 0) || !press(r, free, yield, behind ? j + 1 : 0))
             return stuck(r, c->state.steps + j - from, free, yield, e);
         if (behind) lean(r, last, place, r->sum.place);
         take(r, c->state.steps + j - from - 1, free, next - c->surface);
         c->surface = next;
-        force[j - 1] = r->pinch.force;
+        force[j - 1] = r->contact.force;
     }
     return true;
 }
@@ -524,18 +530,18 @@ static void watch(struct gradient_run *r, int from, int at)
     struct coupled_look look = {coupled_modal(c), 0, 0};
     double work = r->work;
     if (c->modes.padded > 0 && at > from) {
-        look = coupled_chorus_look(&c->modes, at - 0.5, c->force, c->ask.step, &r->sum);
+        look = coupled_modal_sum_look(&c->modes, at - 0.5, c->force, c->ask.step, &r->sum);
         work -= r->moves ? c->force * (0.5 * (r->sum.place + look.place)) : 0;
     }
-    settle(r);
+    store_ball(r);
     coupled_seen(c, c->state.steps + at - from, &(struct coupled_account){look.energy, work, r->loss, look.lost});
 }
 
 /* Steps from + 1 to `to` of the run. */
-static bool spell(struct gradient_run *r, int from, int to, const double *surface, double *force, struct err *e)
+static bool batch(struct gradient_run *r, int from, int to, const double *surface, double *force, struct err *e)
 {
     struct coupled *c = r->c;
-    if (c->modes.padded > 0) coupled_chorus_begin(&c->modes, from + 1, &r->sum);
+    if (c->modes.padded > 0) coupled_modal_sum_begin(&c->modes, from + 1, &r->sum);
     for (int at = from; at < to;) {
         int end = coupled_unseen(c, at, to);
         if (end == at) watch(r, from, at);
@@ -544,7 +550,7 @@ static bool spell(struct gradient_run *r, int from, int to, const double *surfac
         at = end;
     }
     if (c->modes.padded > 0) finish(r, to);
-    settle(r);
+    store_ball(r);
     coupled_sum_add(&c->surface_work, r->work);
     coupled_sum_add(&c->contact_loss, r->loss);
     r->work = r->loss = 0;
@@ -558,14 +564,14 @@ bool coupled_gradient_run(struct coupled *c, int steps, const double *surface, c
                           struct err *e)
 {
     struct gradient_run r = {.c = c, .own = c->ask.step * c->ask.step / (2 * c->ask.mass), .moves = phi_to != NULL};
-    coupled_chorus_answers(&c->modes, steps, phi_to, &r.answers);
-    r.pinch = (struct coupled_pinch){.stiffness = 0.4 * c->ask.stiffness,
-                                     .rate = c->ask.mu / c->ask.step,
-                                     .from = c->penetration,
-                                     .root = c->penetration > 0 ? sqrt(c->penetration) : 0};
-    for (int from = 0; from < steps; from += SPELL) {
-        int to = from + SPELL < steps ? from + SPELL : steps;
-        if (!spell(&r, from, to, surface, force, e) || !coupled_balance(c, true, e)) return false;
+    coupled_modal_sum_answers(&c->modes, steps, phi_to, &r.answers);
+    r.contact = (struct coupled_contact_solve){.stiffness = 0.4 * c->ask.stiffness,
+                                               .rate = c->ask.mu / c->ask.step,
+                                               .from = c->penetration,
+                                               .root = c->penetration > 0 ? sqrt(c->penetration) : 0};
+    for (int from = 0; from < steps; from += BATCH) {
+        int to = from + BATCH < steps ? from + BATCH : steps;
+        if (!batch(&r, from, to, surface, force, e) || !coupled_balance(c, true, e)) return false;
     }
     if (phi_to) memcpy(c->modes.phi, phi_to, (size_t)c->modes.padded * sizeof *phi_to);
     return true;

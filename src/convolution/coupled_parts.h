@@ -30,10 +30,10 @@ struct coupled_modes {
     /* The discrete gradient's own (coupled_gradient.c and coupled_gradient.c say what they are). */
     double *turn, *pull, *push, *drain; /* [padded] coefficients of a step                                          */
     double *stay, *carry;               /* [padded] the same of q two steps without a force: stay q + carry P       */
-    double *thrust, *tilt;              /* [padded] push phi, push slant                                            */
-    double *swing, *ahead, *slant; /* [padded] half a step's way at the velocity; the next step's way without force;
+    double *thrust, *tilt;              /* [padded] push phi, push slope_phi */
+    double *swing, *ahead, *slope_phi; /* [padded] half a step's way at the velocity; the next step's way without force;
                                       phi's change per step */
-    /* rk4's own, which also uses swing, slant and drain (coupled_stages.h says what they are). */
+    /* rk4's own, which also uses swing, slope_phi and drain (coupled_stages.h says what they are). */
     double *rows;                    /* [padded / LANES][ROWS][LANES] coefficients of a step                     */
     struct coupled_stages *standing; /* of phi as it is, if known                                                */
     bool known;
@@ -103,7 +103,7 @@ static inline double coupled_sum_of(const struct coupled_sum *s) { return s->hig
 void coupled_crossing(struct coupled *c, long step, double before, double after, double closing);
 
 /* Every step's ends go through this: cheap when nothing changes. */
-static inline void coupled_touch(struct coupled *c, long step, double before, double after, double closing)
+static inline void coupled_count_contact(struct coupled *c, long step, double before, double after, double closing)
 {
     if ((before > 0) != (after > 0)) coupled_crossing(c, step, before, after, closing);
 }
@@ -136,6 +136,6 @@ void coupled_seen(struct coupled *c, long steps, const struct coupled_account *m
 
 /* Energy, highest and residual as of now. ERR_NUMBERS: not finite; held: nor the residual within its bound (coupled_run
    asks at the end of each run; an integrator of long runs may ask between). */
-bool coupled_balance(struct coupled *c, bool held, struct err *e);
+bool coupled_balance(struct coupled *c, bool bounded, struct err *e);
 
 #endif

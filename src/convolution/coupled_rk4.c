@@ -32,7 +32,7 @@
 
 #define INLINE static inline __attribute__((always_inline))
 
-enum { CONTACT_STEPS_LEAST = 12, SPELL = 256 }; /* SPELL: steps between two entries in the ledger */
+enum { CONTACT_STEPS_LEAST = 12, BATCH = 256 }; /* SPELL: steps between two entries in the ledger */
 
 static const double reach[STAGES] = {0, 0.5, 0.5, 1}, twice[STAGES] = {0, 1, 1, 2};
 
@@ -41,7 +41,7 @@ enum ground { RIGID, STANDS, MOVES };
 
 /* The ball at the end of a step, and what has been summed up since the last entry in the ledger. */
 struct rk4_ball {
-    double height, way, surface;             /* m from origin; h w'/2, m; m from origin             */
+    double height, travel, surface;          /* m from origin; h w'/2, m; m from origin             */
     double penetration, force, force_before; /* m; g, means over the last step and the one before   */
     double across;                           /* m: the surface's change in the last step            */
     double work, loss;                       /* g m: by surface and moving place; in the contact    */
@@ -72,7 +72,7 @@ struct stages {
 /* The step after n of the run, which goes `across` up. */
 INLINE void foresee(const struct rk4_run *r, enum ground ground, double n, double across, struct stages *o)
 {
-    const double *x = r->stages.now, *y = r->stages.now + LANES, height = r->ball.height, way = r->ball.way,
+    const double *x = r->stages.now, *y = r->stages.now + LANES, height = r->ball.height, travel = r->ball.travel,
                  surface = r->ball.surface;
     if (ground == MOVES)
 #pragma omp simd
@@ -89,8 +89,8 @@ INLINE void foresee(const struct rk4_run *r, enum ground ground, double n, doubl
             fall += on * y[SUM_V + j];
         }
         o->slip[j] = across - glide;
-        o->xi[j] = ((surface + reach[j] * across) - lean) - (height + (twice[j] * way - r->sunk[j]));
-        o->close[j] = (across - glide) - 2 * (fall + (way - r->slowed[j]));
+        o->xi[j] = ((surface + reach[j] * across) - lean) - (height + (twice[j] * travel - r->sunk[j]));
+        o->close[j] = (across - glide) - 2 * (fall + (travel - r->slowed[j]));
     }
 }
 
@@ -137,8 +137,8 @@ INLINE void take(struct rk4_run *r, double surface, const struct stages *o)
     b->work += mean((double[]){o->g[0] * o->slip[0], o->g[1] * o->slip[1], o->g[2] * o->slip[2], o->g[3] * o->slip[3]});
     b->loss += mean((double[]){(o->g[0] - o->bent[0]) * o->close[0], (o->g[1] - o->bent[1]) * o->close[1],
                                (o->g[2] - o->bent[2]) * o->close[2], (o->g[3] - o->bent[3]) * o->close[3]});
-    b->height += 2 * b->way + ((2.0 / 3) * ((o->g[0] + (o->g[1] + o->g[2])) * r->bare) - 2 * r->fall);
-    b->way += 2 * (net * r->bare - r->fall);
+    b->height += 2 * b->travel + ((2.0 / 3) * ((o->g[0] + (o->g[1] + o->g[2])) * r->bare) - 2 * r->fall);
+    b->travel += 2 * (net * r->bare - r->fall);
     b->across = surface - b->surface;
     b->surface = surface;
     b->force_before = b->force;
@@ -258,13 +258,13 @@ bool coupled_rk4_make(const struct coupled *c, struct err *e)
 }
 
 /* The ball's fields of c, after n steps of the run. */
-static void settle(struct rk4_run *r, double n)
+static void store_ball(struct rk4_run *r, double n)
 {
     struct coupled *c = r->c;
     const struct rk4_ball *b = &r->ball;
     const double *x = r->stages.now, *y = x + LANES, h = c->ask.step;
     c->height = b->height;
-    c->speed = b->way * (2 / h);
+    c->speed = b->travel * (2 / h);
     c->surface = b->surface;
     c->penetration = b->penetration;
     c->closing = ((b->across - y[SUM_Q]) - 2 * (x[SUM_V] + n * y[SUM_V])) / h - c->speed;
@@ -278,7 +278,7 @@ static void watch(struct rk4_run *r, int at)
     struct coupled *c = r->c;
     struct coupled_account more = {.modal = coupled_modal(c)};
     if (at > 0) {
-        settle(r, at);
+        store_ball(r, at);
         coupled_stages_look(c, &r->push, &r->stages, &more);
         more.work = r->ball.work * r->unit;
         more.contact_loss = r->ball.loss * r->unit;
@@ -308,7 +308,7 @@ static void open_run(struct rk4_run *r, struct coupled *c, int steps, const doub
                           .fall = k->weight * square / k->mass,
                           .stiff = k->mu > 0 ? k->mass / (k->mu * k->step) * square : INFINITY};
     r->ball = (struct rk4_ball){.height = c->height,
-                                .way = c->speed * (k->step / 2),
+                                .travel = c->speed * (k->step / 2),
                                 .surface = c->surface,
                                 .penetration = c->penetration,
                                 .force = c->force * square,
@@ -330,12 +330,12 @@ bool coupled_rk4_run(struct coupled *c, int steps, const double *surface, const 
     open_run(&r, c, steps, phi_to);
     for (int at = 0; at < steps;) {
         if (coupled_unseen(c, at, steps) == at) watch(&r, at);
-        int spell = at / SPELL * SPELL + SPELL, end = coupled_unseen(c, at + 1, steps < spell ? steps : spell);
+        int batch = at / BATCH * BATCH + BATCH, end = coupled_unseen(c, at + 1, steps < batch ? steps : batch);
         if (!(c->modes.n > 0 ? on_modes : on_rigid)(&r, (int[]){at, end}, surface, force, e)) return false;
-        if (end == spell) enter(&r);
+        if (end == batch) enter(&r);
         at = end;
     }
-    settle(&r, steps);
+    store_ball(&r, steps);
     coupled_stages_finish(c, &r.push, &r.stages);
     enter(&r);
     for (int i = 0; phi_to && i < c->modes.padded; i++)

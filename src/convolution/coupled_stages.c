@@ -43,7 +43,7 @@ void coupled_stages_make(struct arena *a, struct coupled *c)
     }
 }
 
-/* Sums over the modes of row phi^2, row phi slant, row slant^2. */
+/* Sums over the modes of row phi^2, row phi slope_phi, row slope_phi^2. */
 LANES_CLONES
 static void weigh(const struct coupled_modes *m, int row, double *to)
 {
@@ -52,17 +52,17 @@ static void weigh(const struct coupled_modes *m, int row, double *to)
         const double *rows = coupled_stages_rows(m, i) + row * LANES;
 #pragma omp simd
         for (int l = 0; l < LANES; l++) {
-            double phi = m->phi[i + l], slant = m->slant[i + l], r = rows[l];
+            double phi = m->phi[i + l], slope_phi = m->slope_phi[i + l], r = rows[l];
             sum[0][l] += r * (phi * phi);
-            sum[1][l] += r * (phi * slant);
-            sum[2][l] += r * (slant * slant);
+            sum[1][l] += r * (phi * slope_phi);
+            sum[2][l] += r * (slope_phi * slope_phi);
         }
     }
     for (int k = 0; k < 3; k++)
         to[k] = coupled_stages_sum(sum[k]);
 }
 
-/* Answers of phi at n + x to forces at phi of n + y; of slant, those of y alone. */
+/* Answers of phi at n + x to forces at phi of n + y; of slope_phi, those of y alone. */
 static void find_answers(const struct coupled_modes *m, struct coupled_stages *s)
 {
     static const struct {
@@ -97,7 +97,7 @@ static void find_replies(const struct coupled_modes *m, struct coupled_stages *s
         }
 }
 
-/* Sums of five values a mode with phi and with slant. */
+/* Sums of five values a mode with phi and with slope_phi. */
 static inline __attribute__((always_inline)) void weigh_five(const struct coupled_modes *m, bool far, double *to)
 {
     double s[SUMS][LANES] = {{0}}, t[SUMS][LANES] = {{0}};
@@ -105,7 +105,7 @@ static inline __attribute__((always_inline)) void weigh_five(const struct couple
         const double *rows = coupled_stages_rows(m, i);
 #pragma omp simd
         for (int l = 0; l < LANES; l++) {
-            const double phi = m->phi[i + l], slant = m->slant[i + l], q = m->q[i + l], v = m->swing[i + l];
+            const double phi = m->phi[i + l], slope_phi = m->slope_phi[i + l], q = m->q[i + l], v = m->swing[i + l];
             struct coupled_stages_mode at = {.q = q, .v = v}, o = {.q = q,
                                                                    .v = v,
                                                                    .damp = rows[ROW_DAMP * LANES + l],
@@ -121,11 +121,11 @@ static inline __attribute__((always_inline)) void weigh_five(const struct couple
             s[SUM_V1][l] += phi * f2;
             s[SUM_V2][l] += phi * f3;
             s[SUM_V3][l] += phi * f4;
-            t[SUM_Q][l] += slant * f0;
-            t[SUM_V][l] += slant * f1;
-            t[SUM_V1][l] += slant * f2;
-            t[SUM_V2][l] += slant * f3;
-            t[SUM_V3][l] += slant * f4;
+            t[SUM_Q][l] += slope_phi * f0;
+            t[SUM_V][l] += slope_phi * f1;
+            t[SUM_V1][l] += slope_phi * f2;
+            t[SUM_V2][l] += slope_phi * f3;
+            t[SUM_V3][l] += slope_phi * f4;
         }
     }
     coupled_stages_gather(s, to);
@@ -157,7 +157,7 @@ void coupled_stages_open(struct coupled *c, int steps, const double *phi_to, str
     struct coupled_modes *m = &c->modes;
     s->moves = phi_to != NULL;
     for (int i = 0; i < m->padded; i++) {
-        m->slant[i] = phi_to ? (phi_to[i] - m->phi[i]) / steps : 0;
+        m->slope_phi[i] = phi_to ? (phi_to[i] - m->phi[i]) / steps : 0;
         m->swing[i] = m->p[i] * (c->ask.step / 2);
     }
     if (m->padded == 0) return;
@@ -195,9 +195,9 @@ void coupled_stages_look(const struct coupled *c, const struct coupled_push *p, 
     memcpy(lost, s->lost, sizeof lost);
     for (int i = 0; i < m->padded; i++) {
         struct coupled_stages_mode o = mode_of(m, i);
-        o.begin = m->phi[i] + p->on * m->slant[i];
-        o.middle = m->phi[i] + (p->on + 0.5) * m->slant[i];
-        o.finish = m->phi[i] + (p->on + 1) * m->slant[i];
+        o.begin = m->phi[i] + p->on * m->slope_phi[i];
+        o.middle = m->phi[i] + (p->on + 0.5) * m->slope_phi[i];
+        o.finish = m->phi[i] + (p->on + 1) * m->slope_phi[i];
         coupled_stages_step(&o, g[0], g[1], g[2], g[3]);
         double velocity = o.v * rate;
         lost[i % LANES] += m->drain[i] * o.lost;

@@ -25,8 +25,8 @@ enum { SUM_Q, SUM_V, SUM_V1, SUM_V2, SUM_V3, SUMS };
 
 /* What forces in the step add to the sums, phi half a step on for A1 and A2, a whole one for A3:
      phi v1: A1_SELF g0;   phi v2: A2_OLDER g0 + A2_SELF g1;   phi v3: 2 (A3_OLDEST g0 + A3_MIDDLE g1 + A3_SELF g2)
-     phi q2: A1_SELF g0;   phi q3: 2 (A3_OLDER g0 + A3_SELF g1);   slant q2: GLIDE2 g0;   slant q3: 2 (GLIDE3_OLDER g0 +
-                                                                   GLIDE3_SELF g1) */
+     phi q2: A1_SELF g0;   phi q3: 2 (A3_OLDER g0 + A3_SELF g1);   slope_phi q2: GLIDE2 g0;   slope_phi q3: 2
+     (GLIDE3_OLDER g0 + GLIDE3_SELF g1) */
 enum {
     A1_SELF,
     A2_SELF,
@@ -43,12 +43,12 @@ enum {
 
 struct coupled_stages {
     _Alignas(64) double now[2 * LANES]; /* the sums at the start of the step to come as if no force acted in it: of
-                                           weights phi, then of slant */
+                                           weights phi, then of slope_phi */
     double far[2 * LANES];              /* the same as far as it is known without the forces of the step before */
     double answer[3][ANSWERS];          /* of n^0, n^1, n^2, n the number of steps since the run's start */
     double reply[2][STAGES][2 * LANES]; /* of n^0, n^1: what a stage's g adds to now of the next step */
     double lost[LANES];                 /* J: the modes', of the steps that they have ended since it was emptied */
-    bool moves;                         /* phi does: else slant, and what is made with it, is 0 */
+    bool moves;                         /* phi does: else slope_phi, and what is made with it, is 0 */
 };
 
 /* A step's forces: g at the stages, and the number of steps before it in the run. */
@@ -149,21 +149,21 @@ coupled_stages_pass(const struct coupled_modes *m, const struct coupled_push *p,
     double lost[LANES], s[SUMS][LANES] = {{0}}, t[SUMS][LANES] = {{0}};
     memcpy(lost, to->lost, sizeof lost);
     double *restrict qs = m->q, *restrict vs = m->swing;
-    const double *restrict phis = m->phi, *restrict slants = m->slant, *restrict drain = m->drain;
+    const double *restrict phis = m->phi, *restrict slopes = m->slope_phi, *restrict drain = m->drain;
     const double g0 = p->g[0], g1 = p->g[1], g2 = p->g[2], g3 = p->g[3], begin = p->on, middle = p->on + 0.5,
                  finish = p->on + 1;
     for (int i = 0; i < m->padded; i += LANES) {
         const double *restrict rows = coupled_stages_rows(m, i);
 #pragma omp simd
         for (int l = 0; l < LANES; l++) {
-            const double phi = phis[i + l], slant = moves ? slants[i + l] : 0;
+            const double phi = phis[i + l], slope_phi = moves ? slopes[i + l] : 0;
             struct coupled_stages_mode o = {.q = qs[i + l],
                                             .v = vs[i + l],
                                             .damp = rows[ROW_DAMP * LANES + l],
                                             .square = rows[ROW_SQUARE * LANES + l],
-                                            .begin = moves ? phi + begin * slant : phi,
-                                            .middle = moves ? phi + middle * slant : phi,
-                                            .finish = moves ? phi + finish * slant : phi};
+                                            .begin = moves ? phi + begin * slope_phi : phi,
+                                            .middle = moves ? phi + middle * slope_phi : phi,
+                                            .finish = moves ? phi + finish * slope_phi : phi};
             coupled_stages_step(&o, g0, g1, g2, g3);
             qs[i + l] = o.q;
             vs[i + l] = o.v;
@@ -177,11 +177,11 @@ coupled_stages_pass(const struct coupled_modes *m, const struct coupled_push *p,
             s[SUM_V2][l] += phi * f3;
             s[SUM_V3][l] += phi * f4;
             if (moves) {
-                t[SUM_Q][l] += slant * f0;
-                t[SUM_V][l] += slant * f1;
-                t[SUM_V1][l] += slant * f2;
-                t[SUM_V2][l] += slant * f3;
-                t[SUM_V3][l] += slant * f4;
+                t[SUM_Q][l] += slope_phi * f0;
+                t[SUM_V][l] += slope_phi * f1;
+                t[SUM_V1][l] += slope_phi * f2;
+                t[SUM_V2][l] += slope_phi * f3;
+                t[SUM_V3][l] += slope_phi * f4;
             }
         }
     }

@@ -206,7 +206,7 @@ INLINE struct lane lane_take(const struct group *g, int l, int gamma)
     return v;
 }
 
-INLINE void lane_keep(struct group *g, int l, const struct lane *v, int gamma)
+INLINE void lane_store(struct group *g, int l, const struct lane *v, int gamma)
 {
     g->zr[0][l] = v->ar, g->zi[0][l] = v->ai;
     g->zr[1][l] = v->br, g->zi[1][l] = v->bi;
@@ -228,7 +228,7 @@ INLINE void ring_group(struct group *restrict g, const double *restrict f, doubl
             sums[i + 1][l] += lane_step(&v, f[i + 1], gamma);
             sums[i + 2][l] += lane_step(&v, f[i + 2], gamma);
             sums[i + 3][l] += lane_step(&v, f[i + 3], gamma);
-            lane_keep(g, l, &v, gamma);
+            lane_store(g, l, &v, gamma);
         }
     }
     for (; i < n; i++) {
@@ -236,7 +236,7 @@ INLINE void ring_group(struct group *restrict g, const double *restrict f, doubl
         for (int l = 0; l < LANES; l++) {
             struct lane v = lane_take(g, l, gamma);
             sums[i][l] += lane_step(&v, f[i], gamma);
-            lane_keep(g, l, &v, gamma);
+            lane_store(g, l, &v, gamma);
         }
     }
 }

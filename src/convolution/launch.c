@@ -428,7 +428,7 @@ static void sweep(struct ringing *r)
 /* ------------------------------------------------------------------ adding */
 
 /* d, the distance of two poles: in [0] and [1], and its size. */
-static double apart(const struct ringing *r, const double *s, const double *from, double d[2])
+static double distance(const struct ringing *r, const double *s, const double *from, double d[2])
 {
     double per = r->centre / r->rate;
     d[0] = (s[0] - from[0]) * per;
@@ -440,7 +440,7 @@ static double apart(const struct ringing *r, const double *s, const double *from
 static void ahead(const struct ringing *r, const struct freed *node, const double *s, double life, double pole[2])
 {
     const struct before *b = &r->before[node->component];
-    double d[2], step = b->any ? apart(r, s, b->s, d) : 0, share = 0;
+    double d[2], step = b->any ? distance(r, s, b->s, d) : 0, share = 0;
     if (step > 0) {
         double most = 0.8 * REACH / step;
         share = fmin(0.5 * fmax(life, 0) / (double)(node->frame - b->frame), most);
@@ -467,7 +467,7 @@ static int cluster_for(struct ringing *r, const struct freed *node, const double
 {
     double d[2];
     for (int l = r->first[node->component]; l >= 0; l = r->lane[l].next)
-        if (apart(r, s, r->lane[l].s, d) < REACH) return l;
+        if (distance(r, s, r->lane[l].s, d) < REACH) return l;
     return cluster_open(r, node, s, life);
 }
 
@@ -484,7 +484,7 @@ static void place(struct ringing *r, const struct freed *freed, int count)
         r->place[k] = cluster_for(r, &freed[k], s, r->life[k]);
         struct lane *v = &r->lane[r->place[k]];
         double d[2];
-        v->reach = fmax(v->reach, apart(r, s, v->s, d));
+        v->reach = fmax(v->reach, distance(r, s, v->s, d));
         r->dr[k] = d[0], r->di[k] = d[1];
         r->size[k] = (s[0] - v->s[0]) * wait, r->turn[k] = (s[1] - v->s[1]) * wait;
         r->ar[k] = s[0] * span, r->ai[k] = s[1] * span;

@@ -334,7 +334,7 @@ INLINE struct lane lane_take(const struct resonator_group *g, int l, enum resona
     return v;
 }
 
-INLINE void lane_keep(struct resonator_group *g, int l, const struct lane *v, enum resonator_change change)
+INLINE void lane_store(struct resonator_group *g, int l, const struct lane *v, enum resonator_change change)
 {
     g->zr[l] = v->zr;
     g->zi[l] = v->zi;
@@ -363,7 +363,7 @@ INLINE void ring_all(struct resonator_group *const *active, int n_active, const 
                 sums[i + 1][l] += lane_step(&v, f[i + 1], change);
                 sums[i + 2][l] += lane_step(&v, f[i + 2], change);
                 sums[i + 3][l] += lane_step(&v, f[i + 3], change);
-                lane_keep(g, l, &v, change);
+                lane_store(g, l, &v, change);
             }
         }
     }
@@ -374,7 +374,7 @@ INLINE void ring_all(struct resonator_group *const *active, int n_active, const 
             for (int l = 0; l < LANES; l++) {
                 struct lane v = lane_take(g, l, change);
                 sums[i][l] += lane_step(&v, f[i], change);
-                lane_keep(g, l, &v, change);
+                lane_store(g, l, &v, change);
             }
         }
     }

@@ -52,10 +52,10 @@ static void add(const double *restrict re, const double *restrict im, double a, 
         to[k] += a * im[k] + b * re[k];
 }
 
-static void taps_at(struct ring_alias *s, const struct ring *g, const struct ring_voice *v, long frame,
+static void taps_at(struct ring_alias *s, const struct ring *g, const struct ring_output *v, long frame,
                     struct known *to)
 {
-    bool kept = s->moves && !s->separate;
+    bool cached = s->moves && !s->separate;
     *to = (struct known){.frame = frame};
     ring_point_at(g, v, (double)frame, &s->at);
     for (int i = 0; i < v->n; i++) {
@@ -64,12 +64,12 @@ static void taps_at(struct ring_alias *s, const struct ring *g, const struct rin
         if (s->moves && s->separate)
             alias_add(s->fit, s->at.frequency[i], s->at.decay[i], (double[2]){s->at.re[i], s->at.im[i]}, to->tap);
         else
-            add(s->re[kept ? i : 0], s->im[kept ? i : 0], s->at.re[i], s->at.im[i], to->tap);
+            add(s->re[cached ? i : 0], s->im[cached ? i : 0], s->at.re[i], s->at.im[i], to->tap);
     }
 }
 
 /* The piece that holds a frame. */
-static void find(struct ring_alias *s, const struct ring *g, const struct ring_voice *v, long frame)
+static void find(struct ring_alias *s, const struct ring *g, const struct ring_output *v, long frame)
 {
     if (s->start.frame >= 0 && (!s->moves || (frame >= s->start.frame && frame < s->end.frame))) return;
     long from = frame - frame % s->piece;
@@ -83,7 +83,7 @@ static void find(struct ring_alias *s, const struct ring *g, const struct ring_v
 }
 
 /* For a voice whose poles and listener are there. */
-static struct ring_alias *ring_alias_make(const struct ring *g, const struct ring_voice *v, struct arena *a)
+static struct ring_alias *ring_alias_make(const struct ring *g, const struct ring_output *v, struct arena *a)
 {
     struct ring_alias *s = ARENA_TAKE(a, struct ring_alias, 1);
     s->fit = alias_make(a, g->choice->gamma, g->board->rate);
@@ -93,10 +93,10 @@ static struct ring_alias *ring_alias_make(const struct ring *g, const struct rin
     s->piece = g->ramp;
     s->at = modes_point_make(a, v->n);
     s->start.frame = -1;
-    bool keep = s->moves && !s->separate;
-    s->re = arena_take(a, (size_t)(keep ? v->n : 1), sizeof *s->re);
-    s->im = arena_take(a, (size_t)(keep ? v->n : 1), sizeof *s->im);
-    for (int i = 0; keep && i < v->n; i++) {
+    bool cached = s->moves && !s->separate;
+    s->re = arena_take(a, (size_t)(cached ? v->n : 1), sizeof *s->re);
+    s->im = arena_take(a, (size_t)(cached ? v->n : 1), sizeof *s->im);
+    for (int i = 0; cached && i < v->n; i++) {
         alias_add(s->fit, v->frequency[i], v->decay[i], (const double[2]){0, 1}, s->re[i]);
         alias_add(s->fit, v->frequency[i], v->decay[i], (const double[2]){1, 0}, s->im[i]);
     }
@@ -138,7 +138,7 @@ static void launch(struct ring_alias *s, double f, long frame, long from, long b
 }
 
 /* What is heard in a frame of the force around it, f[0] the frame's own. */
-static double hear(struct ring_alias *s, const struct ring *g, const struct ring_voice *v, const double *f, long frame)
+static double hear(struct ring_alias *s, const struct ring *g, const struct ring_output *v, const double *f, long frame)
 {
     double sum = 0;
     bool any = false;
@@ -154,7 +154,7 @@ static double hear(struct ring_alias *s, const struct ring *g, const struct ring
     return sum;
 }
 
-static void listen(struct ring_alias *s, const struct ring *g, const struct ring_voice *v, double *y, long from,
+static void listen(struct ring_alias *s, const struct ring *g, const struct ring_output *v, double *y, long from,
                    long to)
 {
     const double *f = ring_force(g, v, from);
@@ -166,8 +166,8 @@ static void listen(struct ring_alias *s, const struct ring *g, const struct ring
 
 /* Adds to y, of frames [from, to), each call's next to those of the one before. Reads the force ALIAS_REACH frames
    ahead (and, of readout, back). */
-static void ring_alias_add(struct ring_alias *s, const struct ring *g, const struct ring_voice *v, double *y, long from,
-                           long to)
+static void ring_alias_add(struct ring_alias *s, const struct ring *g, const struct ring_output *v, double *y,
+                           long from, long to)
 {
     const double *f = ring_force(g, v, from);
     if (s->listens) {
@@ -241,7 +241,7 @@ static bool returns(const struct modes *m, const struct trajectory *tr, double t
    looked at as show its shape: what is left out between two of them is far less than the distance of two places. */
 #define REACH_SLACK 1e-9 /* m */
 
-static bool reach_told(const struct modes *m, const struct stage_run *r, const double p[2], double out, struct err *e)
+static bool refuse_reach(const struct modes *m, const struct stage_run *r, const double p[2], double out, struct err *e)
 {
     bool place = ablation_one_place(r->contact) && !isnan(r->contact->ablation.place[0]);
     return err_set(e, ERR_SCENE,
@@ -268,7 +268,7 @@ bool ring_reach(const struct modes *m, const struct stage_run *r, struct err *e)
         else if (!one)
             trajectory_at(tr, 1, &t, (struct trajectory_out){.x = &p[0], .y = &p[1]});
         double out = modes_at(m, &(struct modes_where){p[0], p[1], 0}, &point);
-        if (out > REACH_SLACK) return reach_told(m, r, p, out, e);
+        if (out > REACH_SLACK) return refuse_reach(m, r, p, out, e);
     }
     return true;
 }
@@ -296,7 +296,7 @@ static const struct modes *voice_modes(const struct ring *g, struct stage_run *r
 
 static bool voice_open(struct ring *g, struct stage_run *r, int channel, struct err *e)
 {
-    struct ring_voice *v = &g->voices[channel];
+    struct ring_output *v = &g->outputs[channel];
     const double *origin = ring_given(r->contact, g->body)->object.origin;
     struct listener_ask ask = {
         .output = &r->scene->output, .channel = channel, .origin = origin, .rate = r->board->rate};
@@ -321,7 +321,7 @@ static bool voice_open(struct ring *g, struct stage_run *r, int channel, struct 
 /* All that is summed is of one quantity; what is recorded does not say its own, and goes with any. */
 static bool note_quantity(const struct ring *g, struct board *b, struct err *e)
 {
-    int quantity = listener_quantity(g->voices[0].listener);
+    int quantity = listener_quantity(g->outputs[0].listener);
     if (b->quantity >= 0 && b->quantity != quantity)
         return err_set(e, ERR_SCENE,
                        "%s: this response gives %s, but the surface's gives %s: they cannot be summed; use tables of "
@@ -380,7 +380,7 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
                        .ramp = (int)r->scene->accuracy.gain_ramp,
                        .stays = given->choice->reading == MOVING_GLIDE || given->choice->reading == MOVING_READOUT,
                        .channels = r->board->channels};
-    g->voices = ARENA_TAKE(r->arena, struct ring_voice, g->channels);
+    g->outputs = ARENA_TAKE(r->arena, struct ring_output, g->channels);
     g->y = ARENA_TAKE(r->arena, double, STAGE_BLOCK);
     if (g->choice->recorded) return true;
     for (int k = 0; k < g->channels; k++)
@@ -396,7 +396,7 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
 
 /* ------------------------------------------------------------------ a voice at work */
 
-void ring_point_in(const struct ring *g, const struct ring_voice *v, const struct modes_where *where,
+void ring_point_in(const struct ring *g, const struct ring_output *v, const struct modes_where *where,
                    const struct modes_point *p)
 {
     modes_at(v->modes, where, &(struct modes_point){v->frequency, v->decay, p->re, p->im});
@@ -416,7 +416,7 @@ void ring_point_in(const struct ring *g, const struct ring_voice *v, const struc
     }
 }
 
-void ring_point_at(const struct ring *g, const struct ring_voice *v, double frame, const struct modes_point *p)
+void ring_point_at(const struct ring *g, const struct ring_output *v, double frame, const struct modes_point *p)
 {
     struct modes_where where = {v->modes->home[0], v->modes->home[1], 0};
     const struct trajectory *tr = g->board->trajectory;
@@ -438,13 +438,13 @@ void ring_point_at(const struct ring *g, const struct ring_voice *v, double fram
 void ring_put(const struct ring *g, int channel, long from, long to)
 {
     double *out = board_at(g->board, g->out, from) + channel;
-    if (!g->choice->recorded) ring_alias_add(g->voices[channel].alias, g, &g->voices[channel], g->y, from, to);
+    if (!g->choice->recorded) ring_alias_add(g->outputs[channel].alias, g, &g->outputs[channel], g->y, from, to);
     if (g->channels == 1) memcpy(out, g->y, (size_t)(to - from) * sizeof *out);
     for (long n = 0; g->channels > 1 && n < to - from; n++)
         out[n * g->channels] = g->y[n];
 }
 
-const double *ring_force(const struct ring *g, const struct ring_voice *v, long from)
+const double *ring_force(const struct ring *g, const struct ring_output *v, long from)
 {
     return board_at(g->board, ITEM_FORCE, from - v->delay);
 }

@@ -8,7 +8,7 @@
 #include "stage.h"
 #include "trajectory/trajectory.h"
 
-struct ring_voice { /* one listening place */
+struct ring_output { /* one listening place */
     const struct modes *modes;
     struct listener *listener;
     int n;                     /* components: the modes' and the listener's own */
@@ -30,9 +30,9 @@ struct ring {
     bool moves;    /* gains or poles change on the way */
     bool stays;    /* after the motion's end what rings is still retuned or read at a place: the end */
     int channels;
-    struct ring_voice *voices; /* [channels] */
-    long delay;                /* frames, the largest of the voices' */
-    double *y;                 /* [STAGE_BLOCK] one voice's sound */
+    struct ring_output *outputs; /* [channels] */
+    long delay;                  /* frames, the largest of the voices' */
+    double *y;                   /* [STAGE_BLOCK] one voice's sound */
 };
 
 /* Makes the voices, checks the places against the motion, notes quantity, ring time and warnings on the board, and sets
@@ -43,10 +43,10 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
    NULL. p is [voice->n]. Before the motion's start and after its end, where there is no force, they go on so that
    interpolation between instants keeps its order up to there: straight in the logarithm, or back where the motion
    rests. What is retuned or read out there (`stays`) is that of the end. */
-void ring_point_at(const struct ring *g, const struct ring_voice *v, double frame, const struct modes_point *p);
+void ring_point_at(const struct ring *g, const struct ring_output *v, double frame, const struct modes_point *p);
 
 /* The same at a place. */
-void ring_point_in(const struct ring *g, const struct ring_voice *v, const struct modes_where *where,
+void ring_point_in(const struct ring *g, const struct ring_output *v, const struct modes_where *where,
                    const struct modes_point *p);
 
 /* Writes the voice's sound from the ring's y, less what sampling has folded in, into the item's channel, for frames
@@ -65,6 +65,6 @@ struct modes_where ring_first_place(const struct contact *c, const struct trajec
 bool ring_reach(const struct modes *m, const struct stage_run *r, struct err *e);
 
 /* Force under the voice at a frame: its own delay back. */
-const double *ring_force(const struct ring *g, const struct ring_voice *v, long from);
+const double *ring_force(const struct ring *g, const struct ring_output *v, long from);
 
 #endif

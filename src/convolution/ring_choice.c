@@ -69,7 +69,7 @@ static bool read_modes(struct ring_choosing *c, struct err *e)
                             .band = {c->given->band[0], c->given->band[1]},
                             .pairing = c->given->pairing,
                             .rate = rate,
-                            .shelf = c->scene->shelf};
+                            .file_cache = c->scene->file_cache};
     struct modes *m = &c->to->modes;
     if (c->given->object.given  ? !read_object(c, &ask, e)
         : c->given->space.given ? !space_modes(&c->given->space, &ask, c->arena, m, e)

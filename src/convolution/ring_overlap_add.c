@@ -14,9 +14,9 @@
 
 enum { CHUNK = OVERLAP_ADD_BLOCK };
 
-struct overlap_voice { /* of recorded responses the only one */
+struct overlap_output { /* of recorded responses the only one */
     struct ring_overlap *all;
-    const struct ring_voice *voice;
+    const struct ring_output *voice;
     struct ir_sampler *sampler;
     struct modes_point point;
     struct overlap_add *stays; /* one of the two */
@@ -26,7 +26,7 @@ struct overlap_voice { /* of recorded responses the only one */
 struct ring_overlap {
     struct ring ring;
     struct ir_set set; /* recorded */
-    struct overlap_voice *voices;
+    struct overlap_output *outputs;
     int n, hop;
     long first, count;      /* frames that mix[] is of */
     double *t, *u, *x, *y;  /* [CHUNK] */
@@ -58,7 +58,7 @@ static void locate(struct ring_overlap *s, long first, int n)
 
 static int share_places(void *self, long first, int n, int k, double *w)
 {
-    struct ring_overlap *s = ((struct overlap_voice *)self)->all;
+    struct ring_overlap *s = ((struct overlap_output *)self)->all;
     int any = 0;
     locate(s, first, n);
     for (int i = 0; i < n; i++) {
@@ -74,7 +74,7 @@ static int share_places(void *self, long first, int n, int k, double *w)
 
 static void response_recorded(void *self, long k, double *h, size_t length)
 {
-    const struct ring_overlap *s = ((struct overlap_voice *)self)->all;
+    const struct ring_overlap *s = ((struct overlap_output *)self)->all;
     const struct ir *ir = &s->set.ir[k];
     for (size_t i = 0; i < length; i++)
         h[i] = i < ir->length ? s->ring.weight * ir->h[i] : 0;
@@ -102,8 +102,8 @@ static bool recorded_inside(const struct ring_overlap *s, const struct stage_run
 
 static bool read_folder(struct ring_overlap *s, struct stage_run *r, const struct response *given, struct err *e)
 {
-    if (!ir_set_read(&(struct ir_ask){given->file, r->board->rate, given->length, r->scene->shelf}, r->arena, &s->set,
-                     e))
+    if (!ir_set_read(&(struct ir_ask){given->file, r->board->rate, given->length, r->scene->file_cache}, r->arena,
+                     &s->set, e))
         return false;
     s->t = ARENA_TAKE(r->arena, double, CHUNK);
     s->u = ARENA_TAKE(r->arena, double, CHUNK);
@@ -124,8 +124,8 @@ static bool read_file(struct ring_overlap *s, struct stage_run *r, const struct 
 {
     const char *dot = strrchr(given->file, '.');
     s->set = (struct ir_set){.n = 1, .ir = ARENA_TAKE(r->arena, struct ir, 1)};
-    if (ir_read(&(struct ir_ask){given->file, r->board->rate, given->length, r->scene->shelf}, r->arena, &s->set.ir[0],
-                e))
+    if (ir_read(&(struct ir_ask){given->file, r->board->rate, given->length, r->scene->file_cache}, r->arena,
+                &s->set.ir[0], e))
         return true;
     return dot && strcmp(dot, ".wav") == 0
                ? false
@@ -140,13 +140,13 @@ static bool open_recorded(struct ring_overlap *s, struct stage_run *r, const str
         length = s->set.ir[k].length > length ? s->set.ir[k].length : length;
     r->board->unstated = true;
     r->board->ring = fmax(r->board->ring, (double)length / r->board->rate);
-    s->voices = ARENA_TAKE(r->arena, struct overlap_voice, 1);
-    s->voices[0] = (struct overlap_voice){.all = s};
-    s->voices[0].stays = overlap_add_open(&(struct overlap_add_source){.n = s->set.n,
-                                                                       .length = length,
-                                                                       .share = s->mix ? share_places : NULL,
-                                                                       .response = response_recorded,
-                                                                       .self = &s->voices[0]});
+    s->outputs = ARENA_TAKE(r->arena, struct overlap_output, 1);
+    s->outputs[0] = (struct overlap_output){.all = s};
+    s->outputs[0].stays = overlap_add_open(&(struct overlap_add_source){.n = s->set.n,
+                                                                        .length = length,
+                                                                        .share = s->mix ? share_places : NULL,
+                                                                        .response = response_recorded,
+                                                                        .self = &s->outputs[0]});
     s->n = 1;
     return true;
 }
@@ -155,7 +155,7 @@ static bool open_recorded(struct ring_overlap *s, struct stage_run *r, const str
 
 static void response_modes(void *self, long k, double *h, size_t length)
 {
-    struct overlap_voice *v = self;
+    struct overlap_output *v = self;
     const struct ring *g = &v->all->ring;
     ring_point_at(g, v->voice, (double)k * v->all->hop, &v->point);
     gammatone_sample(g->choice->gamma, g->board->rate, v->sampler, listener_quantity(v->voice->listener), &v->point, h,
@@ -167,10 +167,10 @@ static void open_modes(struct ring_overlap *s, struct stage_run *r)
     const struct ring_choice *c = s->ring.choice;
     size_t length = ir_length(r->board->rate, c->seconds);
     s->hop = ring_choice_hop(c, &r->scene->accuracy);
-    s->voices = ARENA_TAKE(r->arena, struct overlap_voice, s->ring.channels);
+    s->outputs = ARENA_TAKE(r->arena, struct overlap_output, s->ring.channels);
     for (; s->n < s->ring.channels; s->n++) {
-        struct overlap_voice *v = &s->voices[s->n];
-        *v = (struct overlap_voice){.all = s, .voice = &s->ring.voices[s->n]};
+        struct overlap_output *v = &s->outputs[s->n];
+        *v = (struct overlap_output){.all = s, .voice = &s->ring.outputs[s->n]};
         v->sampler = ir_sampler_make(r->arena, v->voice->n, r->board->rate);
         v->point = modes_point_make(r->arena, v->voice->n);
         if (s->ring.moves)
@@ -196,7 +196,7 @@ static bool ring_overlap_open(struct stage_run *r, enum ring_body body, struct e
                             e))
         return false;
     int ahead =
-        s->voices[0].stays ? overlap_add_ahead(s->voices[0].stays) : overlap_add_moving_ahead(s->voices[0].moves);
+        s->outputs[0].stays ? overlap_add_ahead(s->outputs[0].stays) : overlap_add_moving_ahead(s->outputs[0].moves);
     r->ahead = r->ahead > ahead ? r->ahead : ahead;
     return true;
 }
@@ -206,7 +206,7 @@ static bool ring_overlap_run(struct stage_run *r, long from, long to, struct err
     struct ring_overlap *s = r->state;
     (void)e;
     for (int k = 0; k < s->n; k++) {
-        const struct overlap_voice *v = &s->voices[k];
+        const struct overlap_output *v = &s->outputs[k];
         const double *f = v->voice ? ring_force(&s->ring, v->voice, from) : board_at(r->board, ITEM_FORCE, from);
         memset(s->ring.y, 0, (size_t)(to - from) * sizeof *s->ring.y);
         if (v->stays)
@@ -223,8 +223,8 @@ static void ring_overlap_close(struct stage_run *r)
 {
     const struct ring_overlap *s = r->state;
     for (int k = 0; s && k < s->n; k++) {
-        if (s->voices[k].stays) overlap_add_close(s->voices[k].stays);
-        if (s->voices[k].moves) overlap_add_moving_close(s->voices[k].moves);
+        if (s->outputs[k].stays) overlap_add_close(s->outputs[k].stays);
+        if (s->outputs[k].moves) overlap_add_moving_close(s->outputs[k].moves);
     }
 }
 

@@ -51,7 +51,7 @@ static void bank_run(const struct bank *b, const double *f, double *y, int frame
 
 static void bank_open(struct ring_bank *s, struct stage_run *r, int channel)
 {
-    const struct ring_voice *v = &s->ring.voices[channel];
+    const struct ring_output *v = &s->ring.outputs[channel];
     struct bank *b = &s->banks[channel];
     b->to = modes_point_make(r->arena, v->n);
     b->y = ARENA_TAKE(r->arena, double, s->ramp);
@@ -90,7 +90,7 @@ static void ring_next_ramp(struct ring_bank *s)
     long from = s->ramp_end;
     s->ramp_end += s->ramp;
     for (int k = 0; k < s->ring.channels; k++) {
-        const struct ring_voice *v = &s->ring.voices[k];
+        const struct ring_output *v = &s->ring.outputs[k];
         struct bank *b = &s->banks[k];
         ring_point_at(&s->ring, v, (double)(s->ramp_end - 1), &b->to);
         memset(b->y, 0, (size_t)s->ramp * sizeof *b->y);
@@ -114,7 +114,7 @@ static void ring_still(struct ring_bank *s, long from, long to)
 {
     for (int k = 0; k < s->ring.channels; k++) {
         memset(s->ring.y, 0, (size_t)(to - from) * sizeof *s->ring.y);
-        bank_run(&s->banks[k], ring_force(&s->ring, &s->ring.voices[k], from), s->ring.y, (int)(to - from));
+        bank_run(&s->banks[k], ring_force(&s->ring, &s->ring.outputs[k], from), s->ring.y, (int)(to - from));
         ring_put(&s->ring, k, from, to);
     }
 }
@@ -134,13 +134,13 @@ static bool ring_bank_run(struct stage_run *r, long from, long to, struct err *e
 
 struct launching { /* one voice */
     const struct ring *ring;
-    const struct ring_voice *voice;
+    const struct ring_output *voice;
     struct launch *engine;
 };
 
 struct ring_launch {
     struct ring ring;
-    struct launching *voices; /* [channels] */
+    struct launching *outputs; /* [channels] */
 };
 
 static void launching_point(void *self, double frame, const struct modes_point *p)
@@ -154,16 +154,16 @@ static bool ring_launch_open(struct stage_run *r, struct err *e)
     struct ring_launch *s = ARENA_TAKE(r->arena, struct ring_launch, 1);
     r->state = s;
     if (!ring_open(&s->ring, r, RING_SURFACE, e)) return false;
-    s->voices = ARENA_TAKE(r->arena, struct launching, s->ring.channels);
+    s->outputs = ARENA_TAKE(r->arena, struct launching, s->ring.channels);
     for (int k = 0; k < s->ring.channels; k++) {
-        const struct ring_voice *v = &s->ring.voices[k];
-        s->voices[k] = (struct launching){.ring = &s->ring, .voice = v};
+        const struct ring_output *v = &s->ring.outputs[k];
+        s->outputs[k] = (struct launching){.ring = &s->ring, .voice = v};
         struct launch_ask ask = {.n = v->n,
                                  .rate = r->board->rate,
                                  .hop = ring_choice_hop(s->ring.choice, &r->scene->accuracy),
                                  .floor = FLOOR * s->ring.ramp * s->ring.ramp,
                                  .quantity = listener_quantity(v->listener)};
-        s->voices[k].engine = launch_open(&ask, launching_point, &s->voices[k]);
+        s->outputs[k].engine = launch_open(&ask, launching_point, &s->outputs[k]);
     }
     return true;
 }
@@ -174,7 +174,7 @@ static bool ring_launch_run(struct stage_run *r, long from, long to, struct err 
     (void)e;
     for (int k = 0; k < s->ring.channels; k++) {
         memset(s->ring.y, 0, (size_t)(to - from) * sizeof *s->ring.y);
-        launch_run(s->voices[k].engine, ring_force(&s->ring, s->voices[k].voice, from), s->ring.y, to - from);
+        launch_run(s->outputs[k].engine, ring_force(&s->ring, s->outputs[k].voice, from), s->ring.y, to - from);
         ring_put(&s->ring, k, from, to);
     }
     return true;
@@ -183,8 +183,8 @@ static bool ring_launch_run(struct stage_run *r, long from, long to, struct err 
 static void ring_launch_close(struct stage_run *r)
 {
     const struct ring_launch *s = r->state;
-    for (int k = 0; s && s->voices && k < s->ring.channels; k++)
-        if (s->voices[k].engine) launch_close(s->voices[k].engine);
+    for (int k = 0; s && s->outputs && k < s->ring.channels; k++)
+        if (s->outputs[k].engine) launch_close(s->outputs[k].engine);
 }
 
 static bool ring_launch_wanted(const struct contact *c, const struct scene *s)

@@ -250,7 +250,7 @@ static void rolling_note(const struct rolling *w, const struct board *b, long fr
 }
 
 /* Means over the frame's sub-intervals, from those over steps. */
-static void rolling_means(const struct rolling *w, const struct board *b, long frame)
+static void rolling_mean_force(const struct rolling *w, const struct board *b, long frame)
 {
     const double *force = w->force + (frame - w->leg) * w->per_frame;
     double *to = board_at(b, ITEM_SUBFORCE, frame);
@@ -268,7 +268,7 @@ static bool rolling_frames(struct rolling *w, struct stage_run *r, long from, lo
     for (long frame = from; frame < to; frame++) {
         if (frame >= w->end && !rolling_leg(w, r, frame, e)) return false;
         if (board_has(b, ITEM_ROLL)) rolling_note(w, b, frame);
-        if (board_has(b, ITEM_SUBFORCE)) rolling_means(w, b, frame);
+        if (board_has(b, ITEM_SUBFORCE)) rolling_mean_force(w, b, frame);
     }
     return true;
 }
@@ -291,7 +291,7 @@ static void rolling_report(const struct rolling *w, struct board *b)
 }
 
 /* Remarks at the motion's end. */
-static void rolling_told(const struct rolling *w, struct stage_run *r)
+static void report_bounces(const struct rolling *w, struct stage_run *r)
 {
     const struct coupled_state *s = coupled_state(w->ball);
     struct board *b = r->board;
@@ -336,7 +336,7 @@ static bool rolling_run(struct stage_run *r, long from, long to, struct err *e)
     if (from < b->moving) rolling_report(w, b);
     if (to >= b->moving && !w->over) {
         w->over = true;
-        rolling_told(w, r);
+        report_bounces(w, r);
     }
     return true;
 }

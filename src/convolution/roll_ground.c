@@ -7,7 +7,7 @@
 #include "scene/rules.h"
 #include "trajectory/trajectory.h"
 
-static bool gives_way(const struct contact *c)
+static bool is_modal(const struct contact *c)
 {
     const struct response *given = &c->surface.response;
     return c->contact.roll.ground != GROUND_RIGID && rules_responds(given) && !rules_is_recorded(given);
@@ -38,7 +38,7 @@ bool roll_ground_make(struct roll_ground *g, const struct stage_run *r, struct e
     const struct response *given = &c->surface.response;
     const struct ring_choice *choice = given->choice;
     *g = (struct roll_ground){.board = r->board};
-    if (!gives_way(c))
+    if (!is_modal(c))
         return c->contact.roll.ground != GROUND_ELASTIC ||
                err_set(e, ERR_SCENE,
                        "contact '%s': contact.roll.ground: elastic needs modes of the surface, and %s; give "
@@ -76,5 +76,5 @@ const double *roll_ground_next(struct roll_ground *g, long frame, long *frames)
 double roll_ground_modes(const struct contact *c)
 {
     const struct response *given = &c->surface.response;
-    return !gives_way(c) ? 0 : given->choice ? given->choice->modes.n : given->modes;
+    return !is_modal(c) ? 0 : given->choice ? given->choice->modes.n : given->modes;
 }

@@ -115,7 +115,7 @@ static bool read_samples(const char *path, SNDFILE *f, struct wav *w, struct err
 static SNDFILE *sound_read(const char *path, SF_INFO *i, struct err *e)
 {
     if (!check_file(path, e)) return NULL;
-    memory_spare(1 << 16); /* libsndfile 1.2 writes through a null pointer where it cannot note a WAV's chunks */
+    memory_available(1 << 16); /* libsndfile 1.2 writes through a null pointer where it cannot note a WAV's chunks */
     errno = 0;
     SNDFILE *f = sf_open(path, SFM_READ, i);
     if (!f && errno == ENOMEM)
@@ -489,7 +489,7 @@ bool wav_finish(struct wav_out *w, struct err *e)
     bool ok = sf_error(w->sound) == 0 || write_failed(w, e);
     if (sf_close(w->sound) != 0) ok = err_set(e, ERR_IO, "%s: cannot be written", w->path);
     w->sound = NULL;
-    return ok && (!w->long_file || clear_peak_time(w, e)) && outfile_settle(&w->out, e);
+    return ok && (!w->long_file || clear_peak_time(w, e)) && outfile_finalise(&w->out, e);
 }
 
 const char *wav_temporary(const struct wav_out *w) { return w->out.temporary; }

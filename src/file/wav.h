@@ -56,7 +56,7 @@ struct wav_written wav_written(const struct wav_out *w);
 
 bool wav_written_audible(const struct wav_written *w); /* some sample of any channel is not 0 */
 
-bool wav_finish(struct wav_out *w, struct err *e); /* as outfile_settle */
+bool wav_finish(struct wav_out *w, struct err *e); /* as outfile_finalise */
 
 const char *wav_temporary(const struct wav_out *w); /* where it lies once it is settled, until it is committed */
 

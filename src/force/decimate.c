@@ -68,7 +68,7 @@ static bool decimate_open(struct stage_run *r, struct err *e)
     struct arena *scratch = arena_open();
     struct smoothing *s = r->board->smoothing;
     int over = r->board->over;
-    struct filter f = r->board->bspline ? filter_decimator_hats(scratch, over) : filter_decimator(scratch, over);
+    struct filter f = r->board->bspline ? filter_decimator_bspline(scratch, over) : filter_decimator(scratch, over);
     (void)e;
     if (s) {
         s->taken = true;

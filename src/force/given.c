@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/shelf.h"
+#include "base/file_cache.h"
 #include "file/bytes.h"
 #include "file/heightfile_formats.h"
 #include "file/npy.h"
@@ -146,9 +146,10 @@ static bool npy_take(const struct stage_run *r, const struct heightfile *h, stru
 /* By content. */
 static bool samples_take(const struct stage_run *r, struct given_samples *g, struct err *e)
 {
-    static const struct shelf_kind forces = {"samples of a force", sizeof(struct given_file), given_make, false};
-    const struct given_file *f = shelf_take(
-        r->scene->shelf, &(struct shelf_ask){.kind = &forces, .file = r->contact->contact.given.file}, r->arena, e);
+    static const struct file_cache_kind forces = {"samples of a force", sizeof(struct given_file), given_make, false};
+    const struct given_file *f =
+        file_cache_take(r->scene->file_cache,
+                        &(struct file_cache_ask){.kind = &forces, .file = r->contact->contact.given.file}, r->arena, e);
     if (!f || !given_fits(r->contact, f->is_npy ? "NPY" : "WAV", e)) return false;
     return f->is_npy ? npy_take(r, &f->npy, g, e) : wav_take(r, &f->wav, g, e);
 }

@@ -2,7 +2,7 @@
    asks that re and im lie as far apart when a plan runs as when it was made, and because its inverse destroys its
    input.
 
-   A program that makes thousands of transforms of a few sizes keeps their plans (fft_keep): making one takes 19 million
+   A program that makes thousands of transforms of a few sizes keeps them (fft_cache_plans): making one takes 19 million
    instructions at 16 000 points, running it 2. A plan may be run on other arrays than it was made for, by several
    threads at once.
 
@@ -20,12 +20,12 @@
 #include "num/sincos.h"
 
 /* FFTW_UNALIGNED: callers' x may lie anywhere; without SIMD it costs nothing. */
-enum { FLAGS = FFTW_ESTIMATE | FFTW_NO_SIMD | FFTW_UNALIGNED, KEPT_MOST = 64 /* plans */, KEPT_POINTS = 1 << 16 };
+enum { FLAGS = FFTW_ESTIMATE | FFTW_NO_SIMD | FFTW_UNALIGNED, CACHED_MOST = 64 /* plans */, CACHED_POINTS = 1 << 16 };
 
 struct plans {
     size_t n;
     fftw_plan forward, inverse;
-    bool kept;
+    bool cached;
     struct plans *next; /* of those kept */
 };
 
@@ -61,8 +61,8 @@ static struct plans *plans_make(const struct fft *f)
         or_end(fftw_plan_guru64_split_dft_r2c(1, &dim, 0, NULL, f->time, re, im, FLAGS | FFTW_PRESERVE_INPUT), f->n);
     p->inverse =
         or_end(fftw_plan_guru64_split_dft_c2r(1, &dim, 0, NULL, re, im, f->time, FLAGS | FFTW_DESTROY_INPUT), f->n);
-    p->kept = keeping.on && keeping.n < KEPT_MOST && f->n <= KEPT_POINTS;
-    if (p->kept) {
+    p->cached = keeping.on && keeping.n < CACHED_MOST && f->n <= CACHED_POINTS;
+    if (p->cached) {
         p->next = keeping.first;
         keeping.first = p;
         keeping.n++;
@@ -85,7 +85,7 @@ static void plans_drop(struct plans *p)
     free(p);
 }
 
-void fft_keep(bool on)
+void fft_cache_plans(bool on)
 {
     planner_lock();
     for (struct plans *p = on ? NULL : keeping.first, *next; p; p = next) {
@@ -103,7 +103,7 @@ struct fft *fft_open(size_t n)
     *f = (struct fft){.n = n, .bins = n / 2 + 1};
     f->spectrum = or_end(fftw_malloc(2 * f->bins * sizeof(double)), n);
     f->time = or_end(fftw_malloc(n * sizeof(double)), n);
-    sincos_keep();
+    sincos_link();
     planner_lock();
     f->plans = plans_of(f);
     planner_unlock();
@@ -113,7 +113,7 @@ struct fft *fft_open(size_t n)
 void fft_close(struct fft *f)
 {
     if (!f) return;
-    if (!f->plans->kept) {
+    if (!f->plans->cached) {
         planner_lock();
         plans_drop(f->plans);
         planner_unlock();

@@ -13,7 +13,7 @@ void fft_close(struct fft *f);
 
 /* true: plans made from here on stay for all who ask for the same size, up to 64 of them. false: they are given up; no
  * struct fft that came in between is open. */
-void fft_keep(bool on);
+void fft_cache_plans(bool on);
 
 /* x[n] -> re[n/2+1], im[n/2+1] (split); x is left as it was. */
 void fft_forward(struct fft *f, const double *x, double *re, double *im);

@@ -29,7 +29,7 @@ struct fft_plane *fft_plane_open(size_t n)
     f->x = or_end(fftw_malloc(n * n * sizeof(double)), n);
     fftw_iodim64 dims[2] = {{.n = (ptrdiff_t)n, .is = (ptrdiff_t)half, .os = (ptrdiff_t)n},
                             {.n = (ptrdiff_t)n, .is = 1, .os = 1}};
-    sincos_keep();
+    sincos_link();
     planner_lock();
     fftw_forget_wisdom();
     f->inverse = or_end(fftw_plan_guru64_split_dft_c2r(2, dims, 0, NULL, f->re, f->im, f->x,

@@ -111,12 +111,12 @@ static void normalise(double *tap, int n)
 }
 
 /* At over = 1 the ideal low-pass of hats is a single tap. */
-static struct filter decimator(struct arena *a, int over, bool hats)
+static struct filter decimator(struct arena *a, int over, bool bspline)
 {
-    struct droop d = droop_make(over, hats);
-    int inner = hats && over == 1 ? 0 : low_pass_reach(over), reach = inner + d.order, taps = 2 * reach + hats;
+    struct droop d = droop_make(over, bspline);
+    int inner = bspline && over == 1 ? 0 : low_pass_reach(over), reach = inner + d.order, taps = 2 * reach + bspline;
     double *g = ARENA_TAKE(a, double, taps);
-    low_pass(g + d.order, inner, over, hats);
+    low_pass(g + d.order, inner, over, bspline);
     double *tap = droop_undone(a, &d, g, taps);
     normalise(tap, taps);
     return (struct filter){reach, taps, tap};
@@ -124,7 +124,7 @@ static struct filter decimator(struct arena *a, int over, bool hats)
 
 struct filter filter_decimator(struct arena *a, int over) { return decimator(a, over, false); }
 
-struct filter filter_decimator_hats(struct arena *a, int over) { return decimator(a, over, true); }
+struct filter filter_decimator_bspline(struct arena *a, int over) { return decimator(a, over, true); }
 
 struct filter filter_gaussian(struct arena *a, double sigma)
 {

@@ -27,7 +27,7 @@ struct filter filter_decimator(struct arena *a, int over);
 
    with the same gains, content beyond over fs/2 apart. For over = 1 only the droop is undone: there is no low-pass, and
    up to fs/2 the gain is 1 within 0.05. */
-struct filter filter_decimator_hats(struct arena *a, int over);
+struct filter filter_decimator_bspline(struct arena *a, int over);
 
 /* Sampled, normalised Gaussian (sum 1 to rounding) of standard deviation sigma >= 0 samples, cut at 6.5 sigma; sigma =
    0 gives the unit impulse. The sampled Gaussian's own deviation is sigma within 1e-6 for sigma >= 1; for smaller ones

@@ -27,6 +27,6 @@
 /* lead[m - 1], m = 1..n, holds y[-m]; it becomes what y[m - 1] is to be raised by. apart: b, 2 b <= n; 0: the first
    moment is left as the reflection has it. That is right where the lead is a smoothing's, which is of one sign: without
    coming before the start it cannot but come later. */
-void lead_fold(double *lead, long n, long apart);
+void lead_fold(double *lead, long n, long distance);
 
 #endif

@@ -12,4 +12,4 @@ double sin(double x) { return real_sin(x); }
 double cos(double x) { return real_cos(x); }
 double asin(double x) { return Sleef_cinz_asind1_u10purec(x); }
 
-void libm_keep(void) {}
+void libm_link(void) {}

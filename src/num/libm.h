@@ -6,6 +6,6 @@
 #define NUM_LIBM_H
 
 /* Does nothing: who calls it has num/libm.c linked into the program. */
-void libm_keep(void);
+void libm_link(void);
 
 #endif

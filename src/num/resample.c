@@ -49,7 +49,7 @@ static void portable(void)
     static const char *const tunings[] = {"SOXR_MIN_DFT_SIZE", "SOXR_LARGE_DFT_SIZE", "SOXR_COEFS_SIZE",
                                           "SOXR_NUM_THREADS",  "SOXR_COEF_INTERP",    "SOXR_STRICT_BUF",
                                           "SOXR_NOSMALLINTOPT"};
-    libm_keep();
+    libm_link();
     const char *simd = getenv("SOXR_USE_SIMD");
     if ((!simd || strcmp(simd, "0") != 0) && setenv("SOXR_USE_SIMD", "0", 1) != 0) memory_out("for the environment");
     for (size_t i = 0; i < sizeof tunings / sizeof tunings[0]; i++)
@@ -70,7 +70,7 @@ static soxr_t open_soxr(double rate_in, double rate_out, struct err *e)
     soxr_quality_spec_t quality = soxr_quality_spec(SOXR_VHQ, SOXR_HI_PREC_CLOCK | SOXR_ROLLOFF_NONE);
     soxr_runtime_spec_t one_thread = soxr_runtime_spec(1);
     portable();
-    memory_spare(1 << 24); /* libsoxr 0.1.3 designs its filters in memory that it does not know to be there */
+    memory_available(1 << 24); /* libsoxr 0.1.3 designs its filters in memory that it does not know to be there */
     errno = 0;
     soxr_t s = soxr_create(rate_in, rate_out, 1, &failure, &io, &quality, &one_thread);
     if ((failure || !s) && errno == ENOMEM) memory_out("resampling from %g to %g Hz", rate_in, rate_out);

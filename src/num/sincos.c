@@ -10,4 +10,4 @@ void sincos(double x, double *s, double *c)
     *c = real_cos(x);
 }
 
-void sincos_keep(void) {}
+void sincos_link(void) {}

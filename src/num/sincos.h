@@ -6,6 +6,6 @@
 #define NUM_SINCOS_H
 
 /* Does nothing: who calls it has num/sincos.c linked into the program. */
-void sincos_keep(void);
+void sincos_link(void);
 
 #endif

@@ -96,7 +96,7 @@ static double roll_rows_angle(const struct roll_rows *r, double u, double du)
 /* Instants are read ROW_MOTION_SOME at a time: at the audio rate that takes a third of what one by one does. alpha is
  * that of the force without approach and release. */
 
-static const enum column told[] = {TIME, X, Y, VX, VY, STROKE, SPEED, VELOCITY, ACCELERATION, NORMAL, ALPHA};
+static const enum column columns[] = {TIME, X, Y, VX, VY, STROKE, SPEED, VELOCITY, ACCELERATION, NORMAL, ALPHA};
 
 static double *asked(struct row_motion *m, enum column k) { return m->wanted[k] ? m->value[k] : NULL; }
 
@@ -137,8 +137,8 @@ static void row_motion_fill(struct row_motion *m, const struct stage_run *r, lon
 static void row_motion_take(struct row_motion *m, const struct stage_run *r, long row, double value[COLUMNS])
 {
     if (row >= m->first + m->n) row_motion_fill(m, r, row);
-    for (size_t k = 0; k < sizeof told / sizeof told[0]; k++)
-        value[told[k]] = m->value[told[k]][row - m->first];
+    for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
+        value[columns[k]] = m->value[columns[k]][row - m->first];
 }
 
 /* The stage that writes diagnostics rows. Row k belongs to [t, t + T), t = k T after the contact's first frame, T =

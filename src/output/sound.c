@@ -196,10 +196,10 @@ static void meter_close(struct sound *o)
     o->meter = NULL;
 }
 
-bool sound_settle(struct sound *o, struct err *e)
+bool sound_finalise(struct sound *o, struct err *e)
 {
     meter_close(o);
-    return track_settle(&o->track, e);
+    return track_finalise(&o->track, e);
 }
 
 const char *sound_temporary(const struct sound *o) { return wav_temporary(o->track.wav); }

@@ -52,8 +52,8 @@ const struct wav_written *sound_written(const struct sound *o);
 const char *sound_level_key(const struct scene *s);
 
 /* Gives the file its name, or leaves nothing. Either ends it. */
-bool sound_settle(struct sound *o, struct err *e);  /* as outfile_settle */
-const char *sound_temporary(const struct sound *o); /* as wav_temporary */
+bool sound_finalise(struct sound *o, struct err *e); /* as outfile_finalise */
+const char *sound_temporary(const struct sound *o);  /* as wav_temporary */
 bool sound_commit(struct sound *o, struct err *e);
 void sound_drop(struct sound *o);
 

@@ -87,10 +87,10 @@ const struct wav_written *stems_written(const struct stems *o, enum stem stem, s
     return track_written(&o->tracks[stem], a);
 }
 
-bool stems_settle(struct stems *o, struct err *e)
+bool stems_finalise(struct stems *o, struct err *e)
 {
     for (int k = 0; k < STEMS; k++)
-        if (o->open[k] && !track_settle(&o->tracks[k], e)) return false;
+        if (o->open[k] && !track_finalise(&o->tracks[k], e)) return false;
     return true;
 }
 

@@ -35,7 +35,7 @@ bool stems_finish(struct stems *o, double gain, struct err *e);
 /* What the file of a stem that is asked for holds, once it is finished. */
 const struct wav_written *stems_written(const struct stems *o, enum stem stem, struct arena *a);
 
-bool stems_settle(struct stems *o, struct err *e);
+bool stems_finalise(struct stems *o, struct err *e);
 const char *stems_temporary(const struct stems *o, enum stem stem); /* as wav_temporary */
 bool stems_commit(struct stems *o, struct err *e);
 void stems_drop(struct stems *o);

@@ -194,7 +194,7 @@ static void forget(struct track *t)
     t->spool = NULL;
 }
 
-bool track_settle(struct track *t, struct err *e)
+bool track_finalise(struct track *t, struct err *e)
 {
     forget(t);
     return wav_finish(t->wav, e);

@@ -59,7 +59,7 @@ bool track_finish(struct track *t, double gain, struct err *e);
 struct wav_written *track_written(const struct track *t, struct arena *a);
 
 /* What is kept is given up; the file is settled, gets its name, or leaves nothing. */
-bool track_settle(struct track *t, struct err *e);
+bool track_finalise(struct track *t, struct err *e);
 bool track_commit(struct track *t, struct err *e);
 void track_drop(struct track *t);
 

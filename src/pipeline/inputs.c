@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/shelf.h"
+#include "base/file_cache.h"
 #include "scene/ball.h"
 #include "scene/keys.h"
 #include "scene/scene_places.h"
@@ -33,7 +33,7 @@ struct missing {
     const char *contact, *key; /* of the first */
 };
 
-/* The place of the first is told with the whole (scene_places_tell), those of the others here. What names a file is
+/* The place of the first is told with the whole (scene_places_report), those of the others here. What names a file is
  * given: it has a place. */
 static void add(struct missing *m, const char *contact, const char *key, const char *file)
 {
@@ -65,7 +65,7 @@ static bool are_there(const struct scene *s, struct arena *a, struct err *e)
 
 static bool is_pinned(const struct scene *s, const struct input *p, struct arena *a, struct err *e)
 {
-    const char *hex = p->sha256 ? shelf_sha256(s->shelf, p->file, a, e) : NULL;
+    const char *hex = p->sha256 ? file_cache_sha256(s->file_cache, p->file, a, e) : NULL;
     if (!hex) return !p->sha256;
     if (!strcmp(hex, p->sha256)) return true;
     err_about(e, NULL, "inputs");

@@ -88,9 +88,9 @@ static int place_order(const void *a, const void *b)
 static const char *real_path(const char *path, struct arena *a)
 {
     char *real = memory_realpath(path);
-    const char *kept = real ? arena_text(a, real) : path;
+    const char *copy = real ? arena_text(a, real) : path;
     free(real);
-    return kept;
+    return copy;
 }
 
 bool outputs_distinct(const struct outputs *o, int n, struct arena *a, struct err *e)
@@ -204,7 +204,7 @@ static bool spared(const struct outputs *o, int k, const struct sources *all, st
         other ? ", scene " : "", other ? hit->scene->file : "");
 }
 
-bool outputs_spare(const struct outputs *o, int n, struct arena *a, struct err *e)
+bool outputs_check_overwrite(const struct outputs *o, int n, struct arena *a, struct err *e)
 {
     struct sources all = sources_of(o, n, a);
     for (int i = 0; i < n; i++)

@@ -46,7 +46,7 @@ bool outputs_distinct(const struct outputs *o, int n, struct arena *a, struct er
 /* No file that these n scenes write is one that any of them reads (the scene, what it includes, every file that it
    names), under whatever name; an effective scene that has the bytes of the file it replaces does no harm. ERR_CREATE:
    names both. */
-bool outputs_spare(const struct outputs *o, int n, struct arena *a, struct err *e);
+bool outputs_check_overwrite(const struct outputs *o, int n, struct arena *a, struct err *e);
 
 /* The rule of output/mark.h for all that these n scenes write; an effective scene that has the bytes of the file it
  * replaces does no harm. ERR_CREATE */

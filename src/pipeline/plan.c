@@ -59,15 +59,15 @@ static unsigned plan_stems(const struct contact *c, const struct output *o)
 
 unsigned plan_targets(const struct contact *c, const struct scene *s)
 {
-    unsigned heard =
-        c->gain != 0 ? (rules_heard(c, &s->output) ? ITEM_BIT(ITEM_SOUND) : 0) | plan_stems(c, &s->output) : 0;
-    return heard | (s->output.diagnostics.given ? ITEM_BIT(ITEM_TABLE) : 0) |
+    unsigned sounds =
+        c->gain != 0 ? (rules_audible(c, &s->output) ? ITEM_BIT(ITEM_SOUND) : 0) | plan_stems(c, &s->output) : 0;
+    return sounds | (s->output.diagnostics.given ? ITEM_BIT(ITEM_TABLE) : 0) |
            (rules_listed(c, &s->output) ? ITEM_BIT(ITEM_LISTING) : 0);
 }
 
 static bool plan_muted(const struct contact *c, const struct scene *s)
 {
-    return c->gain == 0 && rules_heard(c, &s->output);
+    return c->gain == 0 && rules_audible(c, &s->output);
 }
 
 static bool plan_nothing_asked(const struct contact *c, struct err *e)
@@ -94,8 +94,8 @@ struct liveness {
 };
 
 /* A stage that is needed becomes part of the plan. */
-static bool plan_keep(const struct stage *st, const struct contact *c, const struct scene *s, struct liveness *l,
-                      struct err *e)
+static bool plan_needs(const struct stage *st, const struct contact *c, const struct scene *s, struct liveness *l,
+                       struct err *e)
 {
     unsigned makes = st->gives & ~st->needs, needs = st->needs | (st->asks ? st->asks(c, s) : 0);
     if (makes & l->done)
@@ -118,7 +118,7 @@ static bool choose_body(const struct contact *c, const struct scene *s, enum rin
     return !rings || *choice || ring_choice_make(c, s, body, a, choice, e);
 }
 
-/* The contact with its engines chosen, unless they are already (pipeline/promise.h). */
+/* The contact with its engines chosen, unless they are already (pipeline/error_budget.h). */
 static const struct contact *plan_choose(const struct contact *asked, const struct scene *s, struct arena *a,
                                          struct err *e)
 {
@@ -157,7 +157,7 @@ bool plan_make(const struct stage *const *table, const struct contact *c, const 
                               : st->work(c, s); /* a motion that no stage has laid out costs nothing */
         p->rows[i].knobs = st->knobs | (st->turns ? st->turns(c, s) : 0);
         p->rows[i].reads = st->needs | st->takes | (st->asks ? st->asks(c, s) : 0);
-        if (!plan_keep(st, c, s, &l, e)) return false;
+        if (!plan_needs(st, c, s, &l, e)) return false;
     }
     p->alive |= p->targets;
     if (l.hard)

@@ -92,10 +92,10 @@ static bool render_blocks(struct render *r, struct err *e)
 static void report_file(struct render *r, enum output_kind kind, const char *path, const char *contact,
                         const char *sha256)
 {
-    const char *kept = sha256 ? arena_text(r->arena, sha256) : NULL,
+    const char *copy = sha256 ? arena_text(r->arena, sha256) : NULL,
                *stem = kind >= OUTPUT_STEM ? stems_names[kind - OUTPUT_STEM] : NULL;
     r->report->files[r->report->n_files++] = (struct render_file){
-        .kind = outputs_kind(r->scene, kind), .path = path, .contact = contact, .stem = stem, .sha256 = kept};
+        .kind = outputs_kind(r->scene, kind), .path = path, .contact = contact, .stem = stem, .sha256 = copy};
 }
 
 /* A file of a contact's own. */
@@ -159,17 +159,17 @@ static bool render_finish(struct render *r, double start[2], struct err *e)
 
 /* Whatever can fail is done for every file before the first takes its name: a full disk leaves all earlier results or
  * none. */
-static bool render_settle(struct render *r, struct err *e)
+static bool render_finalise(struct render *r, struct err *e)
 {
     for (int i = 0; i < r->scene->n_contacts; i++) {
         struct render_part *p = &r->parts.parts[i];
-        if ((p->table.stream && !outfile_settle(&p->table, e)) ||
-            (p->listing.stream && !outfile_settle(&p->listing, e)))
+        if ((p->table.stream && !outfile_finalise(&p->table, e)) ||
+            (p->listing.stream && !outfile_finalise(&p->listing, e)))
             return false;
     }
-    return (!r->effective.stream || outfile_settle(&r->effective, e)) &&
-           (!r->summary.stream || outfile_settle(&r->summary, e)) && (!r->sound || sound_settle(r->sound, e)) &&
-           (!r->stems || stems_settle(r->stems, e));
+    return (!r->effective.stream || outfile_finalise(&r->effective, e)) &&
+           (!r->summary.stream || outfile_finalise(&r->summary, e)) && (!r->sound || sound_finalise(r->sound, e)) &&
+           (!r->stems || stems_finalise(r->stems, e));
 }
 
 /* Where the settled files lie, in the order of render_list. */
@@ -222,9 +222,9 @@ static struct render *make(const struct scene *s, const char *base, const struct
                            struct render_report *report, struct err *e)
 {
     double start[2] = {stopwatch_wall(), stopwatch_cpu()};
-    struct scene *kept = ARENA_TAKE(a, struct scene, 1);
+    struct scene *copy = ARENA_TAKE(a, struct scene, 1);
     struct render *r = ARENA_TAKE(a, struct render, 1);
-    *r = (struct render){.scene = kept,
+    *r = (struct render){.scene = copy,
                          .base = base,
                          .set = names,
                          .waits = names && names->sounds,
@@ -232,12 +232,12 @@ static struct render *make(const struct scene *s, const char *base, const struct
                          .arena = a,
                          .report = report};
     *report = (struct render_report){.quantity = -1};
-    if (!promise_keep(s, a, kept, &report->promise, e)) return NULL;
-    report->accuracy = kept->accuracy;
-    r->parts = render_parts_make(kept, base, a);
+    if (!error_budget_apply(s, a, copy, &report->error_budget, e)) return NULL;
+    report->accuracy = copy->accuracy;
+    r->parts = render_parts_make(copy, base, a);
     r->effective.fd = r->summary.fd = -1;
     find_paths(r, r->waits ? names->sounds : base);
-    if (render_open(r, e) && render_blocks(r, e) && render_finish(r, start, e) && render_settle(r, e) &&
+    if (render_open(r, e) && render_blocks(r, e) && render_finish(r, start, e) && render_finalise(r, e) &&
         inputs_still(&r->inputs, e)) {
         find_temporaries(r);
         return r;

@@ -8,7 +8,7 @@
 #include "output/impact_rows.h"
 #include "output/sound.h"
 #include "output/stems.h"
-#include "pipeline/promise.h"
+#include "pipeline/error_budget.h"
 #include "pipeline/run.h"
 
 /* The contacts of a render, each with its plan and its run. */
@@ -85,10 +85,10 @@ struct render_report {
     int quantity; /* enum modes_quantity of the sound; -1: not stated */
     struct render_file *files;
     int n_files;
-    const char **older;       /* files of an earlier render that stay; ends with NULL */
-    const char *summary;      /* the JSON text */
-    struct promise promise;   /* of the accuracy that was asked for */
-    struct accuracy accuracy; /* the knobs that it was rendered with */
+    const char **older;               /* files of an earlier render that stay; ends with NULL */
+    const char *summary;              /* the JSON text */
+    struct error_budget error_budget; /* of the accuracy that was asked for */
+    struct accuracy accuracy;         /* the knobs that it was rendered with */
     const char **warnings;
     int n_warnings;
     const char **notes; /* what contacts did, one line each */

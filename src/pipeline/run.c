@@ -193,9 +193,9 @@ static void signal_slide(struct signal *s, long end)
         s->first += drop;
         return;
     }
-    size_t gone = (size_t)(drop * s->per_frame), all = (size_t)(s->capacity * s->per_frame);
-    memmove(s->x, s->x + gone, (all - gone) * sizeof *s->x);
-    memset(s->x + (all - gone), 0, gone * sizeof *s->x);
+    size_t dropped = (size_t)(drop * s->per_frame), all = (size_t)(s->capacity * s->per_frame);
+    memmove(s->x, s->x + dropped, (all - dropped) * sizeof *s->x);
+    memset(s->x + (all - dropped), 0, dropped * sizeof *s->x);
     s->first += drop;
 }
 

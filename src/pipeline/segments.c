@@ -235,7 +235,7 @@ static bool hear(const struct scene *s, const struct contact *c, bool moves, str
         if (!audible_power(s, c, x->stretch[(2 * k + 1) * x->n / (2 * n)].place, x->power + k * AUDIBLE_BINS, e))
             return false;
     for (int i = 0; i < x->n; i++)
-        x->stretch[i].heard = i * n / x->n;
+        x->stretch[i].weighting = i * n / x->n;
     return true;
 }
 
@@ -358,7 +358,7 @@ double segments_energy(const struct segments *x, const double *force)
         bool one = s->frames == SEGMENTS_WINDOW && x->n > 1;
         double sum = 0;
         for (long from = one ? 0 : -SEGMENTS_WINDOW / 2; from < (one ? 1 : s->frames); from += SEGMENTS_WINDOW / 2)
-            sum += window_energy(&h, force, s->frames, from, x->power + s->heard * AUDIBLE_BINS);
+            sum += window_energy(&h, force, s->frames, from, x->power + s->weighting * AUDIBLE_BINS);
         all += s->weight * sum;
     }
     fft_close(h.fft);

@@ -11,7 +11,7 @@ struct segments_stretch {
     long from, frames; /* of the contact; SEGMENTS_WINDOW or more */
     double weight;     /* by which its energy stands for the motion's */
     double place[2];   /* m, about its middle                     */
-    int heard;         /* which of the powers                     */
+    int weighting;     /* which of the powers                     */
 };
 
 struct segments {

@@ -110,7 +110,7 @@ static void warn_impacts(const struct contact *c, const struct impact_report *o,
 void summary_notes(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a)
 {
     report->notes = ARENA_TAKE(a, const char *, s->n_contacts + 1);
-    if (report->promise.text) report->notes[report->n_notes++] = report->promise.text;
+    if (report->error_budget.text) report->notes[report->n_notes++] = report->error_budget.text;
     for (int i = 0; i < s->n_contacts; i++) {
         const struct board *b = runs[i] ? &runs[i]->board : NULL;
         if (b && (b->rolls || impacts(b)))
@@ -204,7 +204,7 @@ void summary_warnings(const struct scene *s, const struct run *const *runs, stru
     for (int i = 0; i < s->n_contacts; i++)
         if (runs[i]) warn_contact(&s->contacts[i], &runs[i]->board, report, a);
     for (int i = 0; i < s->n_contacts; i++)
-        if (runs[i] && runs[i]->board.lifted > 0 && report->promise.n > 0)
+        if (runs[i] && runs[i]->board.lifted > 0 && report->error_budget.n > 0)
             warn(report, arena_format(a,
                                       "contact '%s': where it is lifted off its force is cut, and errors fall more "
                                       "slowly, and less evenly, than accuracy.error counts on: measure them "
@@ -354,13 +354,14 @@ static void set_older(json_t *whole, const struct render_report *report, struct 
 }
 
 /* What accuracy.error asked for, and what the knobs that leave an error are predicted to leave. */
-static json_t *promise_json(const struct promise *p, bool times)
+static json_t *error_budget_json(const struct error_budget *p, bool times)
 {
     json_t *by = json_array();
     for (int i = 0; i < p->n; i++)
-        json_array_append_new(by, json_pack("{s:s, s:o, s:o, s:b}", "knob", keys_knobs[p->parts[i].knob].name, "value",
-                                            json_value_number(p->parts[i].value), "error_db",
-                                            json_value_number(decibel(p->parts[i].error)), "said", p->parts[i].said));
+        json_array_append_new(by,
+                              json_pack("{s:s, s:o, s:o, s:b}", "knob", keys_knobs[p->parts[i].knob].name, "value",
+                                        json_value_number(p->parts[i].value), "error_db",
+                                        json_value_number(decibel(p->parts[i].error)), "said", p->parts[i].by_user));
     json_t *j = json_pack("{s:o, s:o, s:b, s:o}", "asked_db", json_value_number(p->error), "predicted_db",
                           json_value_number(p->predicted), "chosen", p->chosen, "by", by);
     if (times) json_object_set_new(j, "cpu_s", json_value_number(p->cpu));
@@ -390,13 +391,14 @@ const char *summary_text(const struct scene *s, const struct run *const *runs, c
                   (json_int_t)report->frames, "sample_rate_hz", json_value_number(s->output.sample_rate), "duration_s",
                   json_value_number(duration), "contacts", contacts, "warnings", remarks, "files", files_json(report));
     if (times) add_times(whole, report, duration, a);
-    if (report->promise.asked) json_object_set_new(whole, "accuracy", promise_json(&report->promise, times));
+    if (report->error_budget.asked)
+        json_object_set_new(whole, "accuracy", error_budget_json(&report->error_budget, times));
     if (report->sounds) json_object_set_new(whole, "sound", sound_json(s, report));
     char *text = json_dumps(whole, JSON_INDENT(2) | JSON_REAL_PRECISION(times ? 9 : 17) | JSON_ENSURE_ASCII);
-    const char *kept = arena_format(a, "%s\n", text ? text : "{}");
+    const char *copy = arena_format(a, "%s\n", text ? text : "{}");
     free(text);
     json_decref(whole);
-    return kept;
+    return copy;
 }
 
 /* Integers round what is less than half a step to 0; what is beyond their range they refuse

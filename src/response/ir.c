@@ -212,9 +212,10 @@ static bool make(const char *path, const void *how, struct arena *a, void *thing
 
 bool ir_read(const struct ir_ask *ask, struct arena *a, struct ir *ir, struct err *e)
 {
-    static const struct shelf_kind recorded = {"recorded response", sizeof(struct ir), make, false};
-    const char *key = ask->shelf ? arena_format(a, "%a %a", ask->rate, ask->t0) : NULL;
-    const struct ir *found = shelf_take(ask->shelf, &(struct shelf_ask){&recorded, ask->path, key, ask}, a, e);
+    static const struct file_cache_kind recorded = {"recorded response", sizeof(struct ir), make, false};
+    const char *key = ask->file_cache ? arena_format(a, "%a %a", ask->rate, ask->t0) : NULL;
+    const struct ir *found =
+        file_cache_take(ask->file_cache, &(struct file_cache_ask){&recorded, ask->path, key, ask}, a, e);
     if (found) *ir = *found;
     return found;
 }

@@ -8,7 +8,7 @@
 
 #include "base/arena.h"
 #include "base/err.h"
-#include "base/shelf.h"
+#include "base/file_cache.h"
 #include "response/modes.h"
 #include "response/places.h"
 
@@ -25,9 +25,9 @@ size_t ir_length(double rate, double t0);
    rescaled), the first one h(0+). At another rate than `rate` (Hz) it is resampled, see ir.c. Cut to t < t0 (s);
    NAN: whole. Errors: as wav_read; ERR_SCENE when it is not mono, or silent before t0. */
 struct ir_ask {
-    const char *path;    /* of a file, or of a folder (ir.h)                              */
-    double rate, t0;     /* Hz, s                                                             */
-    struct shelf *shelf; /* where others may have put it, and h may lie: not to be changed; NULL: none */
+    const char *path;              /* of a file, or of a folder (ir.h)                              */
+    double rate, t0;               /* Hz, s                                                             */
+    struct file_cache *file_cache; /* where others may have put it, and h may lie: not to be changed; NULL: none */
 };
 
 bool ir_read(const struct ir_ask *ask, struct arena *a, struct ir *ir, struct err *e);

@@ -358,9 +358,10 @@ static bool make_table(const char *path, const void *how, struct arena *a, void 
 
 bool modes_table(const char *path, const struct modes_ask *ask, struct arena *a, struct modes *m, struct err *e)
 {
-    static const struct shelf_kind tables = {"mode table", sizeof(struct mode_table), make_table, false};
-    struct making k = {.t = shelf_take(ask->shelf, &(struct shelf_ask){.kind = &tables, .file = path}, a, e),
-                       .arena = a};
+    static const struct file_cache_kind tables = {"mode table", sizeof(struct mode_table), make_table, false};
+    struct making k = {
+        .t = file_cache_take(ask->file_cache, &(struct file_cache_ask){.kind = &tables, .file = path}, a, e),
+        .arena = a};
     if (!k.t || !make_places(&k, e)) return false;
     make_tracks(&k, ask->pairing);
     rank_modes(&k, ask);

@@ -10,7 +10,7 @@
 
 #include "base/arena.h"
 #include "base/err.h"
-#include "base/shelf.h"
+#include "base/file_cache.h"
 
 /* The first three in the order of enum quantity of scene.h, which has `auto` before; MODES_PRESSURE comes from a
    listener only, and MODES_FORCE is no motion at all, but the contact force as the sound (convolution/force_sound.c):
@@ -83,7 +83,7 @@ struct modes_ask {
     int strongest;
     double band[2]; /* Hz, low <= f < high, from which they are chosen (modes_in_band); 0, 0: from all */
     double pairing, rate;
-    struct shelf *shelf; /* of the scene (base/shelf.h); NULL: none */
+    struct file_cache *file_cache; /* of the scene (base/file_cache.h); NULL: none */
 };
 
 bool modes_table(const char *path, const struct modes_ask *ask, struct arena *a, struct modes *m, struct err *e);

@@ -5,9 +5,9 @@
 
 #include "scene/keys.h"
 
-void ablation_settle(struct contact *c)
+void ablation_apply(struct contact *c)
 {
-    if (c->ablation.nonlinearity == ABLATED_NONLINEARITY_KEPT) return;
+    if (c->ablation.nonlinearity == ABLATED_NONLINEARITY_FULL) return;
     struct limiter *l = &c->contact.limiter; /* as of contact.limiter.curve: none, where its other keys do not apply */
     *l = (struct limiter){.curve = LIMITER_NONE,
                           .alpha = NAN,

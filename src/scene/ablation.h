@@ -17,7 +17,7 @@
 
 /* Without a non-linearity: no limiter, and of `omitted` no smoothing, which the paper has in the same section, against
    the harmonics that the non-linearity makes. */
-void ablation_settle(struct contact *c);
+void ablation_apply(struct contact *c);
 
 /* Is the normal force held at its mean (rules_load)? */
 static inline bool ablation_steady(const struct contact *c)

@@ -87,7 +87,7 @@ static void knob_read(struct yaml *y, const struct key_knob *k, const struct yam
         diag_add(y->diag, node->at, k->meaning, "%s must be a whole number, not %s", label, given);
     else {
         accuracy_turn(accuracy, (enum knob)(k - keys_knobs), x);
-        accuracy->said |= 1u << (k - keys_knobs);
+        accuracy->by_user |= 1u << (k - keys_knobs);
     }
 }
 
@@ -119,7 +119,7 @@ void accuracy_read(struct yaml *y, const struct yaml_node *node, struct accuracy
 {
     accuracy_preset(accuracy, STANDARD);
     accuracy->error = NAN;
-    accuracy->said = 0;
+    accuracy->by_user = 0;
     if (!node) return;
     if (node->kind != YAML_MAP) {
         preset_read(y, node, accuracy);

@@ -64,7 +64,7 @@ double ball_stiffness(const struct contact *c)
     return !isnan(r->stiffness) ? r->stiffness : r->kappa * c->scraper.mass;
 }
 
-void ball_settle(struct contact *c)
+void ball_apply(struct contact *c)
 {
     const struct ball *b = &c->ball;
     c->motion.gravity = c->contact.gravity;

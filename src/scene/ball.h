@@ -15,7 +15,7 @@ static inline bool ball_rolls(const struct contact *c)
 /* What touches the surface, in keys and messages: "ball" or "scraper". */
 static inline const char *ball_tool(const struct contact *c) { return ball_rolls(c) ? "ball" : "scraper"; }
 
-/* Is a key's value a copy of what the ball's own key says (ball_settle)? */
+/* Is a key's value a copy of what the ball's own key says (ball_apply)? */
 static inline bool ball_copies(const struct contact *c, const char *path)
 {
     return ball_rolls(c) && strncmp(path, "scraper.", 8) == 0;
@@ -23,7 +23,7 @@ static inline bool ball_copies(const struct contact *c, const char *path)
 
 /* Of a rolling contact: fills in c->scraper, what touches the surface, from c->ball: mass (NAN: nothing says it),
  * weight, radius, patch, response. */
-void ball_settle(struct contact *c);
+void ball_apply(struct contact *c);
 
 /* kg; NAN where it is neither given nor follows from radius, wall and the material's (or object's) density. */
 double ball_mass(const struct ball *b);

@@ -23,10 +23,10 @@
 #include "num/real.h"
 
 /* Least t > 0 with t (speed + pull t / 2) = way, in the form that keeps its digits. */
-static double time_to(double way, double speed, double pull)
+static double time_to(double distance, double speed, double pull)
 {
-    return 2 * way /
-           (speed + sqrt(fmax(speed * speed + 2 * pull * way, 0))); /* arrives at rest: rounding leaves -1e-17 */
+    return 2 * distance /
+           (speed + sqrt(fmax(speed * speed + 2 * pull * distance, 0))); /* arrives at rest: rounding leaves -1e-17 */
 }
 
 static void stops(struct incline *i)
@@ -77,12 +77,12 @@ double incline_lasts(const struct incline *i, const struct motion *m)
     return isnan(m->duration) ? i->end : m->duration;
 }
 
-bool incline_leaves(const struct incline *i, double duration)
+bool incline_exits(const struct incline *i, double duration)
 {
     return (i->over == INCLINE_AT_TO || i->over == INCLINE_AT_FROM) && duration > i->end * (1 + 1e-9);
 }
 
-double incline_way(const struct incline *i, double t)
+double incline_distance(const struct incline *i, double t)
 {
     double at[3];
     incline_at(i, t, at);
@@ -117,7 +117,7 @@ bool incline_can(const struct incline *i, const struct motion *m, struct err *e)
     const char *cure, *why = i->over == INCLINE_STUCK ? incline_stuck(m, &cure) : NULL;
     double lasts = incline_lasts(i, m);
     if (why) return err_set(e, ERR_SCENE, "motion: %s; %s", why, cure);
-    if (incline_leaves(i, lasts))
+    if (incline_exits(i, lasts))
         return err_set(e, ERR_SCENE,
                        "motion.duration is %.6g s, and the motion %s after %.6g s; lower it or leave it out, or make "
                        "the way longer",

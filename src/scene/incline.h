@@ -33,10 +33,10 @@ void incline_at(const struct incline *i, double t, double out[3]);
 double incline_lasts(const struct incline *i, const struct motion *m);
 
 /* Does the duration lead beyond `to`, or back beyond `from`? (By more than 1e-9 of it.) */
-bool incline_leaves(const struct incline *i, double duration);
+bool incline_exits(const struct incline *i, double duration);
 
 /* m, travelled in the time t <= end (or any t, if it rests for good). */
-double incline_way(const struct incline *i, double t);
+double incline_distance(const struct incline *i, double t);
 
 /* "reaches motion.to", "is back at motion.from", "rests" */
 const char *incline_event(const struct incline *i);

@@ -59,19 +59,19 @@ static inline bool rules_once(const struct contact *c)
 static inline double rules_incline_speed(const struct motion *m)
 {
     struct incline i = incline_make(m);
-    double lasts = incline_lasts(&i, m), speed = incline_way(&i, lasts) / lasts;
+    double lasts = incline_lasts(&i, m), speed = incline_distance(&i, lasts) / lasts;
     return isfinite(speed) ? speed : 0.2;
 }
 
 /* m: from point to point. */
 static inline double rules_chords(const struct motion *m)
 {
-    double way = 0;
+    double length = 0;
     for (int i = 1; i < m->n_points; i++) {
         double x = m->points[2 * i] - m->points[2 * i - 2], y = m->points[2 * i + 1] - m->points[2 * i - 1];
-        way += sqrt(x * x + y * y);
+        length += sqrt(x * x + y * y);
     }
-    return way;
+    return length;
 }
 
 /* The mean speed in m/s as far as the scene alone tells it, for predictions of cost; 0.2 where only a file would. A
@@ -266,7 +266,7 @@ static inline bool rules_tool_rings(const struct contact *c)
 static inline bool rules_rings(const struct contact *c) { return rules_surface_rings(c) || rules_tool_rings(c); }
 
 /* Is it heard: does it ring, or is its force the sound? Its gain may still be 0. */
-static inline bool rules_heard(const struct contact *c, const struct output *o)
+static inline bool rules_audible(const struct contact *c, const struct output *o)
 {
     return rules_rings(c) || o->quantity == QUANTITY_FORCE;
 }

@@ -88,7 +88,7 @@ enum extrapolate { EXTRAPOLATE_ERROR, EXTRAPOLATE_NEAREST };
 enum encoding { ENCODING_PCM16, ENCODING_PCM24, ENCODING_FLOAT32, ENCODING_FLOAT64 };
 
 struct ring_choice;
-struct shelf;
+struct file_cache;
 
 /* ------------------------------------------------------------------ one contact */
 
@@ -249,7 +249,7 @@ struct motion {
     double start_speed;      /* m/s, of the path incline                                          */
     double rolling_friction; /* retarding force over normal force, of the path incline           */
     double gravity,
-        inertia;     /* of the path incline, from the contact: m/s^2, g; I / (m R^2) of what moves (ball_settle) */
+        inertia;     /* of the path incline, from the contact: m/s^2, g; I / (m R^2) of what moves (ball_apply) */
     double straight; /* m, radius of curvature from which on two_thirds counts a path as straight */
 };
 
@@ -382,9 +382,10 @@ struct output {
 
 struct accuracy {       /* one double per row of accuracy.def                                */
     const char *preset; /* draft, standard, high, reference: where the knobs start           */
-    double error; /* dB relative to the sound, rms: what the knobs that are not said are chosen by (pipeline/promise.h);
+    double
+        error; /* dB relative to the sound, rms: the knobs not set by the user follow from it (pipeline/error_budget.h);
                      NAN: not asked for */
-    unsigned said; /* set of knobs that the scene gives one by one                      */
+    unsigned by_user; /* set of knobs that the scene gives one by one                      */
 #define KNOB(name, lo, hi, whole, scale, order, draft, standard, high, reference, meaning) double name;
 #include "scene/accuracy.def"
 #undef KNOB
@@ -426,9 +427,8 @@ struct scene {
     int n_inputs;
     bool inputs_known; /* they are as these hashes say, whatever the files hold by now          */
     struct scene_place *places;
-    const struct diag *diag; /* what is wrong with its text; NULL: nothing is                    */
-    struct shelf
-        *shelf; /* what it shares with other scenes of the files that they read (base/shelf.h); NULL: nothing */
+    const struct diag *diag;       /* what is wrong with its text; NULL: nothing is                    */
+    struct file_cache *file_cache; /* what scenes read of the same files (base/file_cache.h); NULL: nothing is shared */
 };
 
 #endif

@@ -176,14 +176,14 @@ static void both_given(const struct scene_part *p, const struct yaml_node *const
     const struct yaml_node *first = nodes[swap], *second = nodes[!swap];
     const struct diag_source *other = first->key->at.source;
     struct arena *a = p->yaml->arena;
-    const char *gone = scene_part_label(p, names[swap]), *where = other->name;
+    const char *label = scene_part_label(p, names[swap]), *where = other->name;
     if (!other->option) where = arena_format(a, "%s line %d", where, first->key->at.line);
-    const char *cure = arena_format(a, "%s stands in %s; remove one of them", gone, where);
+    const char *cure = arena_format(a, "%s stands in %s; remove one of them", label, where);
     if (other != second->key->at.source)
         cure = arena_format(a, "%s, or take that one away with %s: null (on the command line: --set %s=null)", cure,
-                            gone, gone);
+                            label, label);
     diag_add(p->yaml->diag, second->key->at, cure, "%s and %s exclude each other", scene_part_label(p, names[!swap]),
-             gone);
+             label);
 }
 
 /* The alternatives that could be given, in words. */

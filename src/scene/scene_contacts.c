@@ -48,14 +48,14 @@ static void contact_read(const struct tree *t, struct yaml_node *map, const char
     name_check(t->yaml, map);
     scene_check_fill(&part);
     scene_places_note(&part, c->name, t->scene);
-    ball_settle(c);
-    ablation_settle(c);
+    ball_apply(c);
+    ablation_apply(c);
     if (t->yaml->missing) /* values may stand in a file that is not there */
         return;
     scene_sense_contact(&part);
     if (t->yaml->diag->n == errors) scene_sense_asked(&part, t->scene);
     scene_table_columns(&part, t->root, t->scene);
-    scene_sense_output_heard(&part, t->root, t->scene);
+    scene_sense_output_audible(&part, t->root, t->scene);
 }
 
 static const char *prefix_of(struct yaml *y, const struct yaml_node *map, int index)

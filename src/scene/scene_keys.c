@@ -122,7 +122,7 @@ static const char *unknown_cure(const struct walk *w, const char *word, const ch
 static void unknown(const struct walk *w, const struct yaml_node *key, const char *section)
 {
     struct diag *d = w->y->diag;
-    if (d->n >= DIAG_KEPT) {
+    if (d->n >= DIAG_STORED) {
         d->n++;
         return;
     }

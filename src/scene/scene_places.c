@@ -310,16 +310,16 @@ static struct err_place parts_of(const struct scene *s, const struct scene_place
     return parts;
 }
 
-bool scene_places_tell(const struct scene *s, struct err *e)
+bool scene_places_report(const struct scene *s, struct err *e)
 {
     struct arena *a = arena_open();
-    struct err told = {.contact = e->contact, .key = e->key};
-    const struct scene_place *p = place_of(s, e), *said = e->key ? p : by_text(s, e->text);
+    struct err placed = {.contact = e->contact, .key = e->key};
+    const struct scene_place *p = place_of(s, e), *in_text = e->key ? p : by_text(s, e->text);
     const char *place = scene_places_text(s, p, a), *text = whole_keys(s, p ? p->contact : e->contact, e->text, a);
-    if (p && p == said && (!e->key || strcmp(p->key, e->key) == 0)) text = labelled(s, p, text, a);
-    told.place = parts_of(s, p, place);
-    err_set(&told, e->kind, "%s: %s%s", place, text, p && !strstr(text, p->named) ? p->named : "");
-    *e = told;
+    if (p && p == in_text && (!e->key || strcmp(p->key, e->key) == 0)) text = labelled(s, p, text, a);
+    placed.place = parts_of(s, p, place);
+    err_set(&placed, e->kind, "%s: %s%s", place, text, p && !strstr(text, p->named) ? p->named : "");
+    *e = placed;
     arena_close(a);
     return false;
 }

@@ -32,6 +32,6 @@ const char *scene_places_text(const struct scene *s, const struct scene_place *p
    another file, where that is named; returns false. A key is written as in the scene: contacts.rod.surface.response in
    one with contacts. It is that of err_about, or that which names the file with which the text begins, or that with
    whose name it begins; of one that is not given the place is that of the section in which it would stand. */
-bool scene_places_tell(const struct scene *s, struct err *e);
+bool scene_places_report(const struct scene *s, struct err *e);
 
 #endif

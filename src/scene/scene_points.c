@@ -8,7 +8,7 @@
 #include "scene/scene_values.h"
 #include "scene/units.h"
 
-#define APART 1e-9 /* m, of one point of a path from the next */
+#define DISTINCT 1e-9 /* m, of one point of a path from the next */
 
 static const struct kind {
     int least, most;
@@ -46,7 +46,7 @@ static bool point_read(const struct points *p, const struct yaml_node *node, int
 static bool point_differs(const struct points *p, const struct yaml_node *node, int number, const double *point)
 {
     double x = point[0] - point[-2], y = point[1] - point[-1];
-    return sqrt(x * x + y * y) >= APART ||
+    return sqrt(x * x + y * y) >= DISTINCT ||
            diag_add(p->part->yaml->diag, node->at, "remove one of the two", "point %d of %s lies where point %d does",
                     number, p->label, number - 1);
 }

@@ -143,7 +143,7 @@ void scene_sense_asked(const struct scene_part *p, const struct scene *s)
 {
     const struct contact *c = p->to;
     const struct yaml_node *surface = yaml_get(p->map, "surface");
-    if (s->output.diagnostics.given || rules_listed(c, &s->output) || rules_heard(c, &s->output) ||
+    if (s->output.diagnostics.given || rules_listed(c, &s->output) || rules_audible(c, &s->output) ||
         force_stem(&s->output))
         return;
     diag_add(p->yaml->diag, scene_part_place(p, surface ? surface : p->map),

@@ -14,7 +14,7 @@ void scene_sense_asked(const struct scene_part *p, const struct scene *s);
 /* What is to be heard and written: scene_sense_output.c. Of the scene's own keys, when they have been read; */
 void scene_sense_output(const struct scene_part *top);
 /* of each contact, against what the scene's tree (root) says; */
-void scene_sense_output_heard(const struct scene_part *p, struct yaml_node *root, const struct scene *s);
+void scene_sense_output_audible(const struct scene_part *p, struct yaml_node *root, const struct scene *s);
 /* of all contacts, when nothing else is wrong. */
 void scene_sense_output_stems(const struct scene_part *top);
 void scene_sense_output_impacts(const struct scene_part *top);

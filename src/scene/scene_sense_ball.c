@@ -10,7 +10,7 @@
 static bool is_given(const struct scene_part *p, const char *path) { return yaml_find(p->map, path) != NULL; }
 
 /* Told at a key that is there. */
-static void tell(const struct scene_part *p, const char *path, const char *cure, const char *says)
+static void refuse(const struct scene_part *p, const char *path, const char *cure, const char *says)
 {
     diag_add(p->yaml->diag, scene_part_later(p, path, path), cure, "%s %s", scene_part_label(p, path), says);
 }
@@ -33,14 +33,14 @@ static void sizes_check(const struct scene_part *p, const struct contact *c)
     below_radius(p, "ball.patch", b->patch, b->radius);
     below_radius(p, "ball.lobe_height", b->lobe_height, b->radius);
     if (b->patch == 0 && c->contact.model == CONTACT_ROLL)
-        tell(p, "ball.patch", "write for instance: patch: 20 um",
-             "must be above 0 where contact.model is roll: the force follows from the slope and curvature of the "
-             "rolling curve, which has kinks");
+        refuse(p, "ball.patch", "write for instance: patch: 20 um",
+               "must be above 0 where contact.model is roll: the force follows from the slope and curvature of the "
+               "rolling curve, which has kinks");
     if (b->patch == 0 && c->contact.model == CONTACT_ROLL_COUPLED && rules_along(c) == ALONG_PLANE)
-        tell(p, "ball.patch",
-             "write for instance: patch: 20 um; or let the surface follow the path, by surface.along: path",
-             "must be above 0 on a surface in the plane: only along a line is the rolling curve known without "
-             "smoothing");
+        refuse(p, "ball.patch",
+               "write for instance: patch: 20 um; or let the surface follow the path, by surface.along: path",
+               "must be above 0 on a surface in the plane: only along a line is the rolling curve known without "
+               "smoothing");
 }
 
 /* What the mass lacks, with an example of the cure; NULL: it is not the mass. */
@@ -73,8 +73,8 @@ static void unit_check(const struct scene_part *p, const struct roll *r)
 {
     const char *path = "contact.roll.stiffness";
     if (!isnan(r->stiffness) && scene_sense_model_unit(yaml_find(p->map, path), false))
-        tell(p, path, "give it in N/m^1.5: the force is stiffness x penetration^1.5 (Hertz's contact)",
-             "is in N/m^1.5, not in N/m");
+        refuse(p, path, "give it in N/m^1.5: the force is stiffness x penetration^1.5 (Hertz's contact)",
+               "is in N/m^1.5, not in N/m");
 }
 
 /* ------------------------------------------------------------------ roll */
@@ -87,9 +87,9 @@ static void paper_check(const struct scene_part *p, const struct roll *r)
                             " (or contact.roll.kappa): under penetration: paper rho is about the ball's radius, and "
                             "the stiffness is chosen by hand");
     if (is_given(p, "contact.roll.mu") && r->mu != 1)
-        tell(p, "contact.roll.mu",
-             "give contact.roll.lambda in its place, or set contact.roll.penetration to deviation",
-             "has no effect where contact.roll.penetration is paper");
+        refuse(p, "contact.roll.mu",
+               "give contact.roll.lambda in its place, or set contact.roll.penetration to deviation",
+               "has no effect where contact.roll.penetration is paper");
 }
 
 static void roll_check(const struct scene_part *p, const struct contact *c)

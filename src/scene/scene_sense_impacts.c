@@ -10,7 +10,7 @@
 static bool is_given(const struct scene_part *p, const char *path) { return yaml_find(p->map, path) != NULL; }
 
 /* Told at a value that is there. */
-static void tell(const struct scene_part *p, const char *path, const char *cure, const char *says)
+static void refuse(const struct scene_part *p, const char *path, const char *cure, const char *says)
 {
     diag_add(p->yaml->diag, scene_part_later(p, path, path), cure, "%s %s", scene_part_label(p, path), says);
 }
@@ -52,8 +52,8 @@ static void modulation_check(const struct scene_part *p, const struct impacts *m
     if (m->depth > 0)
         scene_check_missing(p, rate, "5 Hz", ": contact.impacts.modulation.depth is above 0");
     else if (is_given(p, rate) && !isnan(m->rate))
-        tell(p, rate, "remove it, or give contact.impacts.modulation.depth",
-             "has no effect where contact.impacts.modulation.depth is 0, as it is of custom unless given");
+        refuse(p, rate, "remove it, or give contact.impacts.modulation.depth",
+               "has no effect where contact.impacts.modulation.depth is 0, as it is of custom unless given");
 }
 
 static void custom_check(const struct scene_part *p, const struct impacts *m)
@@ -111,8 +111,8 @@ static void amplitude_check(const struct scene_part *p, const struct impacts *m)
                  "remove floor.amplitude: amplitudes then keep their sign",
                  "%s is a share of the mean, and that is %.4g", scene_part_label(p, floor), height);
     else if (m->prototype == PROTOTYPE_ROLL)
-        tell(p, mean, "raise it, or set contact.impacts.prototype to custom, whose amplitudes may have any sign",
-             "must be such that amplitudes are above 0 on average where contact.impacts.prototype is roll");
+        refuse(p, mean, "raise it, or set contact.impacts.prototype to custom, whose amplitudes may have any sign",
+               "must be such that amplitudes are above 0 on average where contact.impacts.prototype is roll");
 }
 
 /* ------------------------------------------------------------------ log-normal series */

@@ -161,10 +161,10 @@ static void given_check(const struct scene_part *p, const struct given_force *g)
                             ": a WAV does not say how many newtons its full scale stands for");
     if (kind == 1 && rules_is_there(g->file))
         scene_check_missing(p, "contact.given.rate", "48 kHz", ": an NPY does not say how many samples a second has");
-    const bool said[] = {g->channel > 1, !isnan(g->rate),
-                         g->column && strcmp(g->column, "force_n") != 0}; /* defaults stand in every effective scene */
+    const bool given[] = {g->channel > 1, !isnan(g->rate),
+                          g->column && strcmp(g->column, "force_n") != 0}; /* defaults stand in every effective scene */
     for (int i = 0; i < 3; i++)
-        if (i != kind && said[i])
+        if (i != kind && given[i])
             diag_add(p->yaml->diag, yaml_find(p->map, keys[i])->key->at, "remove it", "%s is of %s, and %s is %s",
                      scene_part_label(p, keys[i]), kinds[i], diag_shown(p->yaml->diag, g->file), kinds[kind]);
 }

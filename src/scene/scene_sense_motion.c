@@ -8,7 +8,7 @@
 #include "scene/scene_check.h"
 #include "scene/scene_sense_parts.h"
 
-#define SHORTEST_WAY 1e-9 /* m */
+#define SHORTEST_PATH 1e-9 /* m */
 
 static const char *word(const char *path, int value) { return keys_find(path)->choices[value].word; }
 
@@ -25,7 +25,7 @@ static void stroke_check(const struct scene_part *p, const struct motion *m)
 {
     static const char *const ends[2] = {"motion.to", "motion.from"};
     double x = m->to[0] - m->from[0], y = m->to[1] - m->from[1];
-    if (m->path != PATH_STILL && rules_straight(m) && sqrt(x * x + y * y) < SHORTEST_WAY)
+    if (m->path != PATH_STILL && rules_straight(m) && sqrt(x * x + y * y) < SHORTEST_PATH)
         scene_part_contradiction(p, ends, "must differ from",
                                  "the ends are to be at least 1 nm apart: write for instance: to: [3 cm, 0]");
 }
@@ -33,7 +33,7 @@ static void stroke_check(const struct scene_part *p, const struct motion *m)
 static void turns_check(const struct scene_part *p, const struct motion *m)
 {
     const char *path = "motion.turns";
-    if (m->path == PATH_CIRCLE && 2 * M_PI * m->radius * fabs(m->turns) < SHORTEST_WAY)
+    if (m->path == PATH_CIRCLE && 2 * M_PI * m->radius * fabs(m->turns) < SHORTEST_PATH)
         diag_add(p->yaml->diag, scene_part_later(p, path, path), "write for instance: turns: 1, or -1 for clockwise",
                  "%s must not be 0", scene_part_label(p, path));
 }
@@ -99,7 +99,7 @@ static void law_check(const struct scene_part *p, const struct motion *m)
 
 /* ------------------------------------------------------------------ free motion */
 
-static bool free_held(const struct scene_part *p)
+static bool free_grip(const struct scene_part *p)
 {
     const struct contact *c = p->to;
     const struct yaml_node *grip = yaml_find(p->map, "grip");
@@ -130,10 +130,10 @@ static void free_check(const struct scene_part *p, const struct motion *m)
     const char *duration = "motion.duration";
     double lasts = incline_lasts(&i, m);
     double known = m->start_speed + m->incline + m->rolling_friction + m->gravity;
-    if (m->path != PATH_INCLINE || free_held(p) || isnan(known) || !(i.length >= SHORTEST_WAY)) return;
+    if (m->path != PATH_INCLINE || free_grip(p) || isnan(known) || !(i.length >= SHORTEST_PATH)) return;
     if (i.over == INCLINE_STUCK)
         free_stuck(p, m);
-    else if (incline_leaves(&i, lasts))
+    else if (incline_exits(&i, lasts))
         diag_add(p->yaml->diag, scene_part_later(p, duration, duration),
                  "lower it, or leave it out: the motion ends there by itself; or make the way longer",
                  "%s is %.6g s, and the motion %s after %.6g s", scene_part_label(p, duration), lasts,

@@ -145,7 +145,7 @@ static const char *lacks(const struct listen *l, const struct response *r)
                : NULL;
 }
 
-void scene_sense_output_heard(const struct scene_part *p, struct yaml_node *root, const struct scene *s)
+void scene_sense_output_audible(const struct scene_part *p, struct yaml_node *root, const struct scene *s)
 {
     const struct contact *c = p->to;
     const struct output *o = &s->output;

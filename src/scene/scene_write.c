@@ -58,9 +58,9 @@ static const char *points_value(const void *field, int width, struct arena *a)
         fprintf(f, "%s%s", i ? ", " : "[", numbers_value(at + width * i, width, a));
     fputc(']', f);
     memory_stream_end(f, &memory);
-    const char *kept = arena_text(a, memory);
+    const char *copy = arena_text(a, memory);
     free(memory);
-    return kept;
+    return copy;
 }
 
 static const char *list_value(const char *const *items, struct arena *a)
@@ -233,12 +233,12 @@ const char *scene_write(const struct scene *s, const char *beside, struct arena 
         n_keys++;
     struct writer w = {memory_stream(&memory, &size), beside, a, ARENA_TAKE(a, struct keys_line, n_keys), 0, false};
     for (int i = 0; i < s->n_contacts; i++)
-        w.sounds = w.sounds || (s->contacts[i].gain != 0 && rules_heard(&s->contacts[i], &s->output));
+        w.sounds = w.sounds || (s->contacts[i].gain != 0 && rules_audible(&s->contacts[i], &s->output));
     write_keys(&w, s);
     write_accuracy(&w, s);
     scene_write_inputs(w.f, s, beside, a);
     memory_stream_end(w.f, &memory);
-    const char *kept = arena_text(a, memory);
+    const char *copy = arena_text(a, memory);
     free(memory);
-    return kept;
+    return copy;
 }

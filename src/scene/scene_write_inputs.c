@@ -5,8 +5,8 @@
 
 #include <string.h>
 
+#include "base/file_cache.h"
 #include "base/relpath.h"
-#include "base/shelf.h"
 #include "file/csv.h"
 #include "scene/keys_yaml.h"
 
@@ -80,7 +80,7 @@ const char **scene_write_inputs_files(const struct scene *s, int *n, struct aren
 static void write_input(FILE *f, const struct scene *s, const char *file, const char *beside, struct arena *a)
 {
     struct err unreadable = {0};
-    const char *now = s->inputs_known ? NULL : shelf_sha256(s->shelf, file, a, &unreadable),
+    const char *now = s->inputs_known ? NULL : file_cache_sha256(s->file_cache, file, a, &unreadable),
                *sha256 = now ? now : pinned(s, file);
     fprintf(f, "  - file: %s\n", keys_yaml_quoted(relpath_make(file, beside, a), a));
     if (sha256)

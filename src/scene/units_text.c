@@ -25,9 +25,8 @@ static const struct units_table_unit *fitting_unit(enum key_dimension d, int exp
         int p;
         const struct units_table_unit *u = units_table_find(units_table_dimension(d)->common[i], &p);
         if (!u || p == UNITS_TABLE_DEGREES || p == -2) continue;
-        bool leaves_one = exponent - p >= 1, best_leaves_one = best && exponent - *power >= 1;
-        if (!best || (leaves_one && (!best_leaves_one || p > *power)) ||
-            (!leaves_one && !best_leaves_one && p < *power)) {
+        bool has_rest = exponent - p >= 1, best_has_rest = best && exponent - *power >= 1;
+        if (!best || (has_rest && (!best_has_rest || p > *power)) || (!has_rest && !best_has_rest && p < *power)) {
             best = u;
             *power = p;
             *name = units_table_dimension(d)->common[i];

@@ -1,7 +1,7 @@
 /* A measured map or profile under the contact: file, spline, checks of its geometry. */
 #include "surface/height_map.h"
 
-#include "base/shelf.h"
+#include "base/file_cache.h"
 #include "file/heightfile.h"
 #include "num/lanes.h"
 #include "num/real.h"
@@ -191,12 +191,12 @@ static bool height_map_make(const char *path, const void *how, struct arena *a, 
 
 static const struct height_map_read *height_map_load(struct stage_run *r, struct err *e)
 {
-    static const struct shelf_kind maps = {"height map", sizeof(struct height_map_read), height_map_make, false};
+    static const struct file_cache_kind maps = {"height map", sizeof(struct height_map_read), height_map_make, false};
     const struct surface *s = &r->contact->surface;
     const char *key = arena_format(r->arena, "%a %a %a %d %d %d", s->pitch, s->height_scale, s->height_range, s->holes,
                                    s->levelling, s->off_map);
     const struct height_map_read *m =
-        shelf_take(r->scene->shelf, &(struct shelf_ask){&maps, s->height_map, key, s}, r->arena, e);
+        file_cache_take(r->scene->file_cache, &(struct file_cache_ask){&maps, s->height_map, key, s}, r->arena, e);
     if (m && m->file.filled)
         board_warn(r->board,
                    arena_format(r->arena, "%s: %zu missing points were filled", s->height_map, m->file.filled));

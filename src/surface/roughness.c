@@ -243,13 +243,13 @@ static double *copied(struct arena *a, const double *x, int n)
     return memcpy(ARENA_TAKE(a, double, n), x, (size_t)n * sizeof *x);
 }
 
-static bool plan_like(struct shelf *shelf, const struct roughness *r, struct arena *a, struct roughness_plan *p,
-                      struct err *e)
+static bool plan_like(struct file_cache *file_cache, const struct roughness *r, struct arena *a,
+                      struct roughness_plan *p, struct err *e)
 {
-    static const struct shelf_kind likes = {"statistics of a height map", sizeof(struct roughness_plan), like_make,
-                                            false};
-    const struct roughness_plan *found =
-        shelf_take(shelf, &(struct shelf_ask){&likes, r->like, arena_format(a, "%a", r->like_pitch), r}, a, e);
+    static const struct file_cache_kind likes = {"statistics of a height map", sizeof(struct roughness_plan), like_make,
+                                                 false};
+    const struct roughness_plan *found = file_cache_take(
+        file_cache, &(struct file_cache_ask){&likes, r->like, arena_format(a, "%a", r->like_pitch), r}, a, e);
     if (!found) return false;
     *p = *found;
     p->spectrum.k = copied(a, found->spectrum.k, found->spectrum.n); /* what is made of it may scale it */
@@ -258,11 +258,11 @@ static bool plan_like(struct shelf *shelf, const struct roughness *r, struct are
     return true;
 }
 
-bool roughness_plan(struct arena *a, struct shelf *shelf, const struct roughness *r, struct roughness_plan *p,
+bool roughness_plan(struct arena *a, struct file_cache *file_cache, const struct roughness *r, struct roughness_plan *p,
                     struct err *e)
 {
     *p = (struct roughness_plan){.rms = r->rms, .skewness = r->skewness, .kurtosis = r->kurtosis};
-    if (r->like) return plan_like(shelf, r, a, p, e);
+    if (r->like) return plan_like(file_cache, r, a, p, e);
     if (r->longest <= r->shortest)
         return err_set(e, ERR_SCENE, "surface.roughness: longest (%g m) must be more than shortest (%g m)", r->longest,
                        r->shortest);
@@ -353,7 +353,7 @@ static bool roughness_open(struct stage_run *r, struct err *e)
     struct roughness_plan p;
     relief_decide(r->board->relief, r->contact);
     struct relief_part *part = NULL;
-    if (roughness_plan(r->arena, r->scene->shelf, recipe, &p, e)) {
+    if (roughness_plan(r->arena, r->scene->file_cache, recipe, &p, e)) {
         p.once = rules_once(r->contact);
         part = roughness_part(r->arena, &p, recipe, r->board->relief->along, stream, e);
     }

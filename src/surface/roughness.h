@@ -3,7 +3,7 @@
 #define SURFACE_ROUGHNESS_H
 #include "base/arena.h"
 #include "base/err.h"
-#include "base/shelf.h"
+#include "base/file_cache.h"
 #include "file/heightfile.h"
 #include "num/noise.h"
 #include "scene/scene.h"
@@ -22,9 +22,9 @@ struct roughness_plan {
 };
 
 /* The plan of a recipe, of its own numbers or of the map that it names (`like`, which is read, once for all that have
- * the shelf; NULL: none). ERR_SCENE, ERR_INPUT. */
-bool roughness_plan(struct arena *a, struct shelf *shelf, const struct roughness *recipe, struct roughness_plan *p,
-                    struct err *e);
+ * the file cache; NULL: none). ERR_SCENE, ERR_INPUT. */
+bool roughness_plan(struct arena *a, struct file_cache *file_cache, const struct roughness *recipe,
+                    struct roughness_plan *p, struct err *e);
 
 /* A part with the heights of that plan and noise stream, in the coordinates `along` (enum along, decided). Close it
    with its own close(). NULL: ERR_SCENE, for heights or a spectrum that there are none of. */

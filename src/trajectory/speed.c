@@ -508,7 +508,7 @@ bool speed_incline(struct speed *speed, const struct motion *m, struct arena *a,
     incline_at(s, duration, end);
     *speed = (struct speed){.duration = duration,
                             .top = fmax(s->speed, fabs(end[1])),
-                            .distance = incline_way(s, duration),
+                            .distance = incline_distance(s, duration),
                             .cycle = duration,
                             .detail = 64,
                             .at = incline_fill,

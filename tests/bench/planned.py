@@ -1,5 +1,5 @@
 """What rasp plan says that a round tip or a ball over roughness in the plane costs, beside what it does: one Markdown table. Cycles are the CPU time of the contact's stages, the least of REPEATS
-rounds, times the core clock, which is measured before each render, over the samples of its motion; start and rehearsal of a motion, which is more than half of a short one, are in both."""
+rounds, times the core clock, which is measured before each render, over the samples of its motion; start of a motion, which is more than half of a short one, are in both."""
 from runs import *
 import tempfile
 

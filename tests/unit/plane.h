@@ -50,8 +50,9 @@ static inline struct relief_part *plane_wave_map(struct arena *a, const struct c
         for (int i = 0; i < PLANE_SIDE; i++)
             z[j * PLANE_SIDE + i] =
                 plane_wave.amplitude * cos(k * pitch * (i * cos(plane_wave.angle) + j * sin(plane_wave.angle)));
-    return height_map_part(a, height_map_spline(a, &(struct height_map){z, PLANE_SIDE, PLANE_SIDE, {pitch, pitch}}, OFF_MAP_MIRROR),
-                    (double[]){0, 0}, "wave");
+    return height_map_part(
+        a, height_map_spline(a, &(struct height_map){z, PLANE_SIDE, PLANE_SIDE, {pitch, pitch}}, OFF_MAP_MIRROR),
+        (double[]){0, 0}, "wave");
 }
 
 /* 200 x 160 samples 5 um x 7 um apart, wrapped: 60 waves of 50 um and more, of random direction, each of 0.2 um. */
@@ -70,7 +71,7 @@ static inline struct relief_part *plane_rough_map(struct arena *a, const struct 
                     0.2e-6 * cos(2 * M_PI * ((double)(kx * i) / COLUMNS + (double)(ky * j) / ROWS) + phase);
     }
     return height_map_part(a, height_map_spline(a, &(struct height_map){z, COLUMNS, ROWS, {5e-6, 7e-6}}, OFF_MAP_WRAP),
-                    (double[]){0, 0}, "rough");
+                           (double[]){0, 0}, "rough");
 }
 
 /* ------------------------------------------------------------------ scenes */

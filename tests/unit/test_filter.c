@@ -57,7 +57,7 @@ START_TEST(decimator_response_of_hats)
 {
     for (int i = 0; i < OVERS; i++) {
         struct arena *a = arena_open();
-        struct filter k = filter_decimator_hats(a, overs[i]);
+        struct filter k = filter_decimator_bspline(a, overs[i]);
         if (overs[i] == 1) ck_assert_double_lt(largest(&k, 1, 0.4535, 0.5, 1), 0.05);
         passes_and_stops(&k, overs[i], "hats, ", k.taps);
         arena_close(a);
@@ -70,7 +70,7 @@ START_TEST(decimator_sum_and_symmetry)
     for (int over = 1; over <= 33; over++) {
         struct arena *a = arena_open();
         for (int hats = 0; hats < 2; hats++) {
-            struct filter k = hats ? filter_decimator_hats(a, over) : filter_decimator(a, over);
+            struct filter k = hats ? filter_decimator_bspline(a, over) : filter_decimator(a, over);
             long double sum = 0;
             ck_assert_int_eq(k.taps, 2 * k.reach + hats);
             for (int j = 0; j < k.taps; j++)

@@ -77,7 +77,8 @@ END_TEST
 
 START_TEST(needed)
 {
-    ck_assert(distribution_fit_polygon_needed(0.11, 100) && !distribution_fit_polygon_needed(0.1, 100)); /* Lilliefors: 0.1031 */
+    ck_assert(distribution_fit_polygon_needed(0.11, 100) &&
+              !distribution_fit_polygon_needed(0.1, 100)); /* Lilliefors: 0.1031 */
     ck_assert(!distribution_fit_polygon_needed(0.019, 1000000) && distribution_fit_polygon_needed(0.021, 1000000));
 }
 END_TEST

@@ -15,8 +15,9 @@ static struct relief_part *spike_map(struct arena *a, const struct contact *c)
     for (int i = 0; i < SIDE * SIDE; i++)
         z[i] = 1e-3;
     z[20 * SIDE + 20] += spike_height;
-    return height_map_part(a, height_map_spline(a, &(struct height_map){z, SIDE, SIDE, {5e-6, 5e-6}}, c->surface.off_map),
-                    (double[]){0, 0}, "spike");
+    return height_map_part(a,
+                           height_map_spline(a, &(struct height_map){z, SIDE, SIDE, {5e-6, 5e-6}}, c->surface.off_map),
+                           (double[]){0, 0}, "spike");
 }
 
 /* The item's values, traps on; the scene's alpha if not NAN. */

@@ -138,7 +138,7 @@ static void asks(int fd)
     ready(fd);
     while (!interrupt_seen())
         rest(0.001);
-    interrupt_tell();
+    interrupt_report();
     _exit(ORDERLY);
 }
 
@@ -155,7 +155,7 @@ static void tells(int fd)
     ready(fd);
     while (!interrupt_seen())
         rest(0.001);
-    interrupt_tell();
+    interrupt_report();
     rest(0.06);
     _exit(ORDERLY);
 }
@@ -165,7 +165,7 @@ static void tells_for_ever(int fd)
     ready(fd);
     while (!interrupt_seen())
         rest(0.001);
-    interrupt_tell();
+    interrupt_report();
     for (;;)
         pause();
 }
@@ -207,7 +207,7 @@ static void leaves(int fd)
     struct err e = {0};
     outfile_open_hidden(&one, "sound.wav", &e);
     outfile_open(&two, "table.csv", &e);
-    outfile_settle(&two, &e);
+    outfile_finalise(&two, &e);
     pid_t child = fork();
     if (child == 0)
         for (;;)

@@ -3,8 +3,8 @@
    against the surface read directly. */
 #include "force/path_cells.h"
 
-#include "surface/limiter.h"
 #include "surface/height_map.h"
+#include "surface/limiter.h"
 #include "surface/profile.h"
 #include "trajectory/trajectory.h"
 #include "unit.h"
@@ -92,7 +92,8 @@ static struct relief_part *random_map(const double p[2], const double o[2])
     static double z[40 * 50];
     for (int i = 0; i < 40 * 50; i++)
         z[i] = 1e-7 * drand48();
-    return height_map_part(arena, height_map_spline(arena, &(struct height_map){z, 50, 40, {p[0], p[1]}}, OFF_MAP_WRAP), o, "map");
+    return height_map_part(arena, height_map_spline(arena, &(struct height_map){z, 50, 40, {p[0], p[1]}}, OFF_MAP_WRAP),
+                           o, "map");
 }
 
 static void surface_plane(int maps)

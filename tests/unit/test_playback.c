@@ -167,8 +167,8 @@ static struct relief_part *map(struct arena *a, const struct contact *c)
     srand48(5);
     for (int i = 0; i < 40 * 50; i++)
         z[i] = 1e-6 * drand48();
-    return height_map_part(a, height_map_spline(a, &(struct height_map){z, 50, 40, {pitch[0], pitch[1]}}, OFF_MAP_WRAP), origin,
-                    "map");
+    return height_map_part(a, height_map_spline(a, &(struct height_map){z, 50, 40, {pitch[0], pitch[1]}}, OFF_MAP_WRAP),
+                           origin, "map");
 }
 
 START_TEST(a_map_slantwise)

@@ -24,7 +24,8 @@ static long double ulps(double got, long double want)
 #define ONE(name)                                                                                                      \
     static double one_##name(double x) { return real_##name(x); }
 ONE(exp)
-ONE(exp10) ONE(log) ONE(log10) ONE(log1p) ONE(sin) ONE(cos) ONE(tan) ONE(tanh) ONE(sinpi) ONE(cospi)
+ONE(exp10)
+ONE(log) ONE(log10) ONE(log1p) ONE(sin) ONE(cos) ONE(tan) ONE(tanh) ONE(sinpi) ONE(cospi)
 
     static long double sinpi_reference(long double x)
 {

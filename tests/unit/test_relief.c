@@ -41,8 +41,9 @@ static struct relief_part *random_map(struct arena *a)
     double z[SIDE * SIDE];
     for (int i = 0; i < SIDE * SIDE; i++)
         z[i] = 1e-6 * (drand48() - 0.5);
-    return height_map_part(a, height_map_spline(a, &(struct height_map){z, SIDE, SIDE, {pitch[0], pitch[1]}}, OFF_MAP_WRAP), origin,
-                    "map");
+    return height_map_part(
+        a, height_map_spline(a, &(struct height_map){z, SIDE, SIDE, {pitch[0], pitch[1]}}, OFF_MAP_WRAP), origin,
+        "map");
 }
 
 /* Each value is the sum of the parts' own, in the order in which they were added; what was in the arrays before is

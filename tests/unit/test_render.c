@@ -308,7 +308,7 @@ START_TEST(loudness_is_the_standards)
         "# poles: shared\n# quantity: velocity\n# normalisation: physical\n# source: test\n"
         "place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad\nonly,0,0,low,997,0,2,1.5707963267948966\n");
     renders_made("rasp: 1\n" BODY "motion: {path: line, to: [1 cm, 0], speed: 20 cm/s}\noutput: {encoding: float64, "
-                                  "level: {lufs: -23}, tail: 20 s}\n",
+                 "level: {lufs: -23}, tail: 20 s}\n",
                  "tone");
     struct wav w = renders_sound("tone.wav");
     w.frames -= 24000, w.x += 12000;
@@ -502,7 +502,7 @@ START_TEST(places_are_channels)
     struct arena *a = setup();
     const char *scene =
         "rasp: 1\n" PANE LINE "accuracy: {gain_ramp: 1}\noutput: {encoding: float64, level: {dbfs_at_1_pa: -40}, ramp: "
-                              "0, tail: 0.2 s, listen: {radiator: monopole, places: [%s]}}\n";
+        "0, tail: 0.2 s, listen: {radiator: monopole, places: [%s]}}\n";
     double most = 0;
     struct render_report r = renders_made(
         arena_format(a, scene, "[45 cm, 0, 0.574456264653803], [-35 cm, 0, 0.574456264653803], [5 cm, 0, 1.415]"),

@@ -22,7 +22,7 @@
 #define STILL "motion: {path: still, duration: 2 s}\n"
 #define STRIKE(strike)                                                                                                 \
     "rasp: 1\nsurface: {response: a.csv}\nscraper: {mass: 1 g}\n" STILL "contact: {model: strike, strike: " strike "}" \
-                                                                                                                   "\n"
+    "\n"
 #define GIVEN(given) "rasp: 1\nsurface: {response: a.csv}\n" STILL "contact: {model: given, given: " given "}\n"
 #define HEARD(object, output) "rasp: 1\nsurface: {roughness: {}, " object "}\n" SCRAPE "output: " output "\n"
 

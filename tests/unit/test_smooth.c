@@ -101,7 +101,7 @@ START_TEST(joined_to_decimation)
 {
     struct arena *a = rig_arena();
     struct scene s = rig_scene(a, arena_format(a, text, "load: {constant: 1 N}"));
-    struct filter f = filter_decimator_hats(a, OVER);
+    struct filter f = filter_decimator_bspline(a, OVER);
     struct rig *smooth = recorded("load: {constant: 1 N}", 50e-6), *both[2];
     double off = 0, most = 0;
     s.contacts[0].contact.smoothing = 50e-6;

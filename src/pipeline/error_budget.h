@@ -3,32 +3,32 @@
 
    The error is that of all knobs that turn the scene, each taken to be independent of the others, so that powers add:
 
-     predicted^2 = sum of e_k^2 <= (asked / margin)^2        margin  PROMISE_MARGIN, for what excerpts do not see
+     predicted^2 = sum of e_k^2 <= (asked / margin)^2        margin  ERROR_BUDGET_MARGIN, for what excerpts do not see
 
-   e of gain_ramp   the sound of the whole motion at halved values against each other (promise_curve.h), all else at
+   e of gain_ramp   the sound of the whole motion at halved values against each other (error_curve.h), all else at
                     `draft`
-   e of steps       rehearsed on excerpts of the motion, up to the force, at doubled values (segments.h), and weighed by
+   e of steps       piloted on excerpts of the motion, up to the force, at doubled values (segments.h), and weighed by
                     what of the force is heard */
-#ifndef PIPELINE_PROMISE_H
-#define PIPELINE_PROMISE_H
+#ifndef PIPELINE_ERROR_BUDGET_H
+#define PIPELINE_ERROR_BUDGET_H
 #include "base/arena.h"
 #include "base/err.h"
 #include "scene/scene.h"
 
-#define PROMISE_MARGIN 3.0 /* dB */
+#define ERROR_BUDGET_MARGIN 3.0 /* dB */
 
-struct promise_part {
+struct error_budget_part {
     enum knob knob;
-    bool said; /* by the scene                             */
+    bool by_user; /* by the scene                             */
     double value;
     double error; /* relative rms that it leaves              */
 };
 
-struct promise {
+struct error_budget {
     bool asked;              /* the scene has accuracy.error             */
     bool chosen;             /* it left something to choose              */
     double error, predicted; /* dB; predicted NAN: it says every knob    */
-    struct promise_part parts[KNOBS];
+    struct error_budget_part parts[KNOBS];
     int n;            /* knobs that leave an error                */
     double cpu;       /* s that it took to choose                 */
     const char *text; /* one line of all this; NULL: not asked    */
@@ -37,6 +37,7 @@ struct promise {
 /* kept: the scene with every knob settled, its engines chosen (response.choice); without accuracy.error (or with every
    knob said) as it was asked. p may be NULL. ERR_SCENE: it cannot be kept, and what can be (err_about accuracy.error);
    else those of inputs and plans. */
-bool promise_keep(const struct scene *asked, struct arena *a, struct scene *kept, struct promise *p, struct err *e);
+bool error_budget_apply(const struct scene *asked, struct arena *a, struct scene *chosen, struct error_budget *p,
+                        struct err *e);
 
 #endif

@@ -1,5 +1,5 @@
-/* A shelf: what is made of a file is made once, however many threads ask, and anew when the file has changed. */
-#include "base/shelf.h"
+/* A file_cache: what is made of a file is made once, however many threads ask, and anew when the file has changed. */
+#include "base/file_cache.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -27,13 +27,14 @@ static bool make_text(const char *file, const void *how, struct arena *arena, vo
     return n > 0 || err_set(e, ERR_INPUT, "%s: empty", file);
 }
 
-static const struct shelf_kind texts = {"text", 16, make_text, false}, others = {"other text", 16, make_text, false};
+static const struct file_cache_kind texts = {"text", 16, make_text, false},
+                                    others = {"other text", 16, make_text, false};
 
 static char path[64];
 
-static const void *take(struct shelf *s, const struct shelf_kind *kind, struct arena *arena, struct err *e)
+static const void *take(struct file_cache *s, const struct file_cache_kind *kind, struct arena *arena, struct err *e)
 {
-    return shelf_take(s, &(struct shelf_ask){.kind = kind, .file = path}, arena, e);
+    return file_cache_take(s, &(struct file_cache_ask){.kind = kind, .file = path}, arena, e);
 }
 
 static void put(const char *text)
@@ -52,12 +53,12 @@ static void begin(const char *text)
     made = 0;
 }
 
-static void *asks(void *shelf)
+static void *asks(void *file_cache)
 {
     struct arena *own = arena_open();
     struct err e = {0};
     for (int i = 0; i < 50; i++)
-        if (strcmp(take(shelf, &texts, own, &e), "one") != 0) abort();
+        if (strcmp(take(file_cache, &texts, own, &e), "one") != 0) abort();
     arena_close(own);
     return NULL;
 }
@@ -66,7 +67,7 @@ START_TEST(many_threads_make_it_once)
 {
     pthread_t threads[4];
     begin("one");
-    struct shelf *s = shelf_open(1 << 20);
+    struct file_cache *s = file_cache_open(1 << 20);
     for (int i = 0; i < 4; i++)
         ck_assert_int_eq(pthread_create(&threads[i], NULL, asks, s), 0);
     for (int i = 0; i < 4; i++)
@@ -75,7 +76,7 @@ START_TEST(many_threads_make_it_once)
     struct err e = {0};
     ck_assert_ptr_ne(take(s, &others, a, &e), take(s, &texts, a, &e));
     ck_assert_int_eq(made, 2);
-    shelf_close(s);
+    file_cache_close(s);
     unlink(path);
 }
 END_TEST
@@ -84,7 +85,7 @@ START_TEST(a_file_that_has_changed_is_read_anew)
 {
     struct err e = {0};
     begin("one");
-    struct shelf *s = shelf_open(1 << 20);
+    struct file_cache *s = file_cache_open(1 << 20);
     const char *old = take(s, &texts, a, &e);
     put("other");
     ck_assert_str_eq(take(s, &texts, a, &e), "other");
@@ -95,47 +96,47 @@ START_TEST(a_file_that_has_changed_is_read_anew)
     put("more");
     e = (struct err){0};
     ck_assert_str_eq(take(s, &texts, a, &e), "more");
-    ck_assert_ptr_nonnull(strstr(shelf_changed(s, a), "rasp-test-")); /* since "one" */
-    shelf_close(s);
-    s = shelf_open(1 << 20);
+    ck_assert_ptr_nonnull(strstr(file_cache_changed(s, a), "rasp-test-")); /* since "one" */
+    file_cache_close(s);
+    s = file_cache_open(1 << 20);
     take(s, &texts, a, &e);
-    ck_assert_ptr_null(shelf_changed(s, a));
+    ck_assert_ptr_null(file_cache_changed(s, a));
     unlink(path);
-    ck_assert_ptr_nonnull(strstr(shelf_changed(s, a), "rasp-test-"));
-    shelf_close(s);
+    ck_assert_ptr_nonnull(strstr(file_cache_changed(s, a), "rasp-test-"));
+    file_cache_close(s);
     unlink(path);
 }
 END_TEST
 
-/* A shelf that is full, and none, leave each to himself. */
+/* A file_cache that is full, and none, leave each to himself. */
 START_TEST(what_has_no_room_is_made_for_each)
 {
     struct err e = {0};
     begin("one");
-    struct shelf *s = shelf_open(0);
+    struct file_cache *s = file_cache_open(0);
     ck_assert_str_eq(take(s, &texts, a, &e), "one");
     ck_assert_str_eq(take(s, &texts, a, &e), "one");
     ck_assert_str_eq(take(NULL, &texts, a, &e), "one");
     ck_assert_int_eq(made, 3);
-    shelf_close(s);
+    file_cache_close(s);
     unlink(path);
 }
 END_TEST
 
-/* A file that was asked for by its hash is watched, full shelf or not. */
+/* A file that was asked for by its hash is watched, full file_cache or not. */
 START_TEST(what_is_small_has_room)
 {
     struct err e = {0};
     begin("one");
-    struct shelf *s = shelf_open(0);
+    struct file_cache *s = file_cache_open(0);
     take(s, &texts, a, &e);
     put("other");
-    ck_assert_ptr_null(shelf_changed(s, a));
-    ck_assert_ptr_eq(shelf_sha256(s, path, a, &e), shelf_sha256(s, path, a, &e));
-    ck_assert_ptr_null(shelf_changed(s, a));
+    ck_assert_ptr_null(file_cache_changed(s, a));
+    ck_assert_ptr_eq(file_cache_sha256(s, path, a, &e), file_cache_sha256(s, path, a, &e));
+    ck_assert_ptr_null(file_cache_changed(s, a));
     put("third");
-    ck_assert_ptr_nonnull(strstr(shelf_changed(s, a), "rasp-test-"));
-    shelf_close(s);
+    ck_assert_ptr_nonnull(strstr(file_cache_changed(s, a), "rasp-test-"));
+    file_cache_close(s);
     unlink(path);
 }
 END_TEST
@@ -145,14 +146,15 @@ START_TEST(hashes_are_those_of_the_file)
 {
     struct err e = {0};
     begin("one");
-    struct shelf *s = shelf_open(1 << 20);
-    ck_assert_str_eq(shelf_sha256(s, path, a, &e), "7692c3ad3540bb803c020b3aee66cd8887123234ea0c6e7143c0add73ff431ed");
-    ck_assert_ptr_eq(shelf_sha256(s, path, a, &e), shelf_sha256(s, path, a, &e));
+    struct file_cache *s = file_cache_open(1 << 20);
+    ck_assert_str_eq(file_cache_sha256(s, path, a, &e),
+                     "7692c3ad3540bb803c020b3aee66cd8887123234ea0c6e7143c0add73ff431ed");
+    ck_assert_ptr_eq(file_cache_sha256(s, path, a, &e), file_cache_sha256(s, path, a, &e));
     unlink(path);
-    ck_assert_ptr_null(shelf_sha256(s, path, a, &e));
-    shelf_close(s);
+    ck_assert_ptr_null(file_cache_sha256(s, path, a, &e));
+    file_cache_close(s);
 }
 END_TEST
 
-UNIT("shelf", many_threads_make_it_once, a_file_that_has_changed_is_read_anew, what_has_no_room_is_made_for_each,
+UNIT("file_cache", many_threads_make_it_once, a_file_that_has_changed_is_read_anew, what_has_no_room_is_made_for_each,
      what_is_small_has_room, hashes_are_those_of_the_file)

@@ -1,5 +1,5 @@
-/* See shelf.h. One lock guards the list; things are made outside of it, each in an arena of its own. */
-#include "base/shelf.h"
+/* See file_cache.h. One lock guards the list; things are made outside of it, each in an arena of its own. */
+#include "base/file_cache.h"
 
 #include <pthread.h>
 #include <stdio.h>
@@ -12,10 +12,10 @@
 #include "base/relpath.h"
 #include "base/watch.h"
 
-enum state { MAKING, THERE, GONE /* its making failed */ };
+enum state { MAKING, THERE, FAILED /* its making failed */ };
 
 struct entry {
-    const struct shelf_kind *kind;
+    const struct file_cache_kind *kind;
     const char *file, *key;
     struct stat status;
     struct arena *arena; /* that what its thing has besides lies in; NULL: it is small */
@@ -26,7 +26,7 @@ struct entry {
     struct entry *other; /* of those that have their place in the table in common */
 };
 
-struct shelf {
+struct file_cache {
     pthread_mutex_t lock;
     pthread_cond_t made;
     struct arena *arena; /* of the entries */
@@ -35,17 +35,17 @@ struct shelf {
     size_t bytes, most;
 };
 
-struct shelf *shelf_open(size_t most)
+struct file_cache *file_cache_open(size_t most)
 {
-    struct shelf *s = memory_take(sizeof *s);
-    *s = (struct shelf){.most = most, .arena = arena_open(), .places = 64};
+    struct file_cache *s = memory_take(sizeof *s);
+    *s = (struct file_cache){.most = most, .arena = arena_open(), .places = 64};
     s->table = ARENA_TAKE(s->arena, struct entry *, s->places);
     pthread_mutex_init(&s->lock, NULL);
     pthread_cond_init(&s->made, NULL);
     return s;
 }
 
-void shelf_close(struct shelf *s)
+void file_cache_close(struct file_cache *s)
 {
     if (!s) return;
     for (struct entry *x = s->entries; x; x = x->next)
@@ -64,20 +64,20 @@ static size_t hash_text(size_t h, const char *text)
     return (h ^ 0xff) * (size_t)0x100000001b3;
 }
 
-static const char *key_of(const struct shelf_ask *ask) { return ask->key ? ask->key : ""; }
+static const char *key_of(const struct file_cache_ask *ask) { return ask->key ? ask->key : ""; }
 
-static size_t hash_of(const struct shelf_ask *ask)
+static size_t hash_of(const struct file_cache_ask *ask)
 {
     size_t h = hash_text(hash_text(hash_text((size_t)0xcbf29ce484222325, ask->kind->name), ask->file), key_of(ask));
     return h ^ h >> 32;
 }
 
 /* Waits where another makes it. NULL: nobody has. */
-static const struct entry *find(struct shelf *s, const struct shelf_ask *ask, const struct stat *status)
+static const struct entry *find(struct file_cache *s, const struct file_cache_ask *ask, const struct stat *status)
 {
     size_t hash = hash_of(ask);
     for (struct entry *x = s->table[hash & (s->places - 1)]; x; x = x->other) {
-        if (x->hash != hash || x->kind != ask->kind || x->state == GONE || !watch_same(&x->status, status) ||
+        if (x->hash != hash || x->kind != ask->kind || x->state == FAILED || !watch_same(&x->status, status) ||
             strcmp(x->file, ask->file) != 0 || strcmp(x->key, key_of(ask)) != 0)
             continue;
         while (x->state == MAKING)
@@ -87,14 +87,14 @@ static const struct entry *find(struct shelf *s, const struct shelf_ask *ask, co
     return NULL;
 }
 
-static void lay(struct shelf *s, struct entry *x)
+static void lay(struct file_cache *s, struct entry *x)
 {
     struct entry **at = &s->table[x->hash & (s->places - 1)];
     x->other = *at;
     *at = x;
 }
 
-static void grow(struct shelf *s)
+static void grow(struct file_cache *s)
 {
     s->places *= 4;
     s->table = ARENA_TAKE(s->arena, struct entry *, s->places);
@@ -102,7 +102,7 @@ static void grow(struct shelf *s)
         lay(s, x);
 }
 
-static struct entry *enter(struct shelf *s, const struct shelf_ask *ask, const struct stat *status)
+static struct entry *enter(struct file_cache *s, const struct file_cache_ask *ask, const struct stat *status)
 {
     struct entry *x = ARENA_TAKE(s->arena, struct entry, 1);
     *x = (struct entry){.kind = ask->kind,
@@ -120,12 +120,12 @@ static struct entry *enter(struct shelf *s, const struct shelf_ask *ask, const s
     return x;
 }
 
-static const void *make(struct shelf *s, struct entry *x, const void *how, struct err *e)
+static const void *make(struct file_cache *s, struct entry *x, const void *how, struct err *e)
 {
     struct err own = {0};
     bool ok = x->kind->make(x->file, how, x->arena, x->thing, &own);
     pthread_mutex_lock(&s->lock);
-    x->state = ok ? THERE : GONE;
+    x->state = ok ? THERE : FAILED;
     s->bytes += x->arena ? arena_bytes(x->arena) : 0;
     pthread_cond_broadcast(&s->made);
     pthread_mutex_unlock(&s->lock);
@@ -133,7 +133,7 @@ static const void *make(struct shelf *s, struct entry *x, const void *how, struc
     return ok ? x->thing : NULL;
 }
 
-const void *shelf_take(struct shelf *s, const struct shelf_ask *ask, struct arena *a, struct err *e)
+const void *file_cache_take(struct file_cache *s, const struct file_cache_ask *ask, struct arena *a, struct err *e)
 {
     struct stat status;
     struct entry *mine = NULL;
@@ -149,7 +149,7 @@ const void *shelf_take(struct shelf *s, const struct shelf_ask *ask, struct aren
     return ask->kind->make(ask->file, ask->how, a, thing, e) ? thing : NULL;
 }
 
-const char *shelf_changed(struct shelf *s, struct arena *a)
+const char *file_cache_changed(struct file_cache *s, struct arena *a)
 {
     const char *file = NULL;
     pthread_mutex_lock(&s->lock);
@@ -167,8 +167,8 @@ static bool make_sha256(const char *file, const void *how, struct arena *a, void
     return hash_file(file, thing, e);
 }
 
-const char *shelf_sha256(struct shelf *s, const char *file, struct arena *a, struct err *e)
+const char *file_cache_sha256(struct file_cache *s, const char *file, struct arena *a, struct err *e)
 {
-    static const struct shelf_kind sha256 = {"sha256", HASH_TEXT, make_sha256, true};
-    return shelf_take(s, &(struct shelf_ask){.kind = &sha256, .file = file}, a, e);
+    static const struct file_cache_kind sha256 = {"sha256", HASH_TEXT, make_sha256, true};
+    return file_cache_take(s, &(struct file_cache_ask){.kind = &sha256, .file = file}, a, e);
 }

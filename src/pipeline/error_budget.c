@@ -1,7 +1,7 @@
-/* See promise.h. The parts: rehearsals (promise.c), how the budget is shared out (promise.c); here the
+/* See error_budget.h. The parts: pilot runs (error_curve.h), how the budget is shared out; here the
    plans, and what is told. Nothing here reads a clock but for the report: the same scene is given the same knobs
    everywhere. */
-#include "pipeline/promise.h"
+#include "pipeline/error_budget.h"
 
 #include <math.h>
 #include <string.h>
@@ -9,8 +9,8 @@
 #include "base/stopwatch.h"
 #include "convolution/ring_choice.h"
 #include "num/real.h"
+#include "pipeline/error_curve.h"
 #include "pipeline/inputs.h"
-#include "pipeline/promise_curve.h"
 #include "pipeline/render.h"
 #include "pipeline/run.h"
 #include "pipeline/segments.h"
@@ -18,77 +18,74 @@
 #include "scene/accuracy.h"
 #include "scene/keys.h"
 
-struct promise_making {
+struct budgeting {
     const struct scene *asked;
-    struct scene *kept;
+    struct scene *chosen;
     struct arena *arena;
-    struct promise *to;
+    struct error_budget *to;
     double whole; /* relative rms: asked, less the margin */
     struct render_parts parts;
     unsigned used;             /* set of knobs                         */
     struct segments *segments; /* [n_contacts] */
-    double **force[2];         /* [n_contacts] of the last rehearsal and, [1], the one before */
-    double **first;            /* [n_contacts] of the rehearsal with every knob at `draft`, once it has been */
+    double **force[2];         /* [n_contacts] of the last pilot run and, [1], the one before */
+    double **first;            /* [n_contacts] of the pilot run with every knob at `draft`, once it has been */
     bool began;                /* it has                               */
     bool sounds;               /* some contact sounds; else forces are promised about */
-    struct promise_curve curves[KNOBS];
+    struct error_curve curves[KNOBS];
 };
 
 /* Does the scene itself give the knob? */
-static inline bool promise_said(const struct promise_making *m, int knob)
-{
-    return m->asked->accuracy.said & 1u << knob;
-}
+static inline bool is_users(const struct budgeting *m, int knob) { return m->asked->accuracy.by_user & 1u << knob; }
 
-/* Does it turn the scene, so that its error is rehearsed? */
-static inline bool promise_used(const struct promise_making *m, int knob) { return m->used & 1u << knob; }
+/* Does it turn the scene, so that its error is piloted? */
+static inline bool budget_used(const struct budgeting *m, int knob) { return m->used & 1u << knob; }
 
 /* ------------------------------------------------------------------ pilot runs */
 
-/* Rehearsals: what a knob's error is along the scene's own motion. That of each knob has all others at `draft`, those
+/* Pilot runs: what a knob's error is along the scene's own motion. That of each knob has all others at `draft`, those
    that the scene says as it says them: so the first one, where a knob is at `draft` itself, is the same for all, and is
    run once.
 
    A coupled ball's steps are contact_steps in a contact or `oversampling` in a sample, whichever are more. So its
-   oversampling is rehearsed with contact_steps two doublings finer than these were rehearsed themselves: else its error
+   oversampling is piloted with contact_steps two doublings finer than these were piloted themselves: else its error
    would be that of the steps.
 
-   What it costs. Values double, so that all rehearsals of a knob cost about twice the last, which is at most two
-   doublings coarser than what is chosen. Where an error cannot be kept, curves that are not settled (promise_curve.h)
-   are rehearsed anew until they are: up to 64 times the first value, of contact_steps perhaps more. Measured, refusals
+   What it costs. Values double, so that all pilot runs of a knob cost about twice the last, which is at most two
+   doublings coarser than what is chosen. Where an error cannot be kept, curves that are not settled (error_curve.h)
+   are piloted anew until they are: up to 64 times the first value, of contact_steps perhaps more. Measured, refusals
    of shipped scenes: 1.2 s (circle, basswood_scrape), 9 s (roll_coupled), 11 s (round_tip, most of it tip_heights).
    What is told as the best is so the same whatever was asked.
 
-   A ramp of gains is rehearsed up to the sound, over the whole motion, two values side by side: what it misses lies at
+   A ramp of gains is piloted up to the sound, over the whole motion, two values side by side: what it misses lies at
    kinks, and grows with what rings.
 
-   What comes in its order is rehearsed in its beginning only. A coupled ball's error grows with time, as its place
-   drifts, up to linearly: measured over 10 times what is rehearsed, by 16 dB. So much is added, in proportion to the
+   What comes in its order is piloted in its beginning only. A coupled ball's error grows with time, as its place
+   drifts, up to linearly: measured over 10 times what is piloted, by 16 dB. So much is added, in proportion to the
    time (segments.h: drift). */
 
 #define FIRST 0.5    /* s of what comes in its order, to begin with */
 #define LONGEST 60.0 /* s of what rings */
 
-static bool coupled(const struct promise_making *m)
+static bool coupled(const struct budgeting *m)
 {
     for (int i = 0; i < m->asked->n_contacts; i++)
         if (m->asked->contacts[i].contact.model == CONTACT_ROLL_COUPLED) return true;
     return false;
 }
 
-static bool heard(const struct promise_making *m, int contact)
+static bool is_audible(const struct budgeting *m, int contact)
 {
     unsigned targets = m->parts.parts[contact].plan.targets;
     return m->sounds ? targets & ITEM_BIT(ITEM_SOUND) : targets != 0;
 }
 
-static bool make_segments(struct promise_making *m, double first, struct err *e)
+static bool make_segments(struct budgeting *m, double first, struct err *e)
 {
-    for (int i = 0; i < m->kept->n_contacts; i++) {
+    for (int i = 0; i < m->chosen->n_contacts; i++) {
         const struct contact *c = m->parts.parts[i].plan.contact;
         bool moves = c && c->surface.response.choice && c->surface.response.choice->moves;
-        if (!heard(m, i)) continue;
-        if (!segments_make(m->kept, c, first, moves, m->arena, &m->segments[i], e)) return false;
+        if (!is_audible(m, i)) continue;
+        if (!segments_make(m->chosen, c, first, moves, m->arena, &m->segments[i], e)) return false;
         for (int k = 0; k < 2; k++)
             m->force[k][i] = ARENA_TAKE(m->arena, double, m->segments[i].frames);
         m->first[i] = ARENA_TAKE(m->arena, double, m->segments[i].frames);
@@ -98,22 +95,22 @@ static bool make_segments(struct promise_making *m, double first, struct err *e)
 }
 
 /* Does every contact take the knob at that value? Else *e says which does not, and why. */
-static bool can(struct promise_making *m, int knob, double value, struct err *e)
+static bool can(struct budgeting *m, int knob, double value, struct err *e)
 {
-    struct accuracy set = m->kept->accuracy;
+    struct accuracy set = m->chosen->accuracy;
     bool ok = true;
     accuracy_turn(&set, (enum knob)knob, value);
-    for (int i = 0; ok && i < m->kept->n_contacts; i++)
-        ok = !heard(m, i) || segments_can(&m->segments[i], &set, e);
+    for (int i = 0; ok && i < m->chosen->n_contacts; i++)
+        ok = !is_audible(m, i) || segments_can(&m->segments[i], &set, e);
     return ok;
 }
 
 /* The finest whole value that can be had, of one that can and one, finer, that the table allows. */
-static double finest(struct promise_making *m, int knob, double had, double end)
+static double finest(struct budgeting *m, int knob, double had, double end)
 {
     struct err refused = {0};
     if (can(m, knob, end, &refused) || refused.kind != ERR_SCENE)
-        return end; /* what else is wrong a rehearsal will tell */
+        return end; /* what else is wrong a pilot run will tell */
     for (double not = end; fabs(not -had) > 1;) {
         double middle = floor((had + not ) / 2);
         refused = (struct err){0};
@@ -122,23 +119,23 @@ static double finest(struct promise_making *m, int knob, double had, double end)
     return had;
 }
 
-static bool rehearse_at(struct promise_making *m, int knob, double value, struct err *e)
+static bool pilot_at(struct budgeting *m, int knob, double value, struct err *e)
 {
-    struct accuracy set = m->kept->accuracy;
+    struct accuracy set = m->chosen->accuracy;
     bool first = accuracy_knob(&set, (enum knob)knob) == value;
     accuracy_turn(&set, (enum knob)knob, value);
-    if (knob == KNOB_oversampling && m->curves[KNOB_contact_steps].n > 0 && !promise_said(m, KNOB_contact_steps)) {
-        const struct promise_curve *steps = &m->curves[KNOB_contact_steps];
+    if (knob == KNOB_oversampling && m->curves[KNOB_contact_steps].n > 0 && !is_users(m, KNOB_contact_steps)) {
+        const struct error_curve *steps = &m->curves[KNOB_contact_steps];
         accuracy_turn(&set, KNOB_contact_steps,
-                      promise_curve_value(steps, steps->n + 2) < steps->end ? promise_curve_value(steps, steps->n + 2)
-                                                                            : steps->end);
+                      error_curve_value(steps, steps->n + 2) < steps->end ? error_curve_value(steps, steps->n + 2)
+                                                                          : steps->end);
         first = false;
     }
-    for (int i = 0; i < m->kept->n_contacts; i++) {
+    for (int i = 0; i < m->chosen->n_contacts; i++) {
         double *older = m->force[1][i];
         m->force[1][i] = m->force[0][i];
         m->force[0][i] = older;
-        if (!heard(m, i)) continue;
+        if (!is_audible(m, i)) continue;
         if (first && m->began)
             memcpy(m->force[0][i], m->first[i], (size_t)m->segments[i].frames * sizeof(double));
         else if (!segments_run(&m->segments[i], &set, m->force[0][i], e))
@@ -149,42 +146,42 @@ static bool rehearse_at(struct promise_making *m, int knob, double value, struct
     return true;
 }
 
-/* Of the last rehearsal, or ([1]) of what is in the place of the one before: their difference. */
-static double energy(const struct promise_making *m, bool difference)
+/* Of the last pilot run, or ([1]) of what is in the place of the one before: their difference. */
+static double energy(const struct budgeting *m, bool difference)
 {
     double sum = 0;
-    for (int i = 0; i < m->kept->n_contacts; i++) {
+    for (int i = 0; i < m->chosen->n_contacts; i++) {
         double drift = difference ? m->segments[i].drift : 1;
-        sum += heard(m, i) ? drift * drift * segments_energy(&m->segments[i], m->force[difference][i]) : 0;
+        sum += is_audible(m, i) ? drift * drift * segments_energy(&m->segments[i], m->force[difference][i]) : 0;
     }
     return sum;
 }
 
-static void subtract(struct promise_making *m)
+static void subtract(struct budgeting *m)
 {
-    for (int i = 0; i < m->kept->n_contacts; i++)
-        for (long n = 0; heard(m, i) && n < m->segments[i].frames; n++)
+    for (int i = 0; i < m->chosen->n_contacts; i++)
+        for (long n = 0; is_audible(m, i) && n < m->segments[i].frames; n++)
             m->force[1][i][n] -= m->force[0][i][n];
 }
 
 /* What comes in its order may begin with silence: longer beginnings, until something is heard. */
-static bool begin_rehearsal(struct promise_making *m, int knob, double value, struct err *e)
+static bool begin_pilot(struct budgeting *m, int knob, double value, struct err *e)
 {
     long before = -1, frames = 0;
     for (double first = FIRST; frames != before; first *= 4) {
         before = frames;
         frames = 0;
-        if ((first > FIRST && !make_segments(m, first, e)) || !rehearse_at(m, knob, value, e)) return false;
+        if ((first > FIRST && !make_segments(m, first, e)) || !pilot_at(m, knob, value, e)) return false;
         if (energy(m, false) > 0) break;
-        for (int i = 0; i < m->kept->n_contacts; i++)
-            frames += heard(m, i) ? m->segments[i].frames : 0;
+        for (int i = 0; i < m->chosen->n_contacts; i++)
+            frames += is_audible(m, i) ? m->segments[i].frames : 0;
     }
     return true;
 }
 
 /* Adds the energies of a contact's sound at the second of two ramps and of its difference from the first, until 40 dB
  * after the motion's end. */
-static bool compare_ramps(const struct promise_making *m, int contact, const double ramp[2], double *all, double *apart,
+static bool compare_ramps(const struct budgeting *m, int contact, const double ramp[2], double *all, double *distance,
                           struct err *e)
 {
     struct contact own = *m->parts.parts[contact].plan.contact;
@@ -195,7 +192,7 @@ static bool compare_ramps(const struct promise_making *m, int contact, const dou
     int open = 0;
     bool ok = true;
     for (int k = 0; k < 2; k++) {
-        set[k] = *m->kept;
+        set[k] = *m->chosen;
         set[k].contacts = &own;
         set[k].n_contacts = 1;
         set[k].output.stems = NULL;
@@ -213,7 +210,7 @@ static bool compare_ramps(const struct promise_making *m, int contact, const dou
                      *y = ok ? board_at(&r[1].board, ITEM_SOUND, from) : NULL;
         for (long i = 0; ok && i < (to - from) * r[0].board.channels; i++) {
             *all += y[i] * y[i];
-            *apart += (x[i] - y[i]) * (x[i] - y[i]);
+            *distance += (x[i] - y[i]) * (x[i] - y[i]);
         }
     }
     for (int k = 0; k < open; k++)
@@ -222,46 +219,46 @@ static bool compare_ramps(const struct promise_making *m, int contact, const dou
     return ok;
 }
 
-static bool rehearse_ramp(struct promise_making *m, struct promise_curve *c, struct err *e)
+static bool pilot_ramp(struct budgeting *m, struct error_curve *c, struct err *e)
 {
-    double ramp[2] = {promise_curve_value(c, c->n), promise_curve_value(c, c->n + 1)}, all = 0, apart = 0;
-    for (int i = 0; i < m->kept->n_contacts; i++)
-        if (heard(m, i) && !compare_ramps(m, i, ramp, &all, &apart, e)) return false;
-    c->apart[c->n++] = all > 0 ? sqrt(apart / all) : 0;
+    double ramp[2] = {error_curve_value(c, c->n), error_curve_value(c, c->n + 1)}, all = 0, distance = 0;
+    for (int i = 0; i < m->chosen->n_contacts; i++)
+        if (is_audible(m, i) && !compare_ramps(m, i, ramp, &all, &distance, e)) return false;
+    c->distance[c->n++] = all > 0 ? sqrt(distance / all) : 0;
     return true;
 }
 
-static bool rehearse_knob(struct promise_making *m, int knob, double error, struct err *e)
+static bool pilot_knob(struct budgeting *m, int knob, double error, struct err *e)
 {
     const struct key_knob *k = &keys_knobs[knob];
-    struct promise_curve *c = &m->curves[knob];
-    bool down = k->scale == KEY_SAMPLES, fixed = promise_said(m, knob);
+    struct error_curve *c = &m->curves[knob];
+    bool down = k->scale == KEY_SAMPLES, fixed = is_users(m, knob);
     double low = fixed ? accuracy_knob(&m->asked->accuracy, (enum knob)knob) : k->preset[0],
            end = finest(m, knob, low, down ? k->low : k->high);
     if (fixed && (down ? low < 2 * end : low > end / 2)) low = floor(down ? 2 * end : end / 2);
-    *c = (struct promise_curve){.order = k->order, .low = low, .down = down, .end = end};
+    *c = (struct error_curve){.order = k->order, .low = low, .down = down, .end = end};
     if (knob == KNOB_gain_ramp && !coupled(m)) {
-        while (!promise_curve_enough(c, error) && !(fixed && c->n == 2))
-            if (!rehearse_ramp(m, c, e)) return false;
+        while (!error_curve_enough(c, error) && !(fixed && c->n == 2))
+            if (!pilot_ramp(m, c, e)) return false;
         return true;
     }
-    if (!begin_rehearsal(m, knob, low, e)) return false;
-    while (!promise_curve_enough(c, error) && !(fixed && c->n == 2)) {
-        if (!rehearse_at(m, knob, promise_curve_value(c, c->n + 1), e)) return false;
+    if (!begin_pilot(m, knob, low, e)) return false;
+    while (!error_curve_enough(c, error) && !(fixed && c->n == 2)) {
+        if (!pilot_at(m, knob, error_curve_value(c, c->n + 1), e)) return false;
         double all = energy(m, false);
         subtract(m);
-        c->apart[c->n++] = all > 0 ? sqrt(energy(m, true) / all) : 0;
+        c->distance[c->n++] = all > 0 ? sqrt(energy(m, true) / all) : 0;
     }
     return true;
 }
 
 /* True, with an error: a coupled ball bounces or, where the promise cannot be kept anyway (failed), leaves the surface.
  */
-static bool promise_rehearse_chaos(const struct promise_making *m, bool failed, struct err *e)
+static bool run_chaos_pilot(const struct budgeting *m, bool failed, struct err *e)
 {
-    for (int i = 0; i < m->kept->n_contacts; i++) {
+    for (int i = 0; i < m->chosen->n_contacts; i++) {
         const struct segments *x = &m->segments[i];
-        if (!heard(m, i) || x->contact.contact.model != CONTACT_ROLL_COUPLED ||
+        if (!is_audible(m, i) || x->contact.contact.model != CONTACT_ROLL_COUPLED ||
             (failed ? x->lift_offs : x->bounces) == 0)
             continue;
         err_about(e, NULL, "accuracy.error");
@@ -270,32 +267,31 @@ static bool promise_rehearse_chaos(const struct promise_making *m, bool failed, 
                 "%ld times in its first %.3g s, and each time "
                 "whatever two renders differ by grows, until they follow each other no more; take accuracy.error out, "
                 "choose a preset, and compare statistics (rasp accuracy)",
-                m->kept->contacts[i].name, x->lift_offs, (double)x->frames / m->kept->output.sample_rate);
+                m->chosen->contacts[i].name, x->lift_offs, (double)x->frames / m->chosen->output.sample_rate);
         return true;
     }
     return false;
 }
 
-static bool prepare(struct promise_making *m, struct err *e)
+static bool prepare(struct budgeting *m, struct err *e)
 {
-    m->segments = ARENA_TAKE(m->arena, struct segments, m->kept->n_contacts);
+    m->segments = ARENA_TAKE(m->arena, struct segments, m->chosen->n_contacts);
     for (int k = 0; k < 2; k++)
-        m->force[k] = ARENA_TAKE(m->arena, double *, m->kept->n_contacts);
-    m->first = ARENA_TAKE(m->arena, double *, m->kept->n_contacts);
+        m->force[k] = ARENA_TAKE(m->arena, double *, m->chosen->n_contacts);
+    m->first = ARENA_TAKE(m->arena, double *, m->chosen->n_contacts);
     return make_segments(m, FIRST, e);
 }
 
-/* The curves of all knobs whose errors are rehearsed, each until it tells which value has at most that error; 0: until
+/* The curves of all knobs whose errors are piloted, each until it tells which value has at most that error; 0: until
    all of them are settled. ERR_SCENE: of a ball that bounces; else those of stages. */
-static bool promise_rehearse(struct promise_making *m, double error, struct err *e)
+static bool run_pilot(struct budgeting *m, double error, struct err *e)
 {
     static const int first = KNOB_contact_steps; /* oversampling asks for it */
     if (!m->segments && !prepare(m, e)) return false;
     for (int i = -1; i < KNOBS; i++) {
         int k = i < 0 ? first : i;
-        bool known = promise_curve_settled(&m->curves[k]) && !(k == KNOB_oversampling && coupled(m));
-        if (i != first && !known && promise_used(m, k) &&
-            (!rehearse_knob(m, k, error, e) || promise_rehearse_chaos(m, false, e)))
+        bool known = error_curve_converged(&m->curves[k]) && !(k == KNOB_oversampling && coupled(m));
+        if (i != first && !known && budget_used(m, k) && (!pilot_knob(m, k, error, e) || run_chaos_pilot(m, false, e)))
             return false;
     }
     return true;
@@ -315,9 +311,9 @@ struct sources { /* what is free to be chosen */
 };
 
 /* The plans' predicted work. */
-static double cost_of(const struct promise_making *m, const struct accuracy *set)
+static double cost_of(const struct budgeting *m, const struct accuracy *set)
 {
-    struct scene s = *m->kept;
+    struct scene s = *m->chosen;
     double all = 0;
     s.accuracy = *set;
     for (int i = 0; i < s.n_contacts; i++) {
@@ -329,24 +325,24 @@ static double cost_of(const struct promise_making *m, const struct accuracy *set
 }
 
 /* Sets the knobs for shares of what is left; false: one has no such value. */
-static bool take(const struct promise_making *m, const struct sources *s, const int *tenths, struct accuracy *set,
+static bool take(const struct budgeting *m, const struct sources *s, const int *tenths, struct accuracy *set,
                  double *spent)
 {
     *spent = 0;
     for (int i = 0; i < s->n; i++) {
         double square = s->left * tenths[i] / TENTHS;
-        double value = promise_curve_least(&m->curves[s->knob[i]], m->whole * sqrt(square));
+        double value = error_curve_least(&m->curves[s->knob[i]], m->whole * sqrt(square));
         if (isnan(value)) return false;
-        double error = promise_curve_error(&m->curves[s->knob[i]], value) / m->whole;
+        double error = error_curve_error(&m->curves[s->knob[i]], value) / m->whole;
         *spent += error * error;
         accuracy_turn(set, (enum knob)s->knob[i], value);
     }
     return true;
 }
 
-static void try_shares(const struct promise_making *m, struct sources *s)
+static void try_shares(const struct budgeting *m, struct sources *s)
 {
-    struct accuracy set = m->kept->accuracy;
+    struct accuracy set = m->chosen->accuracy;
     double spent;
     if (!take(m, s, s->tenths, &set, &spent)) return;
     double cost = cost_of(m, &set);
@@ -357,7 +353,7 @@ static void try_shares(const struct promise_making *m, struct sources *s)
 }
 
 /* All ways to share out what is left among the sources from i on, a tenth at least to each. */
-static void share(const struct promise_making *m, struct sources *s, int i, int left)
+static void share(const struct budgeting *m, struct sources *s, int i, int left)
 {
     if (i == s->n - 1) {
         s->tenths[i] = left;
@@ -365,32 +361,32 @@ static void share(const struct promise_making *m, struct sources *s, int i, int 
         return;
     }
     for (s->tenths[i] = 1; s->tenths[i] <= left - (s->n - 1 - i); s->tenths[i]++) {
-        int kept = s->tenths[i];
-        share(m, s, i + 1, left - kept);
-        s->tenths[i] = kept;
+        int chosen = s->tenths[i];
+        share(m, s, i + 1, left - chosen);
+        s->tenths[i] = chosen;
     }
 }
 
 /* Of the budget's square, the share that knobs which are said leave. */
-static double left_over(const struct promise_making *m)
+static double left_over(const struct budgeting *m)
 {
     double left = 1;
     for (int k = 0; k < KNOBS; k++)
-        if (promise_used(m, k) && promise_said(m, k)) {
+        if (budget_used(m, k) && is_users(m, k)) {
             double error =
-                promise_curve_error(&m->curves[k], accuracy_knob(&m->asked->accuracy, (enum knob)k)) / m->whole;
+                error_curve_error(&m->curves[k], accuracy_knob(&m->asked->accuracy, (enum knob)k)) / m->whole;
             left -= error * error;
         }
     return left;
 }
 
 /* Every knob as fine as helps, however the budget is then shared. */
-static bool take_best(const struct promise_making *m, const struct sources *s, struct accuracy *set, double *spent)
+static bool take_best(const struct budgeting *m, const struct sources *s, struct accuracy *set, double *spent)
 {
     *spent = 0;
     for (int i = 0; i < s->n; i++) {
-        const struct promise_curve *c = &m->curves[s->knob[i]];
-        double value = promise_curve_best(c), error = promise_curve_error(c, value) / m->whole;
+        const struct error_curve *c = &m->curves[s->knob[i]];
+        double value = error_curve_best(c), error = error_curve_error(c, value) / m->whole;
         *spent += error * error;
         accuracy_turn(set, (enum knob)s->knob[i], value);
     }
@@ -398,18 +394,18 @@ static bool take_best(const struct promise_making *m, const struct sources *s, s
 }
 
 /* Sets the knobs that the scene leaves open. False: there are no such values. */
-static bool promise_share(struct promise_making *m)
+static bool share_budget(struct budgeting *m)
 {
     struct sources s = {.cost = HUGE_VAL, .left = left_over(m)};
     double spent = 0;
     for (int k = 0; k < KNOBS; k++)
-        if (!promise_said(m, k) && promise_used(m, k) && s.n < SOURCES) s.knob[s.n++] = k;
+        if (!is_users(m, k) && budget_used(m, k) && s.n < SOURCES) s.knob[s.n++] = k;
     if (s.n == 0) /* nothing is free: the margin is no matter */
-        return s.left >= 1 - real_exp10(PROMISE_MARGIN / 10);
+        return s.left >= 1 - real_exp10(ERROR_BUDGET_MARGIN / 10);
     if (s.left > 0) share(m, &s, 0, TENTHS);
-    struct accuracy set = m->kept->accuracy;
+    struct accuracy set = m->chosen->accuracy;
     if (!(isfinite(s.cost) ? take(m, &s, s.best, &set, &spent) : take_best(m, &s, &set, &spent))) return false;
-    m->kept->accuracy = set;
+    m->chosen->accuracy = set;
     return true;
 }
 
@@ -419,50 +415,50 @@ static double amplitude(double db) { return real_exp10(db / 20); }
 
 /* ------------------------------------------------------------------ plans */
 
-static bool plan(struct promise_making *m, struct err *e)
+static bool plan(struct budgeting *m, struct err *e)
 {
-    m->parts = render_parts_make(m->kept, "", m->arena);
+    m->parts = render_parts_make(m->chosen, "", m->arena);
     if (!render_parts_plan(&m->parts, e)) return false;
     m->sounds = m->parts.asked & ITEM_BIT(ITEM_SOUND);
-    for (int i = 0; i < m->kept->n_contacts; i++)
+    for (int i = 0; i < m->chosen->n_contacts; i++)
         m->used |= plan_knobs(&m->parts.parts[i].plan);
     return true;
 }
 
-static void begin_cheaply(struct promise_making *m)
+static void begin_cheaply(struct budgeting *m)
 {
     for (int k = 0; k < KNOBS; k++)
-        if (!promise_said(m, k)) accuracy_turn(&m->kept->accuracy, (enum knob)k, keys_knobs[k].preset[0]);
+        if (!is_users(m, k)) accuracy_turn(&m->chosen->accuracy, (enum knob)k, keys_knobs[k].preset[0]);
 }
 
 /* ------------------------------------------------------------------ telling */
 
-static void part_add(struct promise *p, int knob, bool fixed, double value, double error)
+static void part_add(struct error_budget *p, int knob, bool fixed, double value, double error)
 {
-    if (error > 0) p->parts[p->n++] = (struct promise_part){(enum knob)knob, fixed, value, error};
+    if (error > 0) p->parts[p->n++] = (struct error_budget_part){(enum knob)knob, fixed, value, error};
 }
 
-static void tell_parts(struct promise_making *m)
+static void parts_text(struct budgeting *m)
 {
-    struct promise *p = m->to;
+    struct error_budget *p = m->to;
     double sum = 0;
     p->n = 0;
     for (int k = 0; k < KNOBS; k++) {
-        double value = accuracy_knob(&m->kept->accuracy, (enum knob)k);
-        if (promise_used(m, k)) part_add(p, k, promise_said(m, k), value, promise_curve_error(&m->curves[k], value));
+        double value = accuracy_knob(&m->chosen->accuracy, (enum knob)k);
+        if (budget_used(m, k)) part_add(p, k, is_users(m, k), value, error_curve_error(&m->curves[k], value));
     }
     for (int i = 0; i < p->n; i++)
         sum += p->parts[i].error * p->parts[i].error;
     p->predicted = sum > 0 ? decibel(sqrt(sum)) : -HUGE_VAL;
 }
 
-static const char *part_text(struct arena *a, const struct promise_part *p)
+static const char *part_text(struct arena *a, const struct error_budget_part *p)
 {
     return arena_format(a, "%s %.6g %.1f dB%s", keys_knobs[p->knob].name, p->value, decibel(p->error),
-                        p->said ? " (said)" : "");
+                        p->by_user ? " (said)" : "");
 }
 
-static const char *tell_text(struct arena *a, const struct promise *p)
+static const char *budget_text(struct arena *a, const struct error_budget *p)
 {
     const char *text = arena_format(a, "accuracy: %.6g dB asked, ", p->error);
     if (isnan(p->predicted)) return arena_format(a, "%severy knob is said: nothing is chosen or predicted", text);
@@ -474,20 +470,20 @@ static const char *tell_text(struct arena *a, const struct promise *p)
 }
 
 /* What is in the way, and what could be had: every free knob at its finest. */
-static bool refuse(struct promise_making *m, struct err *e)
+static bool refuse(struct budgeting *m, struct err *e)
 {
-    struct promise *p = m->to;
-    const struct promise_part *worst = p->parts;
-    if (promise_rehearse_chaos(m, true, e)) return false;
+    struct error_budget *p = m->to;
+    const struct error_budget_part *worst = p->parts;
+    if (run_chaos_pilot(m, true, e)) return false;
     for (int k = 0; k < KNOBS; k++)
-        if (promise_used(m, k) && !promise_said(m, k))
-            accuracy_turn(&m->kept->accuracy, (enum knob)k, promise_curve_best(&m->curves[k]));
-    tell_parts(m);
+        if (budget_used(m, k) && !is_users(m, k))
+            accuracy_turn(&m->chosen->accuracy, (enum knob)k, error_curve_best(&m->curves[k]));
+    parts_text(m);
     for (int i = 0; i < p->n; i++)
         worst = p->parts[i].error > worst->error ? &p->parts[i] : worst;
-    double best = ceil(p->predicted + PROMISE_MARGIN);
+    double best = ceil(p->predicted + ERROR_BUDGET_MARGIN);
     err_about(e, NULL, "accuracy.error");
-    if (worst->said)
+    if (worst->by_user)
         return err_set(e, ERR_SCENE,
                        "accuracy.error: %.6g dB cannot be promised: accuracy.%s is %.6g, which alone leaves %.1f dB; "
                        "take it out, or ask for %.0f dB at most",
@@ -500,46 +496,47 @@ static bool refuse(struct promise_making *m, struct err *e)
 
 /* ------------------------------------------------------------------ choosing */
 
-/* That an error cannot be kept is believed when all is rehearsed, and not before. */
-static bool choose(struct promise_making *m, struct err *e)
+/* That an error cannot be kept is believed when all is piloted, and not before. */
+static bool choose(struct budgeting *m, struct err *e)
 {
-    return promise_rehearse(m, m->whole, e) &&
-           (promise_share(m) || (promise_rehearse(m, 0, e) && (promise_share(m) || refuse(m, e))));
+    return run_pilot(m, m->whole, e) && (share_budget(m) || (run_pilot(m, 0, e) && (share_budget(m) || refuse(m, e))));
 }
 
 /* The engines are chosen: they need not be again. */
-static void keep_choices(struct promise_making *m)
+static void save_choices(struct budgeting *m)
 {
-    struct contact *c = ARENA_TAKE(m->arena, struct contact, m->kept->n_contacts);
-    for (int i = 0; i < m->kept->n_contacts; i++)
+    struct contact *c = ARENA_TAKE(m->arena, struct contact, m->chosen->n_contacts);
+    for (int i = 0; i < m->chosen->n_contacts; i++)
         c[i] = *m->parts.parts[i].plan.contact;
-    m->kept->contacts = c;
+    m->chosen->contacts = c;
 }
 
-static bool make(struct promise_making *m, struct err *e)
+static bool make(struct budgeting *m, struct err *e)
 {
     begin_cheaply(m);
     if (!plan(m, e) || !choose(m, e)) return false;
-    tell_parts(m);
-    keep_choices(m);
+    parts_text(m);
+    save_choices(m);
     return true;
 }
 
-bool promise_keep(const struct scene *asked, struct arena *a, struct scene *kept, struct promise *p, struct err *e)
+bool error_budget_apply(const struct scene *asked, struct arena *a, struct scene *chosen, struct error_budget *p,
+                        struct err *e)
 {
-    struct promise own;
-    struct promise_making m = {.asked = asked,
-                               .kept = kept,
-                               .arena = a,
-                               .to = p ? p : &own,
-                               .whole = amplitude(asked->accuracy.error - PROMISE_MARGIN)};
+    struct error_budget own;
+    struct budgeting m = {.asked = asked,
+                          .chosen = chosen,
+                          .arena = a,
+                          .to = p ? p : &own,
+                          .whole = amplitude(asked->accuracy.error - ERROR_BUDGET_MARGIN)};
     double start = stopwatch_cpu();
-    *kept = *asked;
-    *m.to = (struct promise){.asked = !isnan(asked->accuracy.error), .error = asked->accuracy.error, .predicted = NAN};
+    *chosen = *asked;
+    *m.to =
+        (struct error_budget){.asked = !isnan(asked->accuracy.error), .error = asked->accuracy.error, .predicted = NAN};
     if (!m.to->asked) return true;
-    m.to->chosen = asked->accuracy.said != (1u << KNOBS) - 1;
+    m.to->chosen = asked->accuracy.by_user != (1u << KNOBS) - 1;
     if (m.to->chosen && (!inputs_check(asked, a, e) || !make(&m, e))) return false;
-    m.to->text = tell_text(a, m.to);
+    m.to->text = budget_text(a, m.to);
     m.to->cpu = stopwatch_cpu() - start;
     return true;
 }

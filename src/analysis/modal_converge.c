@@ -19,7 +19,7 @@ static double distance(const struct modal_fit *f, int i, int k)
     return fabs(f->c[i].s.im - f->c[k].s.im) / (width_of(f, i) + width_of(f, k));
 }
 
-int modal_settle_near(const struct modal_fit *f, int i, int most, int *of)
+int modal_converge_near(const struct modal_fit *f, int i, int most, int *of)
 {
     double at[MODAL_BLOCK];
     int n = 0;
@@ -43,16 +43,16 @@ int modal_settle_near(const struct modal_fit *f, int i, int most, int *of)
     return n;
 }
 
-int modal_settle_open(struct modal_block *b, const struct modal_fit *f, int i, int most, struct arena *a)
+int modal_converge_open(struct modal_block *b, const struct modal_fit *f, int i, int most, struct arena *a)
 {
-    int of[MODAL_BLOCK], n = modal_settle_near(f, i, most, of), at = 0;
+    int of[MODAL_BLOCK], n = modal_converge_near(f, i, most, of), at = 0;
     modal_block_open(b, f, n, of, NULL, 0, NULL, a);
     while (b->of[at] != i)
         at++;
     return at;
 }
 
-double modal_settle_refine(struct modal_fit *f, int n, const int *of, int steps)
+double modal_converge_refine(struct modal_fit *f, int n, const int *of, int steps)
 {
     struct arena *a = arena_open();
     struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
@@ -99,7 +99,7 @@ static void order(struct modal_fit *f)
         }
 }
 
-void modal_settle_sweeps(struct modal_fit *f, int most, int rounds)
+void modal_converge_sweeps(struct modal_fit *f, int most, int rounds)
 {
     double left = HUGE_VAL;
     for (int k = 0; k < rounds && left > still; k++) {
@@ -107,24 +107,24 @@ void modal_settle_sweeps(struct modal_fit *f, int most, int rounds)
         order(f);
         for (int i = 0; i < f->m; i++)
             if (f->c[i].moved > still) {
-                int of[MODAL_BLOCK], n = modal_settle_near(f, i, most, of);
-                left = fmax(left, modal_settle_refine(f, n, of, 5));
+                int of[MODAL_BLOCK], n = modal_converge_near(f, i, most, of);
+                left = fmax(left, modal_converge_refine(f, n, of, 5));
             }
     }
 }
 
 /* ------------------------------------------------------------------ what a fit can do without */
 
-double modal_settle_limit(const struct modal_fit *f, double chi4)
+double modal_converge_limit(const struct modal_fit *f, double chi4)
 {
     return gsl_cdf_chisq_Qinv(real_exp(-0.5 * chi4) * (1.0 + 0.5 * chi4), 2.0 + 2.0 * f->data->groups);
 }
 
-double modal_settle_rise(struct modal_fit *f, int i)
+double modal_converge_rise(struct modal_fit *f, int i)
 {
     struct arena *a = arena_open();
     struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
-    int at = modal_settle_open(b, f, i, NEIGHBOURS, a);
+    int at = modal_converge_open(b, f, i, NEIGHBOURS, a);
     modal_block_gains(b);
     double chi = b->chi;
     modal_block_drop(b, at);
@@ -134,16 +134,16 @@ double modal_settle_rise(struct modal_fit *f, int i)
     return rise;
 }
 
-void modal_settle_drop(struct modal_fit *f, int i, int most)
+void modal_converge_drop(struct modal_fit *f, int i, int most)
 {
-    int of[MODAL_BLOCK], n = modal_settle_near(f, i, most, of), others = 0;
+    int of[MODAL_BLOCK], n = modal_converge_near(f, i, most, of), others = 0;
     for (int k = 0; k < n; k++)
         if (of[k] != i) of[others++] = of[k] - (of[k] > i);
     modal_fit_drop(f, i);
-    if (others) modal_settle_refine(f, others, of, 20);
+    if (others) modal_converge_refine(f, others, of, 20);
 }
 
-void modal_settle_eliminate(struct modal_fit *f, double limit)
+void modal_converge_eliminate(struct modal_fit *f, double limit)
 {
     struct arena *a = arena_open();
     double *rise = ARENA_TAKE(a, double, f->m + 1);
@@ -152,16 +152,16 @@ void modal_settle_eliminate(struct modal_fit *f, double limit)
     for (;;) {
         int least = -1, near[MODAL_BLOCK];
         for (int i = 0; i < f->m; i++) {
-            if (isnan(rise[i])) rise[i] = modal_settle_rise(f, i);
+            if (isnan(rise[i])) rise[i] = modal_converge_rise(f, i);
             if (least < 0 || rise[i] < rise[least] || (rise[i] == rise[least] && f->c[i].s.im < f->c[least].s.im))
                 least = i;
         }
         if (least < 0 || rise[least] >= limit) break;
-        int n = modal_settle_near(f, least, NEIGHBOURS + 1, near);
+        int n = modal_converge_near(f, least, NEIGHBOURS + 1, near);
         for (int i = 0; i < n; i++)
             rise[near[i]] = NAN;
         memmove(rise + least, rise + least + 1, (size_t)(f->m - least - 1) * sizeof *rise);
-        modal_settle_drop(f, least, NEIGHBOURS + 1);
+        modal_converge_drop(f, least, NEIGHBOURS + 1);
     }
     arena_close(a);
 }
@@ -188,7 +188,7 @@ static double loudness(const struct modal_fit *f, int i)
 }
 
 /* One after the other, the loudest first: without it what it cancelled with may be right. */
-int modal_settle_runaways(struct modal_fit *f)
+int modal_converge_runaways(struct modal_fit *f)
 {
     for (int dropped = 0;; dropped++) {
         double most = -1.0;
@@ -201,26 +201,26 @@ int modal_settle_runaways(struct modal_fit *f)
             }
         }
         if (loudest < 0) return dropped;
-        modal_settle_drop(f, loudest, NEIGHBOURS + 1);
+        modal_converge_drop(f, loudest, NEIGHBOURS + 1);
     }
 }
 
-void modal_settle(struct modal_fit *f)
+void modal_converge(struct modal_fit *f)
 {
-    double limit = modal_settle_limit(f, leave);
+    double limit = modal_converge_limit(f, leave);
     f->tolerance = 1e-4;
     for (int k = 0, m = -1; k < 4 && m != f->m; k++) {
         for (int i = 0; i < f->m; i++)
             f->c[i].moved = fmax(f->c[i].moved, 1.0);
         m = f->m;
         do /* at first once: many leave, and need not be converged before */
-            modal_settle_sweeps(f, 8, k ? ROUNDS : 1);
-        while (modal_settle_runaways(f));
+            modal_converge_sweeps(f, 8, k ? ROUNDS : 1);
+        while (modal_converge_runaways(f));
         modal_fit_rest(f);
         modal_fit_noise(f, 0.0);
-        modal_settle_eliminate(f, limit);
+        modal_converge_eliminate(f, limit);
     }
-    modal_settle_sweeps(f, 8, ROUNDS);
+    modal_converge_sweeps(f, 8, ROUNDS);
     modal_fit_rest(f);
     modal_fit_noise(f, 0.0);
 }

@@ -1,7 +1,7 @@
-/* promise_keep: what is chosen is the least that keeps the error by its own prediction; what is said stays; what is
+/* error_budget_apply: what is chosen is the least that keeps the error by its own prediction; what is said stays; what is
    chosen once is not chosen again; what cannot be kept is refused with the best that can be, which can be. That
    predictions hold is measured by cli/promise. */
-#include "pipeline/promise.h"
+#include "pipeline/error_budget.h"
 
 #include "rig.h"
 
@@ -15,12 +15,12 @@ static struct scene scene_of(double error, const char *more)
     return rig_scene(rig_arena(), arena_format(rig_arena(), SCENE, error, more));
 }
 
-static struct promise kept_of(double error, const char *more, struct scene *kept)
+static struct error_budget applied(double error, const char *more, struct scene *chosen)
 {
     struct scene s = scene_of(error, more);
-    struct promise p;
+    struct error_budget p;
     struct err e = {0};
-    ck_assert_msg(promise_keep(&s, rig_arena(), kept, &p, &e), "%g dB%s: %s", error, more, e.text);
+    ck_assert_msg(error_budget_apply(&s, rig_arena(), chosen, &p, &e), "%g dB%s: %s", error, more, e.text);
     return p;
 }
 
@@ -29,21 +29,21 @@ START_TEST(the_cheapest)
 {
     double before = 0;
     for (double error = -30; error >= -100; error -= 10) {
-        struct scene kept, coarser;
-        struct promise p = kept_of(error, "", &kept);
-        double over = kept.accuracy.oversampling;
-        ck_assert_double_le(p.predicted, error - PROMISE_MARGIN);
+        struct scene chosen, coarser;
+        struct error_budget p = applied(error, "", &chosen);
+        double over = chosen.accuracy.oversampling;
+        ck_assert_double_le(p.predicted, error - ERROR_BUDGET_MARGIN);
         ck_assert_int_eq(p.n, 1);
         ck_assert_int_eq(p.parts[0].knob, KNOB_oversampling);
         ck_assert_double_ge(over, before);
         before = over;
         if (over == 1) continue;
         struct err e = {0};
-        coarser =
-            scene_of(error - PROMISE_MARGIN, arena_format(rig_arena(), ", oversampling: %g",
-                                                          floor(over / 2))); /* nothing is free: no margin is kept */
-        ck_assert_msg(!promise_keep(&coarser, rig_arena(), &kept, NULL, &e), "at %g dB %g would do as well as %g",
-                      error, floor(over / 2), over);
+        coarser = scene_of(
+            error - ERROR_BUDGET_MARGIN,
+            arena_format(rig_arena(), ", oversampling: %g", floor(over / 2))); /* nothing is free: no margin is kept */
+        ck_assert_msg(!error_budget_apply(&coarser, rig_arena(), &chosen, NULL, &e),
+                      "at %g dB %g would do as well as %g", error, floor(over / 2), over);
     }
     ck_assert_double_gt(before, 4);
 }
@@ -51,70 +51,70 @@ END_TEST
 
 START_TEST(what_is_said_stays)
 {
-    struct scene kept;
-    struct promise p = kept_of(-40, ", oversampling: 7, gain_ramp: 3", &kept);
-    ck_assert_double_eq(kept.accuracy.oversampling, 7);
-    ck_assert_double_eq(kept.accuracy.gain_ramp, 3);
-    ck_assert(p.parts[0].said && p.parts[0].value == 7);
+    struct scene chosen;
+    struct error_budget p = applied(-40, ", oversampling: 7, gain_ramp: 3", &chosen);
+    ck_assert_double_eq(chosen.accuracy.oversampling, 7);
+    ck_assert_double_eq(chosen.accuracy.gain_ramp, 3);
+    ck_assert(p.parts[0].by_user && p.parts[0].value == 7);
     struct scene plain =
         rig_scene(rig_arena(), "rasp: 1\nsurface: {roughness: {}}\nscraper: {mass: 1 g}\nmotion: {path: line, to: [1 "
                                "cm, 0], duration: 0.1 s}\noutput: {quantity: force}\naccuracy: high\n");
     struct err e = {0};
-    ck_assert(promise_keep(&plain, rig_arena(), &kept, &p, &e));
+    ck_assert(error_budget_apply(&plain, rig_arena(), &chosen, &p, &e));
     ck_assert(!p.asked && !p.chosen && p.text == NULL);
-    ck_assert_double_eq(kept.accuracy.oversampling, plain.accuracy.oversampling);
+    ck_assert_double_eq(chosen.accuracy.oversampling, plain.accuracy.oversampling);
 }
 END_TEST
 
 /* Its knobs all said, as the effective scene has them, it comes back as it is, and nothing is rehearsed. */
 START_TEST(chosen_once)
 {
-    struct scene kept, again;
-    struct promise p;
+    struct scene chosen, again;
+    struct error_budget p;
     struct err e = {0};
-    kept_of(-70, "", &kept);
-    kept.accuracy.said = (1u << KNOBS) - 1;
-    ck_assert(promise_keep(&kept, rig_arena(), &again, &p, &e));
+    applied(-70, "", &chosen);
+    chosen.accuracy.by_user = (1u << KNOBS) - 1;
+    ck_assert(error_budget_apply(&chosen, rig_arena(), &again, &p, &e));
     ck_assert(p.asked && !p.chosen && isnan(p.predicted));
-    ck_assert_mem_eq(&again.accuracy, &kept.accuracy, sizeof kept.accuracy);
+    ck_assert_mem_eq(&again.accuracy, &chosen.accuracy, sizeof chosen.accuracy);
 }
 END_TEST
 
 START_TEST(the_best_is_told)
 {
-    struct scene s = scene_of(-200, ""), kept;
+    struct scene s = scene_of(-200, ""), chosen;
     struct err e = {0};
     double best;
-    ck_assert(!promise_keep(&s, rig_arena(), &kept, NULL, &e));
+    ck_assert(!error_budget_apply(&s, rig_arena(), &chosen, NULL, &e));
     ck_assert_int_eq(e.kind, ERR_SCENE);
     const char *says = strstr(e.text, "the best that can be promised here is ");
     ck_assert_msg(says && sscanf(says + 38, "%lf dB", &best) == 1, "%s", e.text);
     ck_assert_double_lt(best, -90);
-    kept_of(best, "", &kept);
+    applied(best, "", &chosen);
     struct err worse = {0};
     s = scene_of(best - 1.01, "");
-    ck_assert_msg(!promise_keep(&s, rig_arena(), &kept, NULL, &worse), "%g dB can be had, too", best - 1.01);
+    ck_assert_msg(!error_budget_apply(&s, rig_arena(), &chosen, NULL, &worse), "%g dB can be had, too", best - 1.01);
     struct err said = {0};
     s = scene_of(-80, ", oversampling: 1");
-    ck_assert(!promise_keep(&s, rig_arena(), &kept, NULL, &said));
+    ck_assert(!error_budget_apply(&s, rig_arena(), &chosen, NULL, &said));
     ck_assert_msg(strstr(said.text, "accuracy.oversampling is 1") != NULL, "%s", said.text);
 }
 END_TEST
 
-/* What is told as the best: of a scene whose last line gives the error. NAN: it is kept. */
+/* What is told as the best: of a scene whose last line gives the error. NAN: it is chosen. */
 static double best_of(const char *scene, double error)
 {
     struct scene s = rig_scene(rig_arena(), arena_format(rig_arena(), "%saccuracy: {error: %g dB}\n", scene, error)),
-                 kept;
+                 chosen;
     struct err e = {0};
     double best;
-    if (promise_keep(&s, rig_arena(), &kept, NULL, &e)) return NAN;
+    if (error_budget_apply(&s, rig_arena(), &chosen, NULL, &e)) return NAN;
     const char *says = strstr(e.text, "the best that can be promised here is ");
     ck_assert_msg(says && sscanf(says + 38, "%lf dB", &best) == 1, "%s", e.text);
     return best;
 }
 
-/* The best is that of the scene, whatever is asked, and is kept; a decibel more is not. The first differences of these
+/* The best is that of the scene, whatever is asked, and is chosen; a decibel more is not. The first differences of these
    scenes fall far more slowly than the later ones: the coupled ball's steps by 4 dB, then by 12 (by 12.0 and 0.2:
    oversampling within the steps), the circle's by 17, 11, 19. */
 START_TEST(the_best_is_the_same)
@@ -146,8 +146,8 @@ START_TEST(what_is_mute_has_a_force)
 {
     static const char rings[] = ", material: steel, object: {shape: bar, length: 20 cm, width: 3 cm, thickness: 2 mm}";
     for (double error = -40; error >= -90; error -= 25) {
-        struct scene kept, heard;
-        struct promise p = kept_of(error, "", &heard);
+        struct scene chosen, heard;
+        struct error_budget p = applied(error, "", &heard);
         for (int i = 0; i < 2; i++) {
             const char *text =
                 arena_format(rig_arena(),
@@ -156,10 +156,10 @@ START_TEST(what_is_mute_has_a_force)
                              "output: {%ssample_rate: 44100, diagnostics: {}}\naccuracy: {error: %g dB}\n",
                              i ? rings : "", i ? "" : "quantity: force, ", error);
             struct scene s = rig_scene(rig_arena(), text);
-            struct promise mute;
+            struct error_budget mute;
             struct err e = {0};
-            ck_assert_msg(promise_keep(&s, rig_arena(), &kept, &mute, &e), "%s", e.text);
-            ck_assert_double_eq(kept.accuracy.oversampling, heard.accuracy.oversampling);
+            ck_assert_msg(error_budget_apply(&s, rig_arena(), &chosen, &mute, &e), "%s", e.text);
+            ck_assert_double_eq(chosen.accuracy.oversampling, heard.accuracy.oversampling);
             ck_assert_double_eq(mute.predicted, p.predicted);
         }
     }

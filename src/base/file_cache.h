@@ -1,25 +1,25 @@
 /* What several renders read of the same files: each file is read by the first that asks, and what came of it stays for
    the others, who only look at it. Any number of threads may ask; who asks for what is being read waits. A file that
    has changed since (its size, its time, its place on the disk) is read anew. */
-#ifndef BASE_SHELF_H
-#define BASE_SHELF_H
+#ifndef BASE_FILE_CACHE_H
+#define BASE_FILE_CACHE_H
 #include <stdbool.h>
 #include <stddef.h>
 
 #include "base/arena.h"
 #include "base/err.h"
 
-struct shelf;
+struct file_cache;
 
-struct shelf_kind {
+struct file_cache_kind {
     const char *name; /* "mode table": of one file there may be several things */
     size_t size;      /* of the thing, a struct that `make` fills              */
     bool (*make)(const char *file, const void *how, struct arena *a, void *thing, struct err *e);
     bool small; /* there is room for it in any case; `make` gets no arena */
 };
 
-struct shelf_ask {
-    const struct shelf_kind *kind;
+struct file_cache_ask {
+    const struct file_cache_kind *kind;
     const char *file;
     const char *key; /* all that it depends on besides the file's content, as text; NULL: nothing */
     const void *how; /* the same, for make                                                       */
@@ -27,18 +27,18 @@ struct shelf_ask {
 
 /* Holds that many bytes, about: what is asked for beyond is read by everyone who asks, unless it is small. Hashes are
  * small: a file that had to be known by its hash is watched. */
-struct shelf *shelf_open(size_t most);
-void shelf_close(struct shelf *s);
+struct file_cache *file_cache_open(size_t most);
+void file_cache_close(struct file_cache *s);
 
 /* Not to be changed. s NULL: it is made in the arena, of which its life is then; else it lives as long as the
- * shorter-lived of shelf and arena. NULL: the error of make, which is not kept. */
-const void *shelf_take(struct shelf *s, const struct shelf_ask *ask, struct arena *a, struct err *e);
+ * shorter-lived of file cache and arena. NULL: the error of make, which is not kept. */
+const void *file_cache_take(struct file_cache *s, const struct file_cache_ask *ask, struct arena *a, struct err *e);
 
 /* A file, as seen from the current folder, that is no more what it was when it was read; NULL: all are (of those that
  * there was room for). */
-const char *shelf_changed(struct shelf *s, struct arena *a);
+const char *file_cache_changed(struct file_cache *s, struct arena *a);
 
 /* The file's sha256 as text. ERR_INPUT */
-const char *shelf_sha256(struct shelf *s, const char *file, struct arena *a, struct err *e);
+const char *file_cache_sha256(struct file_cache *s, const char *file, struct arena *a, struct err *e);
 
 #endif
