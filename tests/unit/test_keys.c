@@ -1,0 +1,58 @@
+/* scene/keys.def names keys by their paths; a path that names none would be taken for "always". */
+#include "unit.h"
+
+#include "scene/keys.h"
+
+static bool is_word(const struct key *k, const char *word, size_t n)
+{
+    for (const struct choice *c = k->choices; c && c->word; c++)
+        if (strlen(c->word) == n && !strncmp(c->word, word, n)) return true;
+    return false;
+}
+
+/* "key=word|word", "key" or "!key", as `applies` has it. */
+static void condition_good(const char *of, const struct key *k)
+{
+    if (!k->applies) return;
+    const struct key *decides = keys_decider(k);
+    ck_assert_msg(decides != NULL, "%s: '%s' names no key", of, k->applies);
+    for (const char *w = keys_words(k); w && *w; w += strcspn(w, "|"), w += *w == '|')
+        ck_assert_msg(is_word(decides, w, strcspn(w, "|")), "%s: '%s' is no word of %s", of, w, decides->path);
+    if (!keys_words(k))
+        ck_assert_msg(decides->type == KEY_FILE || decides->type == KEY_NUMBER, "%s: is %s given?", of, decides->path);
+}
+
+static bool is_path(const char *path)
+{
+    for (const struct key_section *s = keys_sections; s->path; s++)
+        if (!strcmp(s->path, path)) return true;
+    return keys_find(path) != NULL;
+}
+
+START_TEST(every_condition_names_a_key_and_its_words)
+{
+    for (const struct key *k = keys_table; k->path; k++)
+        condition_good(k->path, k);
+    for (const struct key_alternative *t = keys_alternatives; t->paths[0]; t++) {
+        struct key condition = keys_condition(t);
+        condition_good(t->paths[0], &condition);
+    }
+}
+END_TEST
+
+START_TEST(every_alternative_is_a_key_or_section)
+{
+    for (const struct key_alternative *t = keys_alternatives; t->paths[0]; t++)
+        for (int i = 0; t->paths[i]; i++)
+            ck_assert_msg(is_path(t->paths[i]), "'%s' is neither", t->paths[i]);
+}
+END_TEST
+
+START_TEST(no_path_is_there_twice)
+{
+    for (const struct key *k = keys_table; k->path; k++)
+        ck_assert_msg(keys_find(k->path) == k, "%s", k->path);
+}
+END_TEST
+
+UNIT("keys", every_condition_names_a_key_and_its_words, every_alternative_is_a_key_or_section, no_path_is_there_twice)
