@@ -152,7 +152,7 @@ rates() {
     echo
     echo 'Signal-to-noise ratio in dB, 20 Hz to 20 kHz at 44.1 kHz over 50 ms, against adaptive quadrature of the definition by a program that shares no'
     echo 'code with rasp (`evidence/force_judge.c`); mean over three self-affine profiles (Hurst exponent 0.8, rms 2 um, pitch 5.6 um), among'
-    echo 'which figures scatter by 0.5 dB. Asked: the figures to be reached, which plain means over sub-intervals give. Here means are weighted by hats,'
+    echo 'which figures scatter by 0.5 dB. Asked: the figures to be reached, which plain means over sub-intervals give. Here means are weighted by linear B-splines,'
     echo 'so that what lies beyond the sub-rate folds in with sinc squared: the error falls with the third power of the oversampling, or faster.'
     echo
     convergence
