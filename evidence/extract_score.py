@@ -115,6 +115,9 @@ class Recording:
             with open(name + ".json") as f:
                 found = components(json.load(f))
         gates_set(self.modes)
+        for m in self.modes:
+            m["clear"] = not any(o is not m and not o["resolvable"] and
+                                 2 * math.pi * abs(o["f"] - m["f"]) < 6 * (o["d"] + m["d"]) for o in self.modes)
         pairs = []
         for kind in (True, False):
             free = [c for c in found if not any(c is o for _, o in pairs)]
@@ -161,7 +164,7 @@ class Row:
     def __init__(self):
         self.files = self.failed = self.true = self.found = self.false = self.blends = 0
         self.resolvable, self.plain = [0, 0], [0, 0]
-        self.ratio, self.inside, self.cpu = {x: [] for x in KINDS}, {x: [] for x in KINDS}, []
+        self.ratio, self.inside, self.clear, self.cpu = *({x: [] for x in KINDS} for _ in range(3)), []
 
     def add(self, r):
         self.files += 1
@@ -180,18 +183,22 @@ class Row:
                 self.ratio[x].append(abs(c[x] - m[x]) / m["bound_" + x])
                 if c["se_" + x]:
                     self.inside[x].append(abs(c[x] - m[x]) < 1.96 * c["se_" + x])
+                    if m["clear"]:
+                        self.clear[x].append(self.inside[x][-1])
 
     def line(self, name):
         middle = lambda v: sorted(v)[len(v) // 2] if v else math.nan
         ratios = ", ".join(f"{1.4826 * middle(v):.2f}" for v in self.ratio.values())
-        inside = ", ".join(f"{100 * sum(v) / len(v):.1f}" if v else "-" for v in self.inside.values())
+        inside, clear = (", ".join(f"{100 * sum(v) / len(v):.1f}" if v else "-" for v in of.values())
+                         for of in (self.inside, self.clear))
         cells = [name, self.files, self.failed, self.true, self.found, f"{self.resolvable[1]} of {self.resolvable[0]}",
                  f"{self.plain[1]} of {self.plain[0]}", self.false, self.blends, ratios,
-                 f"{inside} ({len(self.inside['f'])})", f"{middle(self.cpu):.1f}, {max(self.cpu):.1f}"]
+                 f"{inside} ({len(self.inside['f'])})", f"{clear} ({len(self.clear['f'])})", f"{middle(self.cpu):.1f}, {max(self.cpu):.1f}"]
         return "| " + " | ".join(map(str, cells)) + " |"
 
 HEAD = ["set", "files", "exit code not 0", "true", "found", "resolvable, found", "of gain > 8 bounds", "false",
-        "blends", "error / bound: f, d, gain", "in 95 % intervals: f, d, gain (of)", "CPU s: median, most"]
+        "blends", "error / bound: f, d, gain", "in 95 % intervals: f, d, gain (of)",
+        "the same, clear", "CPU s: median, most"]
 
 def main(words):
     how = words.pop(0) if words[0] in ("--list", "--split") else None

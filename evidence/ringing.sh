@@ -74,7 +74,9 @@ more than 2; beside it those whose gain is more than 8. *False*: a component tha
 one that lies between two which overlap and are not both resolvable. *Error / bound*: median of the errors over the Cramer-Rao
 bounds of the resolvable modes that were found, times 1.4826; 1 is the least that an unbiased estimate can have.
 *In 95 % intervals*: how many of these errors are less than 1.96 of the standard errors that the report gives. Gains of
-E, whose level and onset nobody knows, are compared but for one factor and one time a recording. Wanted: all resolvable
+E, whose level and onset nobody knows, are compared but for one factor and one time a recording. *Clear*: of those that
+are farther than 6 sums of their half-widths from every mode that is not resolvable. Such a mode is in the recording all
+the same, and pulls at what overlaps it; no interval of a model that cannot hold it covers that. Wanted: all resolvable
 ones found, none false, 0.9 to 1.1, 95 %.
 
 MD
