@@ -96,6 +96,7 @@ struct impact_report {                        /* of a whole render; count 0: no 
     double longest;                           /* s, duration of the longest one                                       */
 };
 
+struct params;
 struct trajectory;
 struct load_law;
 struct limiter_law;
@@ -115,6 +116,8 @@ struct signal {
     long worked;          /* zeros from this frame on: nothing has been written there */
     double *x;
 };
+
+struct stage_run;
 
 struct board {
     double rate;  /* Hz, frames per second                       */
@@ -143,7 +146,9 @@ struct board {
     double energy[2]; /* quantity^2, summed over frames and channels: of the surface's sound and of the scraper's or
                          ball's, where both are heard */
     const char *warnings[16];
-    int n_warnings; /* may exceed the room: what is beyond is counted only */
+    int n_warnings;                 /* may exceed the room: what is beyond is counted only */
+    const struct stage_run *stages; /* of the contact, in their order */
+    int n_stages;
 };
 
 enum { STAGE_BLOCK = 1024 }; /* most frames of one call of run */
@@ -164,10 +169,22 @@ struct stage_run { /* one stage at work */
     long blocks;       /* calls of run                                */
 };
 
+enum { STAGE_WARNINGS = 4 };
+
+/* What a stage says of a whole render, in the summary and on the terminal; key NULL: nothing. Of two reports with one
+ * key the later counts. */
+struct stage_report {
+    const char *key;
+    struct json_t *value;                 /* under the key, of the contact; whoever asks drops it     */
+    const char *note;                     /* "in contact 98 % of the time"; NULL: none                */
+    const char *warnings[STAGE_WARNINGS]; /* without the contact's name; ends with NULL, unless it is full */
+};
+
 struct stage {
     const char *name, *does;
-    const char *paper; /* equations followed; "" if none                         */
-    const char *idle;  /* why a scene may not want it, for `rasp plan`           */
+    const char *paper;           /* equations followed; "" if none                         */
+    const char *idle;            /* why a scene may not want it, for `rasp plan`           */
+    const struct params *params; /* keys, rules and columns of its own (scene/params.h); NULL: none */
     unsigned needs, takes,
         gives; /* sets of items; takes: read if something gives it; needs and gives: refined in place */
     unsigned (*asks)(const struct contact *, const struct scene *); /* further needs; may be NULL */
@@ -181,7 +198,8 @@ struct stage {
     bool (*run)(struct stage_run *, long from, long to, struct err *); /* frames [from, to); may be NULL */
     void (*skip)(struct stage_run *, long frame); /* to go on at that frame, from an empty board: of what knows which
                                                      frame came last (run_skip); may be NULL */
-    void (*close)(struct stage_run *);            /* may be NULL */
+    struct stage_report (*report)(const struct stage_run *, struct arena *); /* when all has run; may be NULL */
+    void (*close)(struct stage_run *);                                       /* may be NULL */
 };
 
 /* Values of an item from a frame on; at least up to the frames that the runner has promised. */

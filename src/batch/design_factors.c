@@ -19,6 +19,7 @@
 #include "base/text.h"
 #include "scene/keys_text.h"
 #include "scene/keys_yaml.h"
+#include "scene/params.h"
 #include "scene/scene_merge.h"
 #include "scene/scene_values.h"
 #include "scene/units.h"
@@ -105,10 +106,10 @@ static const char *prefix_of(const char *path, struct arena *a)
 static bool value_good(const struct design_reading *r, const char *path, const struct yaml_node *value)
 {
     const struct key *k = design_changes_key(path);
-    size_t size = sizeof(struct scene) > sizeof(struct contact) ? sizeof(struct scene) : sizeof(struct contact);
     if (!k || yaml_null(value)) return true;
     struct arena *own = arena_open(); /* some kilobytes, for each of perhaps thousands of levels */
-    struct scene_part part = {r->yaml, r->root, prefix_of(path, own), k->of, arena_take(own, 1, size)};
+    void *to = k->of == KEY_CONTACT ? (void *)params_contacts(own, 1) : ARENA_TAKE(own, struct scene, 1);
+    struct scene_part part = {r->yaml, r->root, prefix_of(path, own), k->of, to};
     bool good = scene_values_read(&part, k, value);
     arena_close(own);
     return good;

@@ -11,11 +11,11 @@
 #include "base/wrap.h"
 #include "cmd/cmd.h"
 #include "cmd/report.h"
-#include "output/force_table.h"
 #include "scene/keys_man.h"
 #include "scene/keys_reference.h"
 #include "scene/keys_text.h"
 #include "scene/scene_write.h"
+#include "scene/scene_table.h"
 #include "scene/units_table.h"
 
 /* ------------------------------------------------------------------ JSON Schemas (draft 2020-12), for editors
@@ -96,7 +96,9 @@ static json_t *of_dimension(const struct key *k, struct arena *a)
 static json_t *columns(void)
 {
     json_t *all = json_array();
-    for (const struct table_column *t = force_table_columns; t->name; t++)
+    const struct params *whose;
+    const struct params_column *t;
+    for (int k = 0; (t = scene_table_column(k, &whose)); k++)
         json_array_append_new(all, json_string(t->name));
     return json_pack("{s:o}", "enum", all);
 }
@@ -451,7 +453,9 @@ static bool explain_path(const char *path, const char **names, struct arena *a)
         return false;
     bool columns = !strcmp(path, "output.diagnostics.columns");
     if (columns) fputs("  columns\n", stdout);
-    for (const struct table_column *t = force_table_columns; columns && t->name; t++)
+    const struct params *whose;
+    const struct params_column *t;
+    for (int i = 0; columns && (t = scene_table_column(i, &whose)); i++)
         wrap_print(stdout, t->meaning, printf("    %-22s ", t->name), "                           ");
     return true;
 }
@@ -552,9 +556,11 @@ static int explain_run(struct cmd_call *c, struct err *e)
     json_t *schema = schema_design(c->arena), *key = word ? design_key(schema, word) : NULL;
     static const char *const parts[] = {"keys", "columns"}, *const schemas[] = {"scene", "design"};
     int part = 0, of = 0;
+    const struct params *whose;
+    const struct params_column *t;
     if (args_given(&c->args, "man")) {
         if (cmd_either(c, "man", parts, &part, e) && part == 0) keys_man_print(stdout, c->arena);
-        for (const struct table_column *t = force_table_columns; part == 1 && t->name; t++)
+        for (int k = 0; part == 1 && (t = scene_table_column(k, &whose)); k++)
             printf(".It Ic %s\n%c%s.\n", t->name, toupper((unsigned char)t->meaning[0]), t->meaning + 1);
     } else if (args_given(&c->args, "schema")) {
         if (cmd_either(c, "schema", schemas, &of, e)) {

@@ -11,6 +11,7 @@
 #include "num/decimal.h"
 #include "scene/ball.h"
 #include "scene/rules.h"
+#include "scene/scene_table.h"
 #include "stage.h"
 #include "surface/limiter.h"
 #include "trajectory/load.h"
@@ -20,7 +21,8 @@
 #define COLUMN(id, name, exists, needs, meaning) id,
 enum column {
 #include "scene/columns.def"
-    COLUMNS
+    COLUMNS,
+    MOST = COLUMNS + 64 /* with those of effects (scene/params.h) */
 };
 #undef COLUMN
 
@@ -147,16 +149,12 @@ static void row_motion_take(struct row_motion *m, const struct stage_run *r, lon
    Rows end with the motion. Numbers are printed with %.9g, lines end in LF; as NPY (file/npy.h) they are doubles, and
    how many rows there will be is known when the header is written. */
 
-const struct table_column force_table_columns[] = {
-#define COLUMN(id, name, exists, needs, meaning) {name, meaning},
-#include "scene/columns.def"
-#undef COLUMN
-    {NULL, NULL},
-};
-
 struct force_table {
-    bool wanted[COLUMNS], npy;
-    double value[COLUMNS];
+    bool wanted[MOST], npy;
+    const struct params_column *of[MOST]; /* all columns there are */
+    const struct stage_run *by[MOST];     /* the stage that tells its value; NULL: this one does */
+    int n;                                /* columns */
+    double value[MOST];
     double sum, squares, peak; /* of the row being filled */
     long samples, lift_offs, row, rows;
     long behind; /* sample that is the first behind the row */
@@ -170,19 +168,22 @@ struct force_table {
 
 static int column_find(const char *name)
 {
-    for (int k = 0; k < COLUMNS; k++)
-        if (strcmp(force_table_columns[k].name, name) == 0) return k;
+    const struct params *whose;
+    const struct params_column *c;
+    for (int k = 0; (c = scene_table_column(k, &whose)); k++)
+        if (strcmp(c->name, name) == 0) return k;
     return -1;
 }
 
 static bool column_exists(const struct contact *c, int k)
 {
+    const struct params *whose;
     const bool exists[] = {
 #define COLUMN(id, name, exists, needs, meaning) exists,
 #include "scene/columns.def"
 #undef COLUMN
     };
-    return exists[k];
+    return k < COLUMNS ? exists[k] : scene_table_column(k, &whose) && params_given(c, whose);
 }
 
 /* Does the scene ask for any column from `first` to `last`? */
@@ -207,6 +208,9 @@ static unsigned force_table_asks(const struct contact *c, const struct scene *s)
         if (roll_rows_reads(c, (enum column)k) && column_asked(c, s, k, k)) items |= ITEM_BIT(ITEM_ROLL);
     if (load_varies(c) && column_asked(c, s, ALPHA, ALPHA) && column_exists(c, ALPHA)) items |= ITEM_BIT(ITEM_ALPHA);
     if (column_asked(c, s, MEAN, PEAK)) items |= ITEM_BIT(ITEM_FORCE);
+    const struct params *whose;
+    for (int k = COLUMNS; scene_table_column(k, &whose); k++)
+        if (column_asked(c, s, k, k)) items |= whose->gives;
     return items | ITEM_BIT(ITEM_MOTION); /* read at a row's own instant */
 }
 
@@ -227,8 +231,13 @@ static double force_table_work(const struct contact *c, const struct scene *s)
 static bool columns_choose(struct force_table *t, const struct stage_run *r, struct err *e)
 {
     const char **names = r->scene->output.diagnostics.columns;
-    for (int k = 0; k < COLUMNS; k++)
-        t->wanted[k] = !names && column_exists(r->contact, k);
+    const struct params *whose;
+    while (t->n < MOST && (t->of[t->n] = scene_table_column(t->n, &whose))) {
+        t->wanted[t->n] = !names && column_exists(r->contact, t->n);
+        for (int i = 0; whose && i < r->board->n_stages; i++)
+            if (r->board->stages[i].stage->params == whose) t->by[t->n] = &r->board->stages[i];
+        t->n++;
+    }
     for (int i = 0; names && names[i]; i++) {
         int k = column_find(names[i]);
         if (k < 0 || !column_exists(r->contact, k))
@@ -274,10 +283,10 @@ static bool force_table_open(struct stage_run *r, struct err *e)
     t->motion.alpha = limiter_constant(r->contact);
     t->motion.wanted = t->wanted;
     t->rows = t->motion.rows = (long)ceil(r->board->trajectory->duration * r->scene->output.diagnostics.rate - 1e-9);
-    const char *names[COLUMNS];
+    const char *names[MOST];
     size_t n = 0;
-    for (int k = 0; k < COLUMNS; k++)
-        if (t->wanted[k]) names[n++] = force_table_columns[k].name;
+    for (int k = 0; k < t->n; k++)
+        if (t->wanted[k]) names[n++] = t->of[k]->name;
     if (t->npy) npy_write(r->board->table->stream, names, n, (size_t)t->rows);
     for (size_t k = 0; k < n && !t->npy; k++)
         fprintf(r->board->table->stream, "%s%c", names[k], k + 1 < n ? ',' : '\n');
@@ -301,9 +310,9 @@ static void row_impacts(struct force_table *t, double end)
 
 static void row_put_npy(const struct force_table *t, FILE *out)
 {
-    double row[COLUMNS];
+    double row[MOST];
     size_t n = 0;
-    for (int k = 0; k < COLUMNS; k++)
+    for (int k = 0; k < t->n; k++)
         if (t->wanted[k]) row[n++] = t->value[k] + 0.0;
     fwrite(row, sizeof *row, n, out);
 }
@@ -320,8 +329,8 @@ static void row_write(struct force_table *t, const struct board *b)
         row_put_npy(t, b->table->stream);
     else {
         /* -0 is written as 0. */
-        char text[COLUMNS * (DECIMAL_ROOM + 1) + 1], *end = text;
-        for (int k = 0; k < COLUMNS; k++)
+        char text[MOST * (DECIMAL_ROOM + 1) + 1], *end = text;
+        for (int k = 0; k < t->n; k++)
             if (t->wanted[k]) {
                 end += decimal_9g(t->value[k] + 0.0, end);
                 *end++ = ',';
@@ -356,6 +365,9 @@ static void rows_before(struct force_table *t, const struct stage_run *r, long e
         double *v = t->value;
         row_motion_take(&t->motion, r, t->row, v);
         if (t->wanted[ROLL_ANGLE]) v[ROLL_ANGLE] = roll_rows_angle(&t->ball, v[STROKE], v[VELOCITY]);
+        for (int k = COLUMNS; k < t->n; k++)
+            if (t->wanted[k])
+                v[k] = t->by[k] ? t->of[k]->at(t->by[k], (double)t->row / r->scene->output.diagnostics.rate) : 0;
         row_impacts(t, (double)(t->row + 1) / r->scene->output.diagnostics.rate);
         row_write(t, r->board);
     }

@@ -8,11 +8,4 @@ struct table_sink {
     FILE *stream;
 };
 
-struct table_column {
-    const char *name, *meaning;
-};
-
-/* All columns there are, in their order; ends with a NULL name. */
-extern const struct table_column force_table_columns[];
-
 #endif

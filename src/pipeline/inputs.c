@@ -57,7 +57,7 @@ static bool are_there(const struct scene *s, struct arena *a, struct err *e)
     for (int i = 0; i < s->n_contacts; i++)
         for (const struct key *k = keys_table; k->path; k++)
             if (k->of == KEY_CONTACT && k->type == KEY_FILE && !ball_copies(&s->contacts[i], k->path))
-                add(&m, s->contacts[i].name, k->path, *(const char **)((char *)&s->contacts[i] + k->offset));
+                add(&m, s->contacts[i].name, k->path, *(const char **)keys_field(k, &s->contacts[i]));
     for (int i = 0; i < s->n_inputs && !m.key; i++)
         add(&m, NULL, "inputs", s->inputs[i].file);
     return !m.key || err_set(e, ERR_INPUT, "%s", m.text) || err_about(e, m.contact, m.key);

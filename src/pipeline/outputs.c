@@ -151,7 +151,7 @@ static void note_scene(struct sources *all, const struct scene *s)
     for (int i = 0; i < s->n_contacts; i++)
         for (const struct key *k = keys_table; k->path; k++)
             if (k->of == KEY_CONTACT && k->type == KEY_FILE && !ball_copies(&s->contacts[i], k->path))
-                note_key(all, s, *(const char *const *)((const char *)&s->contacts[i] + k->offset), k->path);
+                note_key(all, s, *(const char *const *)keys_field(k, &s->contacts[i]), k->path);
     for (int i = 0; i < s->n_inputs; i++)
         note(all, s, s->inputs[i].file, "inputs");
 }

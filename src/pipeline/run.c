@@ -78,7 +78,7 @@ static bool run_open_stages(struct run *r, struct err *e)
                                   .ends = LONG_MAX};
         size_t before = arena_bytes(r->arena);
         double start = stopwatch_cpu();
-        r->n++;
+        r->board.n_stages = ++r->n;
         if (!st->open(one, e)) return false;
         one->seconds += stopwatch_cpu() - start; /* open may have put to it what was done for the stage before */
         one->bytes = arena_bytes(r->arena) - before;
@@ -171,7 +171,7 @@ bool run_open(struct run *r, const struct plan *p, const struct scene *s, const 
                               .quantity = -1,
                               .table = to->table,
                               .listing = to->listing};
-    r->stages = ARENA_TAKE(r->arena, struct stage_run, p->n);
+    r->board.stages = r->stages = ARENA_TAKE(r->arena, struct stage_run, p->n);
     if (!run_open_stages(r, e)) {
         run_close(r);
         return false;

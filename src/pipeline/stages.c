@@ -1,8 +1,17 @@
 #include "pipeline/stages.h"
 
+#include "scene/params.h"
+
 const struct stage *const stages_table[] = {
 #define STAGE(name) &name##_stage,
 #include "pipeline/stages.def"
 #undef STAGE
     NULL,
 };
+
+const struct params *stages_params(int i)
+{
+    for (const struct stage *const *s = stages_table; *s; s++)
+        if ((*s)->params && i-- == 0) return (*s)->params;
+    return NULL;
+}

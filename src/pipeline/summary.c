@@ -21,6 +21,34 @@ enum { MOST_OF_BOARD = (int)(sizeof((struct board *)0)->warnings / sizeof((struc
 
 static void warn(struct render_report *report, const char *text) { report->warnings[report->n_warnings++] = text; }
 
+/* ------------------------------------------------------------------ what stages report */
+
+enum { REPORTS = 16 };
+
+/* In the order of the stages; returns how many. Their values are the caller's. */
+static int reports_make(const struct run *r, struct arena *a, struct stage_report *all)
+{
+    int n = 0;
+    for (int i = 0; i < r->n; i++) {
+        const struct stage_run *st = &r->stages[i];
+        struct stage_report one = st->stage->report ? st->stage->report(st, a) : (struct stage_report){NULL};
+        int k = 0;
+        while (one.key && k < n && strcmp(all[k].key, one.key) != 0)
+            k++;
+        if (!one.key || k == REPORTS) continue;
+        if (k < n) json_decref(all[k].value);
+        all[k] = one;
+        n += k == n;
+    }
+    return n;
+}
+
+static void reports_drop(const struct stage_report *all, int n)
+{
+    for (int i = 0; i < n; i++)
+        json_decref(all[i].value);
+}
+
 /* ------------------------------------------------------------------ what rolls */
 
 static const char *times(long n, struct arena *a) { return n == 1 ? "once" : arena_format(a, "%ld times", n); }
@@ -109,13 +137,20 @@ static void warn_impacts(const struct contact *c, const struct impact_report *o,
 
 void summary_notes(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a)
 {
-    report->notes = ARENA_TAKE(a, const char *, s->n_contacts + 1);
+    report->notes = ARENA_TAKE(a, const char *, s->n_contacts *(REPORTS + 1) + 1);
     if (report->error_budget.text) report->notes[report->n_notes++] = report->error_budget.text;
     for (int i = 0; i < s->n_contacts; i++) {
         const struct board *b = runs[i] ? &runs[i]->board : NULL;
         if (b && (b->rolls || impacts(b)))
             report->notes[report->n_notes++] = arena_format(a, "contact '%s': %s", s->contacts[i].name,
                                                             b->rolls ? rolled(&b->roll, a) : impacted(&b->impacts, a));
+        struct stage_report all[REPORTS];
+        int n = runs[i] ? reports_make(runs[i], a, all) : 0;
+        for (int k = 0; k < n; k++)
+            if (all[k].note)
+                report->notes[report->n_notes++] =
+                    arena_format(a, "contact '%s': %s", s->contacts[i].name, all[k].note);
+        reports_drop(all, n);
     }
 }
 
@@ -139,8 +174,9 @@ static void warn_drowned(const struct contact *c, const struct board *b, struct 
                               c->name, under[surface], under[!surface], help, under[surface]));
 }
 
-static void warn_contact(const struct contact *c, const struct board *b, struct render_report *report, struct arena *a)
+static void warn_contact(const struct contact *c, const struct run *r, struct render_report *report, struct arena *a)
 {
+    const struct board *b = &r->board;
     for (int k = 0; k < b->n_warnings && k < MOST_OF_BOARD; k++)
         warn(report, arena_text(a, b->warnings[k])); /* the text ends with its run */
     if (b->n_warnings > MOST_OF_BOARD)
@@ -159,6 +195,12 @@ static void warn_contact(const struct contact *c, const struct board *b, struct 
                                   c->name, modes_quantity_unit(b->quantity)));
     warn_drowned(c, b, report, a);
     if (impacts(b)) warn_impacts(c, &b->impacts, report, a);
+    struct stage_report all[REPORTS];
+    int n = reports_make(r, a, all);
+    for (int k = 0; k < n; k++)
+        for (int i = 0; i < STAGE_WARNINGS && all[k].warnings[i]; i++)
+            warn(report, arena_format(a, "contact '%s': %s", c->name, all[k].warnings[i]));
+    reports_drop(all, n);
 }
 
 static double decibel(double x) { return x > 0 ? 20 * real_log10(x) : -HUGE_VAL; }
@@ -200,9 +242,10 @@ void summary_warnings(const struct scene *s, const struct run *const *runs, stru
     while (report->older[older])
         older++;
     report->warnings =
-        ARENA_TAKE(a, const char *, s->n_contacts *(MOST_OF_BOARD + 8) + 2 * report->n_files + 3 + older);
+        ARENA_TAKE(a, const char *,
+                   s->n_contacts *(MOST_OF_BOARD + 8 + REPORTS * STAGE_WARNINGS) + 2 * report->n_files + 3 + older);
     for (int i = 0; i < s->n_contacts; i++)
-        if (runs[i]) warn_contact(&s->contacts[i], &runs[i]->board, report, a);
+        if (runs[i]) warn_contact(&s->contacts[i], runs[i], report, a);
     for (int i = 0; i < s->n_contacts; i++)
         if (runs[i] && runs[i]->board.lifted > 0 && report->error_budget.n > 0)
             warn(report, arena_format(a,
@@ -309,7 +352,7 @@ static json_t *impacts_json(const struct impact_report *o)
 }
 
 /* cpu NAN: no times. */
-static json_t *contact_json(const struct run *run, const struct scene *s, double cpu)
+static json_t *contact_json(const struct run *run, const struct scene *s, double cpu, struct arena *a)
 {
     const struct board *b = &run->board;
     const struct ring_choice *choice = run->plan.contact->surface.response.choice;
@@ -318,6 +361,10 @@ static json_t *contact_json(const struct run *run, const struct scene *s, double
     if (choice && !choice->recorded) json_object_set_new(c, "response", response_json(choice, s));
     if (b->rolls) json_object_set_new(c, "roll", roll_json(&b->roll));
     if (impacts(b)) json_object_set_new(c, "impacts", impacts_json(&b->impacts));
+    struct stage_report all[REPORTS];
+    int n = reports_make(run, a, all);
+    for (int k = 0; k < n; k++)
+        json_object_set_new(c, all[k].key, all[k].value);
     if (b->load)
         json_object_set_new(c, "normal_force_n",
                             json_pack("[o, o]", json_value_number(b->load->least), json_value_number(b->load->most)));
@@ -383,7 +430,7 @@ const char *summary_text(const struct scene *s, const struct run *const *runs, c
     double duration = (double)report->frames / s->output.sample_rate;
     json_t *contacts = json_array(), *remarks = json_array();
     for (int i = 0; i < s->n_contacts; i++)
-        if (runs[i]) json_array_append_new(contacts, contact_json(runs[i], s, times ? report->cpu : NAN));
+        if (runs[i]) json_array_append_new(contacts, contact_json(runs[i], s, times ? report->cpu : NAN, a));
     for (int i = 0; i < report->n_warnings; i++)
         json_array_append_new(remarks, json_value_shown(report->warnings[i]));
     json_t *whole =

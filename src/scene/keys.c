@@ -1,9 +1,12 @@
 /* keys.def, choices.def and accuracy.def as tables. */
 #include "scene/keys.h"
 
+#include <assert.h>
+#include <pthread.h>
 #include <string.h>
 
-#include "scene/scene.h"
+#include "base/memory.h"
+#include "scene/params.h"
 
 #define CHOICES(name) static const struct choice words_##name[] = {
 #define CHOICE(name, word, meaning) {word, meaning},
@@ -85,7 +88,8 @@
      .meaning = text},
 #define SECTION(...)
 #define ALTERNATIVE(...)
-const struct key keys_table[] = {
+#define STAGES(map) {.path = map, .meaning = NULL},
+static const struct key rows[] = {
 #include "scene/keys.def"
     {.path = NULL}};
 #undef KEY
@@ -96,18 +100,118 @@ const struct key keys_table[] = {
 #define SECTION(owner, field, where, text)                                                                             \
     {.of = KEY_##owner, .offset = OFFSET_##owner(field.given), .path = where, .meaning = text},
 #define ALTERNATIVE(...)
-const struct key_section keys_sections[] = {
+static const struct key_section sections[] = {
 #include "scene/keys.def"
     {.path = NULL}};
 #undef SECTION
 #undef ALTERNATIVE
+#undef STAGES
 
+#define STAGES(...)
 #define SECTION(...)
 #define ALTERNATIVE(when, lowest, highest, ...)                                                                        \
     {.applies = when, .least = lowest, .most = highest, .paths = {__VA_ARGS__}},
-const struct key_alternative keys_alternatives[] = {
+static const struct key_alternative alternatives[] = {
 #include "scene/keys.def"
     {.paths = {NULL}}};
+
+/* ------------------------------------------------------------------ with those of the effects */
+
+static struct keys all;
+
+/* Do the effect's rows stand at STAGES(map)? They go to the first place whose map they are in. */
+static bool is_here(const struct params *p, const char *map)
+{
+    const struct key *k = rows;
+    for (; k->path; k++) {
+        size_t n = strlen(k->path);
+        if (!k->meaning && !strncmp(k->path, p->section, n) && strchr(".", p->section[n])) break;
+    }
+    return k->path && !strcmp(k->path, map);
+}
+
+static struct key *keys_add(struct key *k, const char *map)
+{
+    const struct params *p;
+    for (int i = 0; (p = stages_params(i)); i++)
+        for (const struct key *own = p->keys; own->path && is_here(p, map); own++, k++) {
+            *k = *own;
+            k->in = p;
+            k->offset += params_at(p);
+        }
+    return k;
+}
+
+static struct key_section *sections_add(struct key_section *s, const char *map)
+{
+    const struct params *p;
+    for (int i = 0; (p = stages_params(i)); i++)
+        if (is_here(p, map)) *s++ = (struct key_section){KEY_CONTACT, params_at(p), p->section, p->meaning, p};
+    return s;
+}
+
+/* "*" stands for all parts of the surface that are not named. */
+static void rivals_add(struct key_alternative *t)
+{
+    const struct params *p;
+    int n = 0, named = 0;
+    while (t->paths[n] && strcmp(t->paths[n], "*") != 0)
+        n++;
+    for (int i = 0; t->paths[n] && (p = stages_params(i)); i++) {
+        for (named = 0; named < n && strcmp(t->paths[named], p->section) != 0;)
+            named++;
+        if (!p->ground || named < n) continue;
+        assert(n < KEYS_RIVALS);
+        t->paths[n++] = p->section;
+    }
+    t->paths[n] = NULL;
+    t->most = t->most == 1 ? 1 : n;
+}
+
+static void tables_make(void)
+{
+    size_t n = sizeof rows / sizeof *rows, m = sizeof sections / sizeof *sections;
+    const struct params *p;
+    for (int i = 0; (p = stages_params(i)); i++, m++)
+        for (const struct key *own = p->keys; own->path; own++)
+            n++;
+    struct key *table = memory_take(n * sizeof *table), *k = table;
+    struct key_section *maps = memory_take(m * sizeof *maps), *s = maps;
+    struct key_alternative *rivals = memory_take(sizeof alternatives);
+    for (const struct key *row = rows; row->path; row++)
+        if (row->meaning)
+            *k++ = *row;
+        else
+            k = keys_add(k, row->path);
+    for (const struct key_section *row = sections; row->path; row++)
+        if (row->meaning)
+            *s++ = *row;
+        else
+            s = sections_add(s, row->path);
+    *k = (struct key){.path = NULL};
+    *s = (struct key_section){.path = NULL};
+    memcpy(rivals, alternatives, sizeof alternatives);
+    for (struct key_alternative *t = rivals; t->paths[0]; t++)
+        rivals_add(t);
+    all = (struct keys){table, maps, rivals};
+}
+
+const struct keys *keys_all(void)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, tables_make);
+    return &all;
+}
+
+void *keys_field(const struct key *k, const void *owner)
+{
+    return (k->in ? (char *)params_block(owner) : (char *)owner) + k->offset;
+}
+
+bool *keys_given(const struct key_section *s, const void *owner)
+{
+    return (bool *)((s->in ? (char *)params_block(owner) : (char *)owner) + s->offset);
+}
 
 #define KNOB(knob, lowest, highest, integer, counts, falls, draft, standard, best, reference, text)                    \
     {.name = #knob,                                                                                                    \

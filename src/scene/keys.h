@@ -50,9 +50,11 @@ struct choice {
     const char *word, *meaning; /* a table ends with word NULL */
 };
 
+struct params;
+
 struct key {
     enum key_struct of;
-    size_t offset; /* of the field in struct scene or struct contact */
+    size_t offset; /* of the field: of `in` within the contact's block of parameters, else in struct scene or contact */
     const char *path;
     enum key_type type;
     enum key_dimension dimension;
@@ -61,18 +63,23 @@ struct key {
     const char *applies;  /* "key=word|word", "key", "!key" or NULL, see keys.def */
     const char *meaning;
     const struct choice *choices;
+    const char *example; /* where there is no default: a value that shows what is meant; NULL: scene_example.c has it */
+    const struct params *in; /* whose row it is (scene/params.h); NULL: of keys.def */
 };
 
 struct key_section {
     enum key_struct of;
     size_t offset; /* of its bool */
     const char *path, *meaning;
+    const struct params *in; /* as of a key */
 };
 
+enum { KEYS_RIVALS = 15 };
+
 struct key_alternative {
-    const char *applies;  /* as of a key; NULL: always */
-    int least, most;      /* how many of them may be given */
-    const char *paths[6]; /* ends with NULL */
+    const char *applies;                /* as of a key; NULL: always */
+    int least, most;                    /* how many of them may be given */
+    const char *paths[KEYS_RIVALS + 1]; /* ends with NULL */
 };
 
 /* What a knob counts, and so how its error is expected to follow it. */
@@ -93,9 +100,22 @@ struct key_knob {
 };
 
 /* Tables end with a NULL path (name). */
-extern const struct key keys_table[];
-extern const struct key_section keys_sections[];
-extern const struct key_alternative keys_alternatives[]; /* ends with paths[0] NULL */
+struct keys {
+    const struct key *table;
+    const struct key_section *sections;
+    const struct key_alternative *alternatives; /* ends with paths[0] NULL */
+};
+
+/* The rows of keys.def and, where it has STAGES, those of the effects' own files; put together once. */
+const struct keys *keys_all(void);
+#define keys_table (keys_all()->table)
+#define keys_sections (keys_all()->sections)
+#define keys_alternatives (keys_all()->alternatives)
+
+/* The field of a key, and the bool of a section, of a struct scene or contact. */
+void *keys_field(const struct key *k, const void *owner);
+bool *keys_given(const struct key_section *s, const void *owner);
+
 extern const struct key_knob keys_knobs[];
 extern const char *const keys_presets[5]; /* ends with NULL */
 

@@ -8,6 +8,7 @@
 
 #include "scene/keys_text.h"
 #include "scene/keys_yaml.h"
+#include "scene/params.h"
 
 /* A path that begins with a dot stands for those of the surface, the scraper and the ball. */
 static const struct {
@@ -152,7 +153,8 @@ static int example(const char *path)
 const char *keys_reference_example(const char *path)
 {
     int i = example(path);
-    return i < 0 ? NULL : examples[i].value;
+    const struct key *k = i < 0 ? keys_find(path) : NULL;
+    return i >= 0 ? examples[i].value : k ? k->example : NULL;
 }
 
 static const char *shown(const struct key *k)
@@ -176,6 +178,7 @@ static bool is_off(const struct key *k)
     int i = example(k->path);
     for (const char *const *s = sections_off; *s; s++)
         if (!strncmp(k->path, *s, strlen(*s)) && k->path[strlen(*s)] == '.') return true;
+    if (k->in && !k->in->shown) return true;
     return (i >= 0 && examples[i].off) || (i < 0 && k->standard && !*k->standard) || !applies(k);
 }
 

@@ -336,6 +336,7 @@ struct contact {
     struct load load;
     struct contact_model contact;
     struct ablation ablation;
+    const void *params; /* of the effects that have a file of their own: scene/params.h            */
 };
 
 /* ------------------------------------------------------------------ the scene */

@@ -208,7 +208,7 @@ static void none_given(const struct scene_part *p, const char *const *candidates
 
 static void alternative_check(const struct scene_part *p, const struct key_alternative *alternative)
 {
-    const char *candidates[5], *given[2] = {NULL, NULL};
+    const char *candidates[KEYS_RIVALS], *given[2] = {NULL, NULL};
     const struct yaml_node *nodes[2] = {NULL, NULL};
     const struct key condition = keys_condition(alternative);
     int n = 0, n_given = 0;
@@ -232,7 +232,7 @@ void scene_check_fill(const struct scene_part *p)
     for (const struct key *k = keys_table; k->path; k++)
         if (k->of == p->of) key_fill(p, k);
     for (const struct key_section *s = keys_sections; s->path; s++)
-        if (s->of == p->of) *(bool *)((char *)p->to + s->offset) = yaml_find(p->map, s->path) != NULL;
+        if (s->of == p->of) *keys_given(s, p->to) = yaml_find(p->map, s->path) != NULL;
     for (const struct key_alternative *x = keys_alternatives; x->paths[0]; x++)
         if (owner_of(x->paths[0]) == p->of) alternative_check(p, x);
 }

@@ -6,6 +6,7 @@
 #include "scene/ablation.h"
 #include "scene/ball.h"
 #include "scene/keys.h"
+#include "scene/params.h"
 #include "scene/scene_check.h"
 #include "scene/scene_keys.h"
 #include "scene/scene_places.h"
@@ -107,7 +108,7 @@ static void list_read(const struct tree *t, struct yaml_node *list, struct scene
                  list->kind == YAML_LIST ? arena_format(y->arena, "of %d", list->n) : scene_values_kind(y, list));
         return;
     }
-    s->contacts = ARENA_TAKE(y->arena, struct contact, list->n);
+    s->contacts = params_contacts(y->arena, list->n);
     for (struct yaml_node *map = list->first; map; map = map->next)
         entry_read(t, list, map, sound, &s->contacts[s->n_contacts++]);
 }
@@ -121,7 +122,7 @@ void scene_contacts_read(struct yaml *y, struct yaml_node *root, struct scene *s
         list_read(&tree, list, s);
         return;
     }
-    s->contacts = ARENA_TAKE(y->arena, struct contact, 1);
+    s->contacts = params_contacts(y->arena, 1);
     s->n_contacts = 1;
     contact_read(&tree, root, "", 0, s->contacts);
 }

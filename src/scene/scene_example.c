@@ -26,6 +26,7 @@ const char *scene_example(struct yaml *y, const struct key *k)
 {
     const char *one = units_example(k->dimension);
     if (k->standard && *k->standard) return k->standard;
+    if (k->example) return k->example;
     switch (k->type) {
     case KEY_NUMBER:
     case KEY_TIME_OR_AUTO:

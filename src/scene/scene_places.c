@@ -52,7 +52,7 @@ static void add(struct list *l, const char *key, const char *file, const struct 
 
 static const char *file_of(const struct scene_part *p, const struct key *k)
 {
-    return k->type == KEY_FILE ? *(const char **)((char *)p->to + k->offset) : NULL;
+    return k->type == KEY_FILE ? *(const char **)keys_field(k, p->to) : NULL;
 }
 
 static bool in_same_map(const struct key *k, const char *path, size_t n)

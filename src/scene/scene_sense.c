@@ -7,6 +7,7 @@
 
 #include "scene/ablation.h"
 #include "scene/ball.h"
+#include "scene/params.h"
 #include "scene/rules.h"
 #include "scene/scene_sense_parts.h"
 
@@ -121,6 +122,7 @@ void scene_sense_contact(const struct scene_part *p)
     const struct contact *c = p->to;
     scene_sense_motion(p, &c->motion);
     scene_sense_surface(p, c);
+    params_check(p, c);
     if (c->contact.model == CONTACT_SCRAPE) {
         grip_check(p, &c->grip);
         tip_check(p, &c->scraper);

@@ -5,12 +5,18 @@
 
 #include "base/text.h"
 
-static const char *const columns[] = {
-#define COLUMN(id, name, exists, needs, meaning) name,
+static const struct params_column columns[] = {
+#define COLUMN(id, name, exists, needs, meaning) {name, meaning, NULL},
 #include "scene/columns.def"
 #undef COLUMN
-    NULL,
 };
+enum { COLUMNS = sizeof columns / sizeof *columns };
+
+const struct params_column *scene_table_column(int k, const struct params **whose)
+{
+    *whose = NULL;
+    return k < COLUMNS ? &columns[k] : params_column(k - COLUMNS, whose);
+}
 
 /* What a contact lacks for a column; "" if it lacks nothing. */
 static const char *lacks(const struct contact *c, int column)
@@ -20,13 +26,18 @@ static const char *lacks(const struct contact *c, int column)
 #include "scene/columns.def"
 #undef COLUMN
     };
-    return lacking[column];
+    const struct params *whose;
+    if (column < COLUMNS) return lacking[column];
+    params_column(column - COLUMNS, &whose);
+    return params_given(c, whose) ? "" : whose->section;
 }
 
 static int column_find(const struct yaml_node *item)
 {
-    for (int k = 0; item->kind == YAML_SCALAR && columns[k]; k++)
-        if (strcmp(columns[k], item->text) == 0) return k;
+    const struct params *whose;
+    const struct params_column *c;
+    for (int k = 0; item->kind == YAML_SCALAR && (c = scene_table_column(k, &whose)); k++)
+        if (strcmp(c->name, item->text) == 0) return k;
     return -1;
 }
 
@@ -36,11 +47,23 @@ static const struct yaml_node *column_first(struct yaml_node *root)
     return list && list->kind == YAML_LIST ? list->first : NULL;
 }
 
+static const char *const *names_of(struct arena *a)
+{
+    const struct params *whose;
+    int n = 0;
+    while (scene_table_column(n, &whose))
+        n++;
+    const char **names = ARENA_TAKE(a, const char *, n + 1);
+    for (int k = 0; k < n; k++)
+        names[k] = scene_table_column(k, &whose)->name;
+    return names;
+}
+
 void scene_table_names(struct yaml *y, struct yaml_node *root)
 {
     for (const struct yaml_node *item = column_first(root); item; item = item->next) {
         if (item->kind != YAML_SCALAR || !*item->text || yaml_null(item) || column_find(item) >= 0) continue;
-        const char *near = text_nearest(item->text, columns);
+        const char *near = text_nearest(item->text, names_of(y->arena));
         diag_add(y->diag, item->at,
                  near ? arena_format(y->arena, "did you mean '%s'?", near)
                       : "rasp explain output.diagnostics.columns lists them",

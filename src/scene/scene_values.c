@@ -252,14 +252,14 @@ static bool (*const setters[])(const struct value *) = {
 
 bool scene_values_read(const struct scene_part *p, const struct key *k, const struct yaml_node *node)
 {
-    struct value v = {p, k, node, arena_format(p->yaml->arena, "%s%s", p->prefix, k->path), (char *)p->to + k->offset};
+    struct value v = {p, k, node, arena_format(p->yaml->arena, "%s%s", p->prefix, k->path), keys_field(k, p->to)};
     scene_values_clear(p, k);
     return setters[k->type](&v);
 }
 
 void scene_values_clear(const struct scene_part *p, const struct key *k)
 {
-    void *field = (char *)p->to + k->offset;
+    void *field = keys_field(k, p->to);
     switch (k->type) {
     case KEY_NUMBER:
     case KEY_WHOLE:

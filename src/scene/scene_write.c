@@ -24,9 +24,7 @@ struct writer {
     bool sounds; /* some contact is heard */
 };
 
-static const void *field_at(size_t offset, const void *owner) { return (const char *)owner + offset; }
-
-static const void *field(const struct key *k, const void *owner) { return field_at(k->offset, owner); }
+static const void *field(const struct key *k, const void *owner) { return keys_field(k, owner); }
 
 static double number(const struct key *k, const void *owner) { return *(const double *)field(k, owner); }
 
@@ -84,7 +82,7 @@ static bool given(const char *path, const void *owner)
 {
     const struct key *k = keys_find(path);
     for (const struct key_section *s = keys_sections; !k && s->path; s++)
-        if (!strcmp(s->path, path)) return *(const bool *)field_at(s->offset, owner);
+        if (!strcmp(s->path, path)) return *keys_given(s, owner);
     return k && (k->type == KEY_FILE ? text(k, owner) != NULL : !isnan(number(k, owner)));
 }
 
@@ -167,8 +165,7 @@ static bool in_given_sections(const struct key *k, const void *owner)
 {
     for (const struct key_section *s = keys_sections; s->path; s++) {
         size_t n = strlen(s->path);
-        if (!strncmp(k->path, s->path, n) && k->path[n] == '.' && !*(const bool *)((const char *)owner + s->offset))
-            return false;
+        if (!strncmp(k->path, s->path, n) && k->path[n] == '.' && !*keys_given(s, owner)) return false;
     }
     return true;
 }

@@ -49,7 +49,7 @@ static void add_keys(struct list *l, bool only)
     for (int i = 0; i < l->scene->n_contacts; i++)
         for (const struct key *k = keys_table; k->path; k++) {
             bool mine = k->of == KEY_CONTACT && k->type == KEY_FILE && scene_write_inputs_only(k) == only;
-            const char *file = mine ? *(const char *const *)((const char *)&l->scene->contacts[i] + k->offset) : NULL;
+            const char *file = mine ? *(const char *const *)keys_field(k, &l->scene->contacts[i]) : NULL;
             if (file) add_all(l, file);
         }
 }

@@ -2,6 +2,7 @@
 #include "unit.h"
 
 #include "scene/keys.h"
+#include "scene/params.h"
 
 static bool is_word(const struct key *k, const char *word, size_t n)
 {
@@ -48,6 +49,37 @@ START_TEST(every_alternative_is_a_key_or_section)
 }
 END_TEST
 
+START_TEST(every_rule_is_of_two_numbers)
+{
+    const struct params *p;
+    for (int i = 0; (p = stages_params(i)); i++)
+        for (const struct params_rule *r = p->rules; r && r->path; r++) {
+            const struct key *k[2] = {keys_find(r->path), keys_find(r->other)};
+            for (int j = 0; j < 2; j++)
+                ck_assert_msg(k[j] && k[j]->type == KEY_NUMBER && k[j]->of == KEY_CONTACT, "%s: %s", p->section,
+                              j ? r->other : r->path);
+        }
+}
+END_TEST
+
+/* Its rows are in its section, and its struct begins with the bool that says whether it is given. */
+START_TEST(every_effect_is_in_its_section)
+{
+    const struct params *p;
+    for (int i = 0; (p = stages_params(i)); i++) {
+        size_t n = strlen(p->section);
+        const struct key_section *s = keys_sections;
+        while (s->path && strcmp(s->path, p->section) != 0)
+            s++;
+        ck_assert_msg(s->path && s->in == p, "%s", p->section);
+        for (const struct key *k = p->keys; k->path; k++)
+            ck_assert_msg(!strncmp(k->path, p->section, n) && k->path[n] == '.' && k->offset >= sizeof(bool) &&
+                              keys_find(k->path) && keys_find(k->path)->in == p,
+                          "%s", k->path);
+    }
+}
+END_TEST
+
 START_TEST(no_path_is_there_twice)
 {
     for (const struct key *k = keys_table; k->path; k++)
@@ -55,4 +87,5 @@ START_TEST(no_path_is_there_twice)
 }
 END_TEST
 
-UNIT("keys", every_condition_names_a_key_and_its_words, every_alternative_is_a_key_or_section, no_path_is_there_twice)
+UNIT("keys", every_condition_names_a_key_and_its_words, every_alternative_is_a_key_or_section,
+     every_rule_is_of_two_numbers, every_effect_is_in_its_section, no_path_is_there_twice)

@@ -276,13 +276,9 @@ static void same_part(enum key_struct of, const void *x, const void *y, const ch
 {
     for (const struct key *k = keys_table; k->path; k++)
         if (k->of == of)
-            ck_assert_msg(same_field(k, (const char *)x + k->offset, (const char *)y + k->offset),
-                          "%s differs after:\n%s", k->path, text);
+            ck_assert_msg(same_field(k, keys_field(k, x), keys_field(k, y)), "%s differs after:\n%s", k->path, text);
     for (const struct key_section *s = keys_sections; s->path; s++)
-        if (s->of == of)
-            ck_assert_msg(*((const bool *)((const char *)x + s->offset)) ==
-                              *((const bool *)((const char *)y + s->offset)),
-                          "%s: given", s->path);
+        if (s->of == of) ck_assert_msg(*keys_given(s, x) == *keys_given(s, y), "%s: given", s->path);
 }
 
 /* What the effective scene spells out beyond the fields: the weight of a scraper that no hand holds, and the level of
@@ -356,8 +352,7 @@ static double any_between(double low, double high)
 static bool is_absent(const struct key *k, const void *owner)
 {
     for (const struct key_section *s = keys_sections; s->path; s++)
-        if (!strncmp(k->path, s->path, strlen(s->path)) && k->path[strlen(s->path)] == '.' &&
-            !*(const bool *)((const char *)owner + s->offset))
+        if (!strncmp(k->path, s->path, strlen(s->path)) && k->path[strlen(s->path)] == '.' && !*keys_given(s, owner))
             return true;
     return false;
 }
@@ -367,7 +362,7 @@ static void any_numbers(const struct scene *s, struct scene_overrides *over)
 {
     for (const struct key *k = keys_table; k->path; k++) {
         const void *owner = k->of == KEY_SCENE ? (const void *)s : (const void *)s->contacts;
-        bool number = k->type == KEY_NUMBER && !isnan(*(const double *)((const char *)owner + k->offset));
+        bool number = k->type == KEY_NUMBER && !isnan(*(const double *)keys_field(k, owner));
         if (number && !is_absent(k, owner) && drand48() < 0.5)
             over->set[over->n++] = arena_format(a, "%s=%.17g", k->path, any_between(k->low, k->high));
     }

@@ -1,0 +1,84 @@
+/* See params.h. */
+#include "scene/params.h"
+
+#include <assert.h>
+#include <string.h>
+
+#include "scene/keys_text.h"
+#include "scene/scene_part.h"
+
+/* ------------------------------------------------------------------ where they are */
+
+size_t params_at(const struct params *p)
+{
+    enum { ROOM = _Alignof(max_align_t) };
+    size_t at = 0;
+    for (int i = 0; stages_params(i) && stages_params(i) != p; i++)
+        at += (stages_params(i)->size + ROOM - 1) / ROOM * ROOM;
+    return at;
+}
+
+struct contact *params_contacts(struct arena *a, int n)
+{
+    struct contact *all = ARENA_TAKE(a, struct contact, n);
+    for (int i = 0; i < n; i++)
+        all[i].params = ARENA_TAKE(a, char, params_at(NULL));
+    return all;
+}
+
+const void *params_block(const struct contact *c)
+{
+    static const max_align_t nothing[256];
+    assert(params_at(NULL) <= sizeof nothing);
+    return c->params ? c->params : nothing;
+}
+
+const void *params_of(const struct contact *c, const struct params *p)
+{
+    return (const char *)params_block(c) + params_at(p);
+}
+
+bool params_given(const struct contact *c, const struct params *p) { return *(const bool *)params_of(c, p); }
+
+void *params_edit(struct contact *c, const struct params *p, struct arena *a)
+{
+    size_t size = params_at(NULL);
+    char *own = memcpy(ARENA_TAKE(a, char, size), params_block(c), size);
+    c->params = own;
+    return own + params_at(p);
+}
+
+/* ------------------------------------------------------------------ checks */
+
+static void rule_check(const struct scene_part *p, const struct contact *c, const struct params_rule *r)
+{
+    const struct key *a = keys_find(r->path), *b = keys_find(r->other);
+    double x = *(const double *)keys_field(a, c), y = *(const double *)keys_field(b, c);
+    const char *unit[2] = {keys_text_unit(a->dimension), keys_text_unit(b->dimension)};
+    if (x > r->factor * y)
+        diag_add(p->yaml->diag, scene_part_later(p, r->path, r->other), r->cure,
+                 "%s, %.4g%s%s, must be at most %g times %s, %.4g%s%s", scene_part_label(p, r->path), x,
+                 *unit[0] ? " " : "", unit[0], r->factor, scene_part_label(p, r->other), y, *unit[1] ? " " : "",
+                 unit[1]);
+}
+
+void params_check(const struct scene_part *p, const struct contact *c)
+{
+    const struct params *one;
+    for (int i = 0; (one = stages_params(i)); i++) {
+        if (!params_given(c, one)) continue;
+        for (const struct params_rule *r = one->rules; r && r->path; r++)
+            rule_check(p, c, r);
+        if (one->check) one->check(p, c);
+    }
+}
+
+/* ------------------------------------------------------------------ columns */
+
+const struct params_column *params_column(int k, const struct params **whose)
+{
+    for (int i = 0; (*whose = stages_params(i)); i++)
+        for (const struct params_column *c = (*whose)->columns; c && c->name; c++)
+            if (k-- == 0) return c;
+    return NULL;
+}

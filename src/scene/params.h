@@ -1,0 +1,64 @@
+/* Parameters of an effect: what its own file says of its section of the scene, so that nothing else has to name it.
+
+   The file holds the struct, whose first member is `bool given`, rows of keys with offsets within it (scene/rows.h),
+   rules between them, columns of diagnostics, and one `const struct params` that its stage points to. The rows stand in
+   keys_table where keys.def has STAGES(map), in the order of pipeline/stages.def. The structs of a contact lie in one
+   block, contact->params; a contact that is copied shares it, and nobody writes into it but params_edit. */
+#ifndef SCENE_PARAMS_H
+#define SCENE_PARAMS_H
+#include "base/arena.h"
+#include "scene/keys.h"
+#include "scene/scene.h"
+
+struct scene_part;
+struct stage_run;
+
+/* The value of `path` is at most `factor` times that of `other`; both are numbers, NAN: it does not apply. */
+struct params_rule {
+    const char *path;
+    double factor;
+    const char *other, *cure;
+};
+
+struct params_column {
+    const char *name, *meaning;
+    double (*at)(const struct stage_run *, double t); /* t: s after the contact's start */
+};
+
+struct params {
+    const char *section, *meaning;       /* "surface.ridges" */
+    size_t size;                         /* of its struct */
+    const struct key *keys;              /* ends with path NULL */
+    const struct params_rule *rules;     /* ends with path NULL; NULL: none */
+    const struct params_column *columns; /* of a contact that has the section; ends with name NULL; NULL: none */
+    void (*check)(const struct scene_part *, const struct contact *); /* what no row says; NULL: nothing */
+    unsigned gives; /* items that its columns belong to: a table that has them lets the stage run */
+    bool ground;    /* it is a part of the surface */
+    bool shown;     /* on in the reference scene */
+};
+
+/* The i-th of all, in the order of pipeline/stages.def; NULL: there are no more. Of pipeline/stages.c, since this layer
+ * knows no stage. */
+const struct params *stages_params(int i);
+
+/* So many contacts, with all parameters not given: the only way to make one that a scene is read into. */
+struct contact *params_contacts(struct arena *a, int n);
+
+/* Where the struct begins in a contact's block; after all of them: the size of the block. */
+size_t params_at(const struct params *p);
+
+/* All of them; of a contact that was not read from a scene all zeros: nothing is given. */
+const void *params_block(const struct contact *c);
+const void *params_of(const struct contact *c, const struct params *p);
+bool params_given(const struct contact *c, const struct params *p);
+
+/* The struct, to be changed: the contact gets a block of its own. */
+void *params_edit(struct contact *c, const struct params *p, struct arena *a);
+
+/* Its rules, and those of its function, of all that are given. */
+void params_check(const struct scene_part *p, const struct contact *c);
+
+/* The k-th of the columns of all, and whose it is; NULL: there are no more. */
+const struct params_column *params_column(int k, const struct params **whose);
+
+#endif
