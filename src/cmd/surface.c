@@ -13,6 +13,7 @@
 #include "output/mark.h"
 #include "pipeline/outputs.h"
 #include "pipeline/stages.h"
+#include "scene/params.h"
 #include "scene/units.h"
 #include "surface/relief.h"
 
@@ -549,7 +550,7 @@ static bool read_surface(struct synth *s, struct err *e)
             e, ERR_SCENE,
             "%s: surface.height_map is measured, and needs no synth; rasp surface convert writes it in another format",
             file);
-    return u->roughness.given || u->ridges.given || u->grit.given ||
+    return u->roughness.given || params_grounded(&s->scene.contacts[0]) ||
            err_set(e, ERR_SCENE, "%s: has no roughness, ridges or grit: there is no procedural surface in it", file);
 }
 

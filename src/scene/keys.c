@@ -41,7 +41,6 @@
 #define TYPE_CHOICE_ALONG TYPE_CHOICE(ALONG)
 #define TYPE_CHOICE_HOLES TYPE_CHOICE(HOLES)
 #define TYPE_CHOICE_LEVELLING TYPE_CHOICE(LEVELLING)
-#define TYPE_CHOICE_RIDGE_SHAPE TYPE_CHOICE(RIDGE_SHAPE)
 #define TYPE_CHOICE_OFF_MAP TYPE_CHOICE(OFF_MAP)
 #define TYPE_CHOICE_CONTACT_KIND TYPE_CHOICE(CONTACT_KIND)
 #define TYPE_CHOICE_FORCE_KIND TYPE_CHOICE(FORCE_KIND)
@@ -150,22 +149,30 @@ static struct key_section *sections_add(struct key_section *s, const char *map)
     return s;
 }
 
+static bool is_named(const struct key_alternative *t, const char *path)
+{
+    for (int k = 0; t->paths[k]; k++)
+        if (!strcmp(t->paths[k], path)) return true;
+    return false;
+}
+
 /* "*" stands for all parts of the surface that are not named. */
 static void rivals_add(struct key_alternative *t)
 {
+    const struct key_alternative old = *t;
     const struct params *p;
-    int n = 0, named = 0;
-    while (t->paths[n] && strcmp(t->paths[n], "*") != 0)
-        n++;
-    for (int i = 0; t->paths[n] && (p = stages_params(i)); i++) {
-        for (named = 0; named < n && strcmp(t->paths[named], p->section) != 0;)
-            named++;
-        if (!p->ground || named < n) continue;
-        assert(n < KEYS_RIVALS);
-        t->paths[n++] = p->section;
-    }
+    int n = 0;
+    for (int k = 0; old.paths[k]; k++)
+        if (strcmp(old.paths[k], "*") != 0)
+            t->paths[n++] = old.paths[k];
+        else
+            for (int i = 0; (p = stages_params(i)); i++)
+                if (p->ground && !is_named(&old, p->section)) {
+                    assert(n < KEYS_RIVALS);
+                    t->paths[n++] = p->section;
+                }
     t->paths[n] = NULL;
-    t->most = t->most == 1 ? 1 : n;
+    t->most = old.most == 1 ? 1 : n;
 }
 
 static void tables_make(void)

@@ -105,8 +105,6 @@ static const struct {
 };
 
 static const char *const sections_off[] = {"surface.continuation",
-                                           "surface.ridges",
-                                           "surface.grit",
                                            "surface.fractal",
                                            "surface.object",
                                            "surface.space",

@@ -2,6 +2,7 @@
 #include "scene/params.h"
 
 #include <assert.h>
+#include <math.h>
 #include <string.h>
 
 #include "scene/keys_text.h"
@@ -81,4 +82,46 @@ const struct params_column *params_column(int k, const struct params **whose)
         for (const struct params_column *c = (*whose)->columns; c && c->name; c++)
             if (k-- == 0) return c;
     return NULL;
+}
+
+/* ------------------------------------------------------------------ parts of the surface */
+
+/* The next that is given from number *i on; NULL: there are no more. */
+static const struct params *ground_next(const struct contact *c, int *i)
+{
+    const struct params *p;
+    while ((p = stages_params((*i)++)))
+        if (p->ground && params_given(c, p)) return p;
+    return NULL;
+}
+
+bool params_grounded(const struct contact *c)
+{
+    int i = 0;
+    return ground_next(c, &i) != NULL;
+}
+
+bool params_directed(const struct contact *c)
+{
+    int i = 0;
+    for (const struct params *p; (p = ground_next(c, &i));)
+        if (p->ground->directed) return true;
+    return false;
+}
+
+double params_finest(const struct contact *c)
+{
+    double finest = HUGE_VAL;
+    int i = 0;
+    for (const struct params *p; (p = ground_next(c, &i));)
+        finest = fmin(finest, p->ground->finest(params_of(c, p)));
+    return finest;
+}
+
+double params_span(const struct contact *c, double span)
+{
+    int i = 0;
+    for (const struct params *p; (p = ground_next(c, &i));)
+        span += p->ground->span(params_of(c, p));
+    return span;
 }

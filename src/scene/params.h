@@ -25,6 +25,13 @@ struct params_column {
     double (*at)(const struct stage_run *, double t); /* t: s after the contact's start */
 };
 
+/* Of a part of the surface, as far as the scene alone tells. */
+struct params_ground {
+    bool directed;                     /* are its heights different along x and y? */
+    double (*finest)(const void *own); /* m, see relief_part.finest */
+    double (*span)(const void *own);   /* m between the greatest and least height */
+};
+
 struct params {
     const char *section, *meaning;       /* "surface.ridges" */
     size_t size;                         /* of its struct */
@@ -32,9 +39,9 @@ struct params {
     const struct params_rule *rules;     /* ends with path NULL; NULL: none */
     const struct params_column *columns; /* of a contact that has the section; ends with name NULL; NULL: none */
     void (*check)(const struct scene_part *, const struct contact *); /* what no row says; NULL: nothing */
-    unsigned gives; /* items that its columns belong to: a table that has them lets the stage run */
-    bool ground;    /* it is a part of the surface */
-    bool shown;     /* on in the reference scene */
+    unsigned gives;                     /* items that its columns belong to: a table that has them lets the stage run */
+    const struct params_ground *ground; /* NULL: it is no part of the surface */
+    bool shown;                         /* on in the reference scene */
 };
 
 /* The i-th of all, in the order of pipeline/stages.def; NULL: there are no more. Of pipeline/stages.c, since this layer
@@ -54,6 +61,13 @@ bool params_given(const struct contact *c, const struct params *p);
 
 /* The struct, to be changed: the contact gets a block of its own. */
 void *params_edit(struct contact *c, const struct params *p, struct arena *a);
+
+/* Of all given parts of the surface that have parameters of their own: is there one; is one directed; their finest
+ * scale; `span` and theirs, m. */
+bool params_grounded(const struct contact *c);
+bool params_directed(const struct contact *c);
+double params_finest(const struct contact *c);
+double params_span(const struct contact *c, double span);
 
 /* Its rules, and those of its function, of all that are given. */
 void params_check(const struct scene_part *p, const struct contact *c);

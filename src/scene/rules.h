@@ -11,11 +11,11 @@
 #include "scene/ablation.h"
 #include "scene/ball.h"
 #include "scene/incline.h"
+#include "scene/params.h"
 #include "scene/scene.h"
 
-#define RULES_BAND_WIDEST 1e5  /* longest over shortest wavelength of a roughness */
-#define RULES_RIDGE_WIDEST 0.9 /* of the spacing */
-#define RULES_PEAK (-3.0)      /* dB re full scale: the level of a sound for which none is given */
+#define RULES_BAND_WIDEST 1e5 /* longest over shortest wavelength of a roughness */
+#define RULES_PEAK (-3.0)     /* dB re full scale: the level of a sound for which none is given */
 #define RULES_SMOOTHING_WIDEST                                                                                         \
     0.1 /* s: a wider sigma leaves nothing to hear, and its kernels cost minutes per second of sound */
 
@@ -95,7 +95,7 @@ static inline double rules_speed(const struct motion *m)
 static inline int rules_along(const struct contact *c)
 {
     const struct surface *s = &c->surface;
-    bool directed = (s->roughness.given && s->roughness.grain != 1) || s->ridges.given;
+    bool directed = (s->roughness.given && s->roughness.grain != 1) || params_directed(c);
     if (s->along != ALONG_AUTO || s->height_map) return s->along;
     return directed || !rules_straight(&c->motion) ? ALONG_PLANE : ALONG_PATH;
 }

@@ -32,7 +32,6 @@ enum speed_law { SPEED_AUTO, SPEED_HARMONIC, SPEED_CONSTANT, SPEED_MINIMUM_JERK,
 enum along { ALONG_AUTO, ALONG_PATH, ALONG_X, ALONG_PLANE };
 enum holes { HOLES_REFUSE, HOLES_FILL };
 enum levelling { LEVELLING_NONE, LEVELLING_MEAN, LEVELLING_PLANE };
-enum ridge_shape { RIDGE_SINE, RIDGE_ROUND, RIDGE_GROOVE };
 enum off_map { OFF_MAP_MIRROR, OFF_MAP_WRAP, OFF_MAP_ERROR };
 enum contact_kind {
     CONTACT_SCRAPE,
@@ -103,23 +102,6 @@ struct roughness { /* procedural: surface/roughness.h                           
     double grain_direction;    /* rad, of the grain's long axis, 0 = +x                             */
     const char *like;          /* height map whose spectrum, rms, skewness and kurtosis are taken; NULL: none */
     double like_pitch;         /* m; NAN: the file says it                                          */
-};
-
-struct ridges { /* parallel ridges: surface/ridges.h                                 */
-    bool given;
-    double spacing, height; /* m, from ridge to ridge; from valley to top                        */
-    double width;           /* m, of a ridge or groove at half height (shapes other than sine)   */
-    double direction;       /* rad, of the ridges' crests, 0 = +x                                */
-    double jitter;          /* standard deviation of a ridge's place over the spacing            */
-    double variation;       /* standard deviation of a ridge's height over the height            */
-    int shape;              /* enum ridge_shape                                                  */
-};
-
-struct grit { /* scattered grains: surface/grit.h                                  */
-    bool given;
-    double density;          /* grains per m^2                                                    */
-    double diameter, height; /* m, of the mean grain                                              */
-    double spread;           /* standard deviation of a grain's size over its mean (log-normal)   */
 };
 
 struct fractal { /* a fractal profile as papers/002 and 004 have it: surface/fractal.h   */
@@ -197,8 +179,6 @@ struct surface {
     double origin[2];       /* m: where the surface's own x = y = 0 lies in the scene              */
     struct continuation continuation;
     struct roughness roughness;
-    struct ridges ridges;
-    struct grit grit;
     struct fractal fractal;
     struct response response;
 };

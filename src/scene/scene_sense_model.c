@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "scene/ball.h"
+#include "scene/params.h"
 #include "scene/rules.h"
 #include "scene/scene_check.h"
 #include "scene/scene_sense_parts.h"
@@ -28,19 +29,27 @@ static void still_check(const struct scene_part *p, const struct contact *c)
                  c->contact.model == CONTACT_PLAYBACK ? "sound" : model(c), scene_part_label(p, kind), model(c));
 }
 
+static void idle_tell(const struct scene_part *p, const struct contact *c, const char *path, bool keys_say_it)
+{
+    const struct yaml_node *node = yaml_find(p->map, path);
+    if (node && (node->n == 0 || !keys_say_it))
+        diag_add(p->yaml->diag, node->key->at,
+                 "remove it (a null takes away what another file says), or set contact.model to scrape",
+                 "%s has no effect where %s is %s", scene_part_label(p, path), scene_part_label(p, "contact.model"),
+                 model(c));
+}
+
 static void idle_check(const struct scene_part *p, const struct contact *c)
 {
-    static const char *const idle[] = {"grip",         "surface.height_map", "surface.roughness",   "surface.ridges",
-                                       "surface.grit", "surface.fractal",    "surface.continuation"};
+    static const char *const idle[] = {"grip", "surface.height_map", "surface.roughness", "surface.fractal",
+                                       "surface.continuation"};
+    enum { IDLE = sizeof idle / sizeof idle[0] };
     bool reads = ball_rolls(c) || c->contact.model == CONTACT_PLAYBACK;
-    for (size_t i = 0; i < (reads ? 1 : sizeof idle / sizeof idle[0]); i++) {
-        const struct yaml_node *node = yaml_find(p->map, idle[i]);
-        if (node && (node->n == 0 || i > 0)) /* a grip's keys say it themselves */
-            diag_add(p->yaml->diag, node->key->at,
-                     "remove it (a null takes away what another file says), or set contact.model to scrape",
-                     "%s has no effect where %s is %s", scene_part_label(p, idle[i]),
-                     scene_part_label(p, "contact.model"), model(c));
-    }
+    const struct params *own;
+    for (int i = 0; i < (reads ? 1 : IDLE); i++)
+        idle_tell(p, c, idle[i], i == 0);
+    for (int i = 0; !reads && (own = stages_params(i)); i++)
+        if (own->ground) idle_tell(p, c, own->section, false);
 }
 
 /* ------------------------------------------------------------------ strike */

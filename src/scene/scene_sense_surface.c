@@ -62,15 +62,6 @@ static void continuation_check(const struct scene_part *p, const struct surface 
         scene_part_contradiction(p, waves, "must be less than 0.7 times", "raise from, or lower shortest");
 }
 
-static void ridges_check(const struct scene_part *p, const struct ridges *r)
-{
-    const char *width = "surface.ridges.width", *spacing = "surface.ridges.spacing";
-    if (r->given && r->width > RULES_RIDGE_WIDEST * r->spacing)
-        diag_add(p->yaml->diag, scene_part_later(p, width, spacing), "lower width, or raise spacing",
-                 "%s, %.4g m, must be at most %g times %s, %.4g m", scene_part_label(p, width), r->width,
-                 RULES_RIDGE_WIDEST, scene_part_label(p, spacing), r->spacing);
-}
-
 /* A profile, whose kinks and steps are a surface for what has a radius alone. */
 static void fractal_check(const struct scene_part *p, const struct contact *c)
 {
@@ -101,6 +92,5 @@ void scene_sense_surface(const struct scene_part *p, const struct contact *c)
 {
     roughness_check(p, &c->surface);
     continuation_check(p, &c->surface);
-    ridges_check(p, &c->surface.ridges);
     fractal_check(p, c);
 }

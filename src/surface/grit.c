@@ -16,6 +16,7 @@
 #include <limits.h>
 
 #include "num/real.h"
+#include "scene/rows.h"
 #include "stage.h"
 #include "surface/relief.h"
 
@@ -26,6 +27,38 @@ enum { GRIT_MOST = 4096 }; /* of nine cells: 900 in the mean at most, with a sta
 struct grain {
     double x, y, h, u; /* m; u = 1/R^2 */
 };
+
+/* ------------------------------------------------------------------ parameters */
+
+static const struct key keys[] = {
+    {ROW_NUMBER(grit, density, "surface.grit.density"), KEY_PER_AREA, 1, 1e13, "1e7 /m^2", NULL, "grains per area"},
+    {ROW_NUMBER(grit, diameter, "surface.grit.diameter"), KEY_LENGTH, 1e-6, 1e-2, "125 um", NULL,
+     "mean diameter of a grain"},
+    {ROW_NUMBER(grit, height, "surface.grit.height"), KEY_LENGTH, 1e-9, 1e-2, "40 um", NULL,
+     "mean height of a grain above the ground"},
+    {ROW_NUMBER(grit, spread, "surface.grit.spread"), KEY_NONE, 0, 1, "0.2", NULL,
+     "standard deviation of a grain's diameter and height, as a share of the mean"},
+    {.path = NULL}};
+
+static double likely_finest(const void *own) { return ((const struct grit *)own)->diameter / 8; }
+
+static double likely_span(const void *own)
+{
+    const struct grit *g = own;
+    return g->height * real_exp(4 * g->spread);
+}
+
+static const struct params grit_params = {
+    .section = "surface.grit",
+    .meaning = "scattered grains, as of sandpaper, drawn from the seed",
+    .size = sizeof(struct grit),
+    .keys = keys,
+    .ground = &(const struct params_ground){.finest = likely_finest, .span = likely_span},
+};
+
+static const struct grit *grit_of(const struct contact *c) { return params_of(c, &grit_params); }
+
+/* ------------------------------------------------------------------ their heights */
 
 struct grit_state {
     struct noise stream;
@@ -168,13 +201,13 @@ struct relief_part *grit_part(struct arena *a, const struct grit *g, struct nois
 static bool grit_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return c->surface.grit.given;
+    return grit_of(c)->given;
 }
 
 /* Cycles: 4 for each grain of nine cells, of which there are at least nine. */
 static double grit_work(const struct contact *c, const struct scene *s)
 {
-    const struct grit *g = &c->surface.grit;
+    const struct grit *g = grit_of(c);
     double reach = 0.5 * g->diameter * real_exp(2.5 * sigma_of(g));
     return (40 + 4 * 9 * fmax(1, g->density * reach * reach)) * relief_readings(s, 0.5 * g->diameter / 4);
 }
@@ -182,7 +215,7 @@ static double grit_work(const struct contact *c, const struct scene *s)
 static bool grit_open(struct stage_run *r, struct err *e)
 {
     struct noise stream = noise_make(r->scene->seed, arena_format(r->arena, "grit/%s", r->contact->name));
-    struct relief_part *part = grit_part(r->arena, &r->contact->surface.grit, stream, e);
+    struct relief_part *part = grit_part(r->arena, grit_of(r->contact), stream, e);
     if (!part) return err_at(e, "contact '%s'", r->contact->name);
     relief_decide(r->board->relief, r->contact);
     relief_add(r->board->relief, part);
@@ -194,6 +227,7 @@ const struct stage grit_stage = {
     .does = "scattered grains",
     .paper = "",
     .idle = "no surface.grit",
+    .params = &grit_params,
     .needs = ITEM_BIT(ITEM_SURFACE),
     .gives = ITEM_BIT(ITEM_SURFACE),
     .wanted = grit_wanted,

@@ -17,10 +17,59 @@
 #include <limits.h>
 
 #include "num/real.h"
+#include "scene/rows.h"
 #include "stage.h"
 #include "surface/relief.h"
 
 enum { RIDGES_CACHED = 16 };
+
+/* ------------------------------------------------------------------ parameters */
+
+static const struct choice shapes[] = {[RIDGE_SINE] = {"sine", "a sine wave"},
+                                       [RIDGE_ROUND] = {"round", "separate round ridges on a flat ground"},
+                                       [RIDGE_GROOVE] = {"groove", "separate round grooves in a flat ground"},
+                                       {NULL, NULL}};
+
+static const struct key keys[] = {
+    {ROW_NUMBER(ridges, spacing, "surface.ridges.spacing"), KEY_LENGTH, 1e-6, 0.1, "1 mm", NULL,
+     "distance from ridge to ridge"},
+    {ROW_NUMBER(ridges, height, "surface.ridges.height"), KEY_LENGTH, 1e-9, 1e-2, "20 um", NULL,
+     "height from valley to top"},
+    {ROW_CHOICE(ridges, shape, "surface.ridges.shape"), KEY_NONE, 0, 0, "sine", NULL, "shape across the ridges",
+     shapes},
+    {ROW_NUMBER(ridges, width, "surface.ridges.width"), KEY_LENGTH, 1e-6, 0.1, "0.3 mm",
+     "surface.ridges.shape=round|groove", "width of a ridge or groove at half its height"},
+    {ROW_NUMBER(ridges, direction, "surface.ridges.direction"), KEY_ANGLE, -6.2832, 6.2832, "90 deg", NULL,
+     "direction in which the ridges run, 0 is +x; along a path they lie across it"},
+    {ROW_NUMBER(ridges, jitter, "surface.ridges.jitter"), KEY_NONE, 0, 0.3, "0", NULL,
+     "standard deviation of a ridge's place, as a share of the spacing"},
+    {ROW_NUMBER(ridges, variation, "surface.ridges.variation"), KEY_NONE, 0, 1, "0", NULL,
+     "standard deviation of a ridge's height, as a share of the height"},
+    {.path = NULL}};
+
+static const struct params_rule rules[] = {
+    {"surface.ridges.width", 0.9, "surface.ridges.spacing", "lower width, or raise spacing"}, {.path = NULL}};
+
+static double likely_finest(const void *own) { return ((const struct ridges *)own)->spacing / 8; }
+
+static double likely_span(const void *own)
+{
+    const struct ridges *r = own;
+    return r->height * (1 + 4 * r->variation);
+}
+
+static const struct params ridges_params = {
+    .section = "surface.ridges",
+    .meaning = "parallel ridges or grooves",
+    .size = sizeof(struct ridges),
+    .keys = keys,
+    .rules = rules,
+    .ground = &(const struct params_ground){.directed = true, .finest = likely_finest, .span = likely_span},
+};
+
+static const struct ridges *ridges_of(const struct contact *c) { return params_of(c, &ridges_params); }
+
+/* ------------------------------------------------------------------ their heights */
 
 struct ridge {
     long i;
@@ -118,17 +167,17 @@ struct relief_part *ridges_part(struct arena *a, const struct ridges *recipe, in
 static bool ridges_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return c->surface.ridges.given;
+    return ridges_of(c)->given;
 }
 
 static double ridges_work(const struct contact *c, const struct scene *s)
 {
-    return 90 * relief_readings(s, c->surface.ridges.spacing / 8);
+    return 90 * relief_readings(s, ridges_of(c)->spacing / 8);
 }
 
 static bool ridges_open(struct stage_run *r, struct err *e)
 {
-    const struct ridges *recipe = &r->contact->surface.ridges;
+    const struct ridges *recipe = ridges_of(r->contact);
     struct noise stream = noise_make(r->scene->seed, arena_format(r->arena, "ridges/%s", r->contact->name));
     if (recipe->shape != RIDGE_SINE && recipe->width > 20 * recipe->spacing)
         return err_set(
@@ -145,6 +194,7 @@ const struct stage ridges_stage = {
     .does = "parallel ridges",
     .paper = "",
     .idle = "no surface.ridges",
+    .params = &ridges_params,
     .needs = ITEM_BIT(ITEM_SURFACE),
     .gives = ITEM_BIT(ITEM_SURFACE),
     .wanted = ridges_wanted,

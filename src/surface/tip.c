@@ -31,6 +31,7 @@
 
 #include "num/real.h"
 #include "scene/ball.h"
+#include "scene/params.h"
 #include "scene/rules.h"
 #include "stage.h"
 #include "surface/contact_patch.h"
@@ -123,31 +124,31 @@ enum {
 #define MAP_SPAN 20e-6 /* m, of any map */
 
 /* m, the surface's finest scale, as far as the scene tells. */
-static double likely_finest(const struct surface *s)
+static double likely_finest(const struct contact *c)
 {
+    const struct surface *s = &c->surface;
     double finest = s->height_map ? isnan(s->pitch) ? RELIEF_MAP_PITCH : s->pitch : HUGE_VAL;
     finest = fmin(finest, s->roughness.given ? relief_roughness_scale(&s->roughness) : HUGE_VAL);
     finest = fmin(finest, s->continuation.given ? s->continuation.shortest / 4 : HUGE_VAL);
-    finest = fmin(finest, s->ridges.given ? s->ridges.spacing / 8 : HUGE_VAL);
-    return fmin(finest, s->grit.given ? s->grit.diameter / 8 : HUGE_VAL);
+    return fmin(finest, params_finest(c));
 }
 
 /* m, between places where the ground under a tip without a patch is read. */
 static double likely_pitch(const struct contact *c)
 {
     const struct surface *s = &c->surface;
-    double finest = likely_finest(s);
+    double finest = likely_finest(c);
     if (!s->fractal.given) return finest / 4;
     return fmin(fmin(finest, s->fractal.pitch) / 4, sqrt(8 * c->scraper.radius * TIP_DIP * 2 * s->fractal.maximum));
 }
 
 /* m between the greatest and least height: of what is random 8 times the rms. */
-static double likely_span(const struct surface *s)
+static double likely_span(const struct contact *c)
 {
+    const struct surface *s = &c->surface;
     double span = s->height_map ? MAP_SPAN : 0;
     span += s->roughness.given ? 8 * (s->roughness.like ? MAP_SPAN / 8 : s->roughness.rms) : 0;
-    span += s->ridges.given ? s->ridges.height * (1 + 4 * s->ridges.variation) : 0;
-    return span + (s->grit.given ? s->grit.height * real_exp(4 * s->grit.spread) : 0);
+    return params_span(c, span);
 }
 
 /* |cos| + |sin| of the motion's heading; in the mean where it turns. */
@@ -160,9 +161,9 @@ static double aslant(const struct motion *m)
 static double plane_metre(const struct contact *c, double dense)
 {
     const struct scraper *s = &c->scraper;
-    double h = s->patch / PATCH_POINTS, finer = ceil(h / fmin(h, likely_finest(&c->surface) / 2) * dense * (1 - 1e-12)),
+    double h = s->patch / PATCH_POINTS, finer = ceil(h / fmin(h, likely_finest(c) / 2) * dense * (1 - 1e-12)),
            d = h / finer;
-    double reach = fmin(s->radius, sqrt(2 * s->radius * 1.5 * likely_span(&c->surface)));
+    double reach = fmin(s->radius, sqrt(2 * s->radius * 1.5 * likely_span(c)));
     struct rolling_plan p = {
         .radius = s->radius, .patch = s->patch, .reach = reach, .finer = finer > 1 ? (int)fmin(finer, 1e6) : 1};
     double side = (double)contact_patch_side(&p), envelope = WIDE * (POINT + GATHER * side * side / (SQUARE * SQUARE));

@@ -3,6 +3,8 @@
 
 #include "scene/rules.h"
 
+#include "pipeline/stages.h"
+#include "scene/params.h"
 #include "surface/height_map.h"
 #include "surface/profile.h"
 #include "unit.h"
@@ -131,11 +133,13 @@ START_TEST(settled_along)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct relief r = {.along = cases[i].along};
         struct contact c = {.motion = {.path = cases[i].path},
-                            .surface = {.roughness = {.given = cases[i].roughness, .grain = cases[i].grain},
-                                        .ridges = {.given = cases[i].ridges}}};
+                            .surface = {.roughness = {.given = cases[i].roughness, .grain = cases[i].grain}}};
+        struct arena *a = arena_open();
+        *(bool *)params_edit(&c, ridges_stage.params, a) = cases[i].ridges;
         relief_decide(&r, &c);
         ck_assert_msg(r.along == cases[i].want, "case %zu: %d", i, r.along);
         ck_assert(rules_straight(&c.motion) == (cases[i].path <= PATH_FOUR_IN_LINE));
+        arena_close(a);
     }
 }
 END_TEST

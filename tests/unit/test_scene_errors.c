@@ -13,7 +13,7 @@ static const struct bad bads[] = {
     {"titel: x\n", "5:1", "unknown key 'titel'", "did you mean 'title'?"},
     {"trajectory: x\n", "5:1", "unknown key 'trajectory'", "keys here: rasp, title"},
     {"rate: 3 Hz\n", "5:1", "unknown key 'rate'",
-     "'rate' belongs elsewhere: motion.rate or contact.given.rate or contact.impacts.modulation.rate or "
+     "'rate' belongs elsewhere: motion.rate or contact.impacts.modulation.rate or contact.given.rate or "
      "output.diagnostics.rate"},
     {"lufs: -23\n", "5:1", "unknown key 'lufs'", "output.level.lufs"},
     {"oversampling: 3\n", "5:1", "unknown key 'oversampling'", "accuracy.oversampling"},

@@ -1,5 +1,9 @@
 /* Surfaces in scenes: values against each other, and recipes: files of surface keys merged under the scene's own. */
+#include "pipeline/stages.h"
+#include "scene/params.h"
 #include "scene/scene_read.h"
+#include "surface/grit.h"
+#include "surface/ridges.h"
 
 #include <sys/stat.h>
 
@@ -107,8 +111,9 @@ START_TEST(test_good)
     }
     struct result r = surface_read("{roughness: {like: a.gsf}, grit: {density: 12.5 /mm^2}}");
     const struct surface *s = &r.scene.contacts->surface;
+    const struct grit *grit = params_of(r.scene.contacts, grit_stage.params);
     ck_assert(isnan(s->roughness.rms) && isnan(s->roughness.exponent) && isnan(s->roughness.shortest) &&
-              s->grit.density == 12.5e6);
+              grit->density == 12.5e6);
     arena_close(r.arena);
 }
 END_TEST
@@ -163,16 +168,17 @@ START_TEST(test_recipe)
     make_files();
     struct result r = read_file("one.yaml", NULL);
     const struct surface *s = &r.scene.contacts->surface;
+    const struct grit *grit = params_of(r.scene.contacts, grit_stage.params);
     ck_assert_msg(r.good, "%s", r.messages);
-    ck_assert(s->roughness.rms == 5e-6 && s->roughness.exponent == -3 && s->grit.given && s->grit.density == 30e6 &&
-              s->grit.height == 20e-6);
-    ck_assert(s->grit.diameter == 125e-6 && !s->ridges.given);
+    ck_assert(s->roughness.rms == 5e-6 && s->roughness.exponent == -3 && grit->given && grit->density == 30e6 &&
+              grit->height == 20e-6);
+    ck_assert(grit->diameter == 125e-6 && !params_given(r.scene.contacts, ridges_stage.params));
     ck_assert_str_eq(s->recipe, folder_path("sub/paper.yaml"));
     ck_assert_str_eq(s->response.file, folder_path("sub/table.csv"));
     arena_close(r.arena);
     r = read_file("sub/including.yaml", NULL); /* the recipe is seen from the file that names it */
     ck_assert_msg(r.good, "%s", r.messages);
-    ck_assert(r.scene.contacts->surface.roughness.rms == 2e-6 && !r.scene.contacts->surface.grit.given);
+    ck_assert(r.scene.contacts->surface.roughness.rms == 2e-6 && !params_given(r.scene.contacts, grit_stage.params));
     arena_close(r.arena);
     char set[256];
     snprintf(set, sizeof set, "surface.recipe=%s",
@@ -188,8 +194,10 @@ START_TEST(test_recipe)
     arena_close(r.arena);
     r = read_file("several.yaml", NULL);
     ck_assert_msg(r.good, "%s", r.messages);
-    ck_assert(r.scene.contacts[0].surface.grit.given && !r.scene.contacts[0].surface.ridges.given);
-    ck_assert(r.scene.contacts[1].surface.ridges.spacing == 2e-3 && !r.scene.contacts[1].surface.roughness.given);
+    ck_assert(params_given(&r.scene.contacts[0], grit_stage.params) &&
+              !params_given(&r.scene.contacts[0], ridges_stage.params));
+    ck_assert(((const struct ridges *)params_of(&r.scene.contacts[1], ridges_stage.params))->spacing == 2e-3 &&
+              !r.scene.contacts[1].surface.roughness.given);
     arena_close(r.arena);
     folder_remove();
 }
@@ -210,9 +218,10 @@ START_TEST(test_recipe_set)
     snprintf(set_b, sizeof set_b, "contacts.b.surface.recipe=%s", folder_path("sub/paper.yaml"));
     r = read_file("several.yaml", SET(set_b, "contacts.a.surface={recipe: null, ridges: {}, response: x.csv}"));
     ck_assert_msg(r.good, "%s", r.messages);
-    ck_assert(r.scene.contacts[1].surface.grit.given && !r.scene.contacts[1].surface.ridges.given &&
-              r.scene.contacts[0].surface.ridges.given);
-    ck_assert(!r.scene.contacts[0].surface.grit.given && !r.scene.contacts[0].surface.recipe);
+    ck_assert(params_given(&r.scene.contacts[1], grit_stage.params) &&
+              !params_given(&r.scene.contacts[1], ridges_stage.params) &&
+              params_given(&r.scene.contacts[0], ridges_stage.params));
+    ck_assert(!params_given(&r.scene.contacts[0], grit_stage.params) && !r.scene.contacts[0].surface.recipe);
     arena_close(r.arena);
     folder_remove();
 }

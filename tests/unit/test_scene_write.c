@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include "base/hash.h"
+#include "pipeline/stages.h"
 #include "scene/keys.h"
 #include "scene/keys_yaml.h"
+#include "scene/params.h"
 #include "scene/scene_read.h"
 #include "scene/scene_write.h"
 
@@ -527,7 +529,8 @@ START_TEST(test_recipe)
         "motion: {path: line, to: [1, 1], duration: 0.3}\n");
     must_read("in/scene.yaml", &s);
     const struct surface *f = &s.contacts->surface;
-    ck_assert(f->roughness.rms == 3e-6 && f->roughness.exponent == -3 && !f->ridges.given);
+    ck_assert(f->roughness.rms == 3e-6 && f->roughness.exponent == -3 &&
+              !params_given(s.contacts, ridges_stage.params));
     ck_assert_str_eq(f->recipe, "in/files/recipe.yaml");
     ck_assert_str_eq(f->response.file, "in/files/plank.csv"); /* as seen from the recipe */
     const char *text = scene_write(&s, "out", a);
