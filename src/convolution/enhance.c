@@ -24,11 +24,53 @@
 #include "convolution/resonators.h"
 #include "convolution/ring.h"
 #include "num/real.h"
+#include "scene/rows.h"
 #include "scene/rules.h"
+#include "scene/scene_part.h"
 #include "stage.h"
 #include "trajectory/trajectory.h"
 
 enum { ENHANCE_INSTANTS = 64, ENHANCE_RAMP = 64 };
+
+/* ------------------------------------------------------------------ parameters */
+
+struct enhance { /* section contact.enhance */
+    bool given;
+    double gain; /* dB, at the strongest mode */
+    int modes;   /* how many of the strongest */
+};
+
+static const struct key keys[] = {{ROW_NUMBER(enhance, gain, "contact.enhance.gain"), KEY_DECIBEL, 0, 80, "20 dB", NULL,
+                                   "how much louder at the frequency of the strongest mode"},
+                                  {ROW_COUNT(enhance, modes, "contact.enhance.modes"), KEY_NONE, 1, 1000, "20", NULL,
+                                   "how many of the strongest modes"},
+                                  {.path = NULL}};
+
+static void check(const struct scene_part *p, const struct contact *c)
+{
+    const struct response *r = &c->surface.response;
+    const char *path = "contact.enhance";
+    if ((rules_responds(r) && !rules_is_recorded(r))) return;
+    if (rules_is_recorded(r))
+        diag_add(p->yaml->diag, scene_part_later(p, path, "surface.response"),
+                 "give a mode table (.csv), surface.object or surface.space, or remove contact.enhance",
+                 "%s needs the surface's modes, and '%s' is recorded", scene_part_label(p, path),
+                 diag_shown(p->yaml->diag, r->file));
+    else
+        diag_add(p->yaml->diag, yaml_find(p->map, path)->key->at,
+                 "give surface.response (a mode table), surface.object or surface.space, or remove contact.enhance",
+                 "%s needs the surface's modes, and the surface has none", scene_part_label(p, path));
+}
+
+static const struct params enhance_params = {
+    .section = "contact.enhance",
+    .meaning = "the force louder near the frequencies of the surface's modes, as FoleyAutomatic has it for what rolls",
+    .size = sizeof(struct enhance),
+    .keys = keys,
+    .check = check,
+};
+
+static const struct enhance *enhance_of(const struct contact *c) { return params_of(c, &enhance_params); }
 
 struct enhance_bank {
     struct resonators *bank;
@@ -114,7 +156,7 @@ static const struct modes *enhance_modes(const struct stage_run *r, int *gamma, 
 static bool enhance_open(struct stage_run *r, struct err *e)
 {
     struct enhance_bank *s = ARENA_TAKE(r->arena, struct enhance_bank, 1);
-    const struct enhance *asked = &r->contact->contact.enhance;
+    const struct enhance *asked = enhance_of(r->contact);
     double rate = r->board->rate, boost = real_exp10(asked->gain / 20) - 1, was = 0, strongest = 0, ring = 0;
     int gamma = 1, n = 0;
     const struct modes *m = enhance_modes(r, &gamma, e);
@@ -161,13 +203,13 @@ static bool enhance_run(struct stage_run *r, long from, long to, struct err *e)
 static bool enhance_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return c->contact.enhance.given;
+    return enhance_of(c)->given;
 }
 
 static double enhance_work(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return 5 + 0.8 * fmin(c->contact.enhance.modes, c->surface.response.modes);
+    return 5 + 0.8 * fmin(enhance_of(c)->modes, c->surface.response.modes);
 }
 
 const struct stage enhance_stage = {
@@ -175,6 +217,7 @@ const struct stage enhance_stage = {
     .does = "the force louder near the frequencies of the surface's modes",
     .paper = "002 sec. II-B",
     .idle = "no contact.enhance",
+    .params = &enhance_params,
     .needs = ITEM_BIT(ITEM_FORCE) | ITEM_BIT(ITEM_MOTION), /* its way */
     .gives = ITEM_BIT(ITEM_FORCE),
     .wanted = enhance_wanted,

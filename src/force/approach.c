@@ -5,6 +5,7 @@
    it comes after the low-pass, in gesture.c. */
 #include "force/approach.h"
 
+#include "force/gesture.h"
 #include "scene/rules.h"
 #include "trajectory/load.h"
 
@@ -25,7 +26,7 @@ void approach_warn(struct stage_run *r, const char *what, double at)
 static bool approach_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return !rules_gesture(c) && (rules_approach(c, false) > 0 || rules_approach(c, true) > 0);
+    return !gesture_follows(c) && (rules_approach(c, false) > 0 || rules_approach(c, true) > 0);
 }
 
 static double approach_work(const struct contact *c, const struct scene *s)

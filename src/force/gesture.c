@@ -18,15 +18,62 @@
 
    load.approach and load.release come after it, in place of the stage approach: what the low-pass holds is let go too.
    Of a given force, which has neither, it is let go over 5 ms, so that the sound does not end with what it holds. */
+#include "force/gesture.h"
+
 #include <math.h>
 
 #include "num/real.h"
+#include "scene/rows.h"
 #include "scene/rules.h"
+#include "scene/scene_part.h"
 #include "stage.h"
 #include "trajectory/load.h"
 #include "trajectory/trajectory.h"
 
 #define GESTURE_OPEN 0.49 /* of the sample rate */
+
+/* ------------------------------------------------------------------ parameters */
+
+#define DRIVEN "contact.model=impacts|playback|given"
+
+static const struct key keys[] = {{ROW_NUMBER(gesture, cutoff, "contact.gesture.cutoff"), KEY_FREQUENCY, 1, 1e6,
+                                   "10 kHz", DRIVEN,
+                                   "cutoff (-3 dB) at the speed below; it is in proportion to the speed"},
+                                  {ROW_NUMBER(gesture, speed, "contact.gesture.speed"), KEY_SPEED, 1e-4, 100, "0.5 m/s",
+                                   DRIVEN, "speed of the contact at that cutoff"},
+                                  {ROW_COUNT(gesture, order, "contact.gesture.order"), KEY_NONE, 1, 2, "2", DRIVEN,
+                                   "order of the low-pass: 6 or 12 dB an octave"},
+                                  {.path = NULL}};
+
+static void check(const struct scene_part *p, const struct contact *c)
+{
+    const char *path = "contact.gesture", *motion = "motion.path";
+    const struct yaml_node *node = yaml_find(p->map, path);
+    if (!gesture_follows(c) && node->n == 0) /* its keys say it themselves */
+        diag_add(p->yaml->diag, node->key->at, "remove it, or set contact.model to impacts, playback or given",
+                 "%s has no effect where %s is %s", scene_part_label(p, path), scene_part_label(p, "contact.model"),
+                 keys_find("contact.model")->choices[c->contact.model].word);
+    if (gesture_follows(c) && c->motion.path == PATH_STILL && scene_part_known(p, motion))
+        diag_add(p->yaml->diag, scene_part_later(p, motion, path),
+                 "let it move, such as path: back_and_forth; or remove contact.gesture",
+                 "%s is still and %s is given: its low-pass follows the speed, and lets nothing pass at rest",
+                 scene_part_label(p, motion), scene_part_label(p, path));
+}
+
+static const struct params gesture_params = {
+    .section = "contact.gesture",
+    .meaning = "a low-pass on the force that follows the contact's speed, as of a hand's gesture (papers/004)",
+    .size = sizeof(struct gesture),
+    .keys = keys,
+    .check = check,
+};
+
+bool gesture_follows(const struct contact *c)
+{
+    return params_given(c, &gesture_params) && (rules_driven(c) || c->contact.model == CONTACT_GIVEN);
+}
+
+/* ------------------------------------------------------------------ the filter */
 
 struct gesture_filter {
     struct load_law fade;
@@ -39,7 +86,7 @@ struct gesture_filter {
 static bool gesture_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return rules_gesture(c);
+    return gesture_follows(c);
 }
 
 static double gesture_work(const struct contact *c, const struct scene *s)
@@ -58,7 +105,7 @@ static bool fade_make(const struct stage_run *r, struct load_law *fade, struct e
 
 static void warn_open(const struct stage_run *r, double greatest)
 {
-    const struct gesture *g = &r->contact->contact.gesture;
+    const struct gesture *g = params_of(r->contact, &gesture_params);
     if (greatest > GESTURE_OPEN * r->board->rate)
         board_warn(r->board, arena_format(r->arena,
                                           "contact '%s': contact.gesture: the cutoff reaches %.6g Hz at %.4g m/s; "
@@ -70,7 +117,7 @@ static void warn_open(const struct stage_run *r, double greatest)
 
 static bool gesture_open(struct stage_run *r, struct err *e)
 {
-    const struct gesture *g = &r->contact->contact.gesture;
+    const struct gesture *g = params_of(r->contact, &gesture_params);
     struct gesture_filter *f = ARENA_TAKE(r->arena, struct gesture_filter, 1);
     r->state = f;
     f->order = g->order;
@@ -126,6 +173,7 @@ const struct stage gesture_stage = {
     .does = "a low-pass on the force whose cutoff follows the contact's speed",
     .paper = "004, navigation strategy",
     .idle = "no contact.gesture",
+    .params = &gesture_params,
     .needs = ITEM_BIT(ITEM_FORCE) | ITEM_BIT(ITEM_VELOCITY),
     .gives = ITEM_BIT(ITEM_FORCE),
     .wanted = gesture_wanted,

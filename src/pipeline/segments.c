@@ -23,6 +23,7 @@
 #include "num/real.h"
 #include "pipeline/run.h"
 #include "pipeline/stages.h"
+#include "scene/params.h"
 #include "scene/rules.h"
 #include "scene/scene.h"
 #include "trajectory/trajectory.h"
@@ -60,7 +61,6 @@ static void strike(struct contact *c, const double place[2], double rate)
                                         .count = 1,
                                         .interval = NAN,
                                         .restitution = NAN};
-    c->contact.gesture.given = false;
     c->scraper.mass = mass;
     c->motion = (struct motion){
         .path = PATH_STILL, .at = {place[0], place[1]}, .duration = AUDIBLE_FRAMES / rate, .speed = NAN};
@@ -250,7 +250,7 @@ bool segments_make(const struct scene *s, const struct contact *c, double first,
                            .power = ARENA_TAKE(a, double, SEGMENTS_PLACES *AUDIBLE_BINS)};
     if (c->gain == 0) /* it is here for its table, which holds its force as it is */
         x->gain = x->contact.gain = 1;
-    x->contact.contact.enhance.given = false; /* segments.h has it */
+    *(bool *)params_edit(&x->contact, enhance_stage.params, a) = false; /* segments.h has it */
     x->scene.contacts = &x->contact;
     x->scene.n_contacts = 1;
     x->scene.output.quantity = QUANTITY_FORCE;

@@ -39,16 +39,4 @@ struct impacts {                      /* a series of impacts: force/impact_law.h
     const char *walk;           /* CSV of time_s, angle_deg, radius; NULL: none                      */
 };
 
-struct gesture { /* low-pass that follows the contact's speed: force/gesture.c        */
-    bool given;
-    double cutoff, speed; /* Hz at that speed, m/s; in proportion to the speed                 */
-    int order;            /* 1 or 2                                                            */
-};
-
-struct enhance { /* the force louder near the surface's modes: convolution/enhance.c  */
-    bool given;
-    double gain; /* dB, at the strongest mode                                         */
-    int modes;   /* how many of the strongest                                         */
-};
-
 #endif

@@ -111,8 +111,6 @@ static const char *const sections_off[] = {"surface.continuation",
                                            "scraper.object",
                                            "ball.object",
                                            "grip",
-                                           "contact.gesture",
-                                           "contact.enhance",
                                            "output.listen",
                                            NULL};
 

@@ -238,12 +238,6 @@ static inline double rules_approach(const struct contact *c, bool release)
     return falls || (c->contact.model == CONTACT_SCRAPE && rules_rests(&c->motion, release)) ? 0 : RULES_APPROACH;
 }
 
-/* Does a low-pass on its force follow its speed? */
-static inline bool rules_gesture(const struct contact *c)
-{
-    return c->contact.gesture.given && (rules_driven(c) || c->contact.model == CONTACT_GIVEN);
-}
-
 /* Is its series of impacts written? */
 static inline bool rules_listed(const struct contact *c, const struct output *o)
 {

@@ -293,9 +293,7 @@ struct contact_model {
     struct given_force given;
     struct roll roll;
     struct impacts impacts;
-    double playback; /* N/m: force for a metre of the surface's height (playback)         */
-    struct gesture gesture;
-    struct enhance enhance;
+    double playback;     /* N/m: force for a metre of the surface's height (playback)         */
     int force;           /* enum force_kind                                                   */
     double beta1, beta2; /* eq. 3                                                             */
     double leak;         /* m: l of dS'/ds + S'/l = T(c)                                      */

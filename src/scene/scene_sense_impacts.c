@@ -1,5 +1,4 @@
-/* What a series of impacts needs, and values of it that make no sense together; and the low-pass that follows a
- * gesture. */
+/* What a series of impacts needs, and values of it that make no sense together. */
 #include <math.h>
 
 #include "scene/keys.h"
@@ -13,24 +12,6 @@ static bool is_given(const struct scene_part *p, const char *path) { return yaml
 static void refuse(const struct scene_part *p, const char *path, const char *cure, const char *says)
 {
     diag_add(p->yaml->diag, scene_part_later(p, path, path), cure, "%s %s", scene_part_label(p, path), says);
-}
-
-/* ------------------------------------------------------------------ the gesture */
-
-static void gesture_check(const struct scene_part *p, const struct contact *c)
-{
-    const char *path = "contact.gesture", *motion = "motion.path";
-    const struct yaml_node *node = yaml_find(p->map, path);
-    if (!node || !c->contact.gesture.given) return;
-    if (!rules_gesture(c) && node->n == 0) /* its keys say it themselves */
-        diag_add(p->yaml->diag, node->key->at, "remove it, or set contact.model to impacts, playback or given",
-                 "%s has no effect where %s is %s", scene_part_label(p, path), scene_part_label(p, "contact.model"),
-                 keys_find("contact.model")->choices[c->contact.model].word);
-    if (rules_gesture(c) && c->motion.path == PATH_STILL && scene_part_known(p, motion))
-        diag_add(p->yaml->diag, scene_part_later(p, motion, path),
-                 "let it move, such as path: back_and_forth; or remove contact.gesture",
-                 "%s is still and %s is given: its low-pass follows the speed, and lets nothing pass at rest",
-                 scene_part_label(p, motion), scene_part_label(p, path));
 }
 
 /* ------------------------------------------------------------------ what a custom series needs */
@@ -154,7 +135,6 @@ static void series_check(const struct scene_part *p, const struct impacts *m)
 
 void scene_sense_impacts(const struct scene_part *p, const struct contact *c)
 {
-    gesture_check(p, c);
     if (c->contact.model == CONTACT_IMPACTS && is_given(p, "contact.impacts.prototype") &&
         scene_part_known(p, "contact.impacts.prototype"))
         series_check(p, &c->contact.impacts);

@@ -128,22 +128,6 @@ static void gammatone_check(const struct body *b)
                  label_of(b, "moving"), r->moving == MOVING_AUTO ? ", which is auto where surface.space travels" : "");
 }
 
-static void enhance_check(const struct scene_part *p, const struct contact *c)
-{
-    const struct response *r = &c->surface.response;
-    const char *path = "contact.enhance";
-    if (!c->contact.enhance.given || !yaml_find(p->map, path) || (rules_responds(r) && !rules_is_recorded(r))) return;
-    if (rules_is_recorded(r))
-        diag_add(p->yaml->diag, scene_part_later(p, path, "surface.response"),
-                 "give a mode table (.csv), surface.object or surface.space, or remove contact.enhance",
-                 "%s needs the surface's modes, and '%s' is recorded", scene_part_label(p, path),
-                 diag_shown(p->yaml->diag, r->file));
-    else
-        diag_add(p->yaml->diag, yaml_find(p->map, path)->key->at,
-                 "give surface.response (a mode table), surface.object or surface.space, or remove contact.enhance",
-                 "%s needs the surface's modes, and the surface has none", scene_part_label(p, path));
-}
-
 static void body_check(const struct scene_part *p, const char *name, const struct response *r)
 {
     struct body b = {p, r, name};
@@ -171,7 +155,6 @@ void scene_sense_response(const struct scene_part *p, const struct contact *c)
 {
     body_check(p, "surface", &c->surface.response);
     body_check(p, ball_tool(c), &c->scraper.response);
-    enhance_check(p, c);
     space_check(p, "surface.space.from", c->surface.response.space.from);
     space_check(p, "surface.space.to", c->surface.response.space.to);
 }

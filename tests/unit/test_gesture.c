@@ -1,8 +1,10 @@
 /* gesture: the low-pass at steady speeds against its closed form, what it does at rest, under any modulation and above
    its limit, on straight and curved motions, and how the force begins and ends. */
 #include "contacts.h"
+#include "force/gesture.h"
 #include "num/noise.h"
 #include "rig.h"
+#include "scene/params.h"
 
 extern const struct stage gesture_stage;
 
@@ -23,7 +25,8 @@ static struct hand hand_open(double rate, double cutoff, int order, long n)
     struct hand h = {.arena = arena_open(), .n = n, .board = {.rate = rate, .over = 1}};
     h.contact = shot_contact(CONTACT_IMPACTS, 100);
     h.contact.motion = (struct motion){.path = PATH_LINE, .to = {100, 0}, .speed = NAN, .duration = 100};
-    h.contact.contact.gesture = (struct gesture){true, cutoff, 1, order};
+    *(struct gesture *)params_edit(&h.contact, gesture_stage.params, h.arena) =
+        (struct gesture){true, cutoff, 1, order};
     return h;
 }
 

@@ -1,6 +1,10 @@
 /* What the reader tells of series of impacts and of gestures, with its place; and what it takes. */
 #include "scenes.h"
 
+#include "force/gesture.h"
+#include "pipeline/stages.h"
+#include "scene/params.h"
+
 #define MOVES "rasp: 1\nmotion: {path: line, to: [1 cm, 0], duration: 1 s}\noutput: {diagnostics: {}}\n"
 #define IMPACTS(keys) MOVES "contact: {model: impacts, impacts: {" keys "}}\n"
 #define CUSTOM(keys) IMPACTS("prototype: custom, duration: {zeta: 1 ms}, " keys)
@@ -148,10 +152,10 @@ START_TEST(defaults)
     ck_assert(isnan(m->depth) && isnan(m->rate) && isnan(m->least_amplitude) && m->least_interval == 22.6757e-6);
     ck_assert(m->amplitude.distribution == DISTRIBUTION_GAUSSIAN && m->marginal == MARGINAL_AS_DRAWN &&
               m->processes == PROCESSES_ONE && !m->walk);
-    ck_assert(!r.scene.contacts->contact.gesture.given && r.scene.output.impacts == LISTING_NONE);
+    ck_assert(!params_given(r.scene.contacts, gesture_stage.params) && r.scene.output.impacts == LISTING_NONE);
     arena_close(r.arena);
     r = read_with(MOVES "contact: {model: impacts, impacts: {prototype: rub}, gesture: {}}\n", NULL);
-    const struct gesture *g = &r.scene.contacts->contact.gesture;
+    const struct gesture *g = params_of(r.scene.contacts, gesture_stage.params);
     ck_assert_msg(r.good, "%s", r.messages);
     ck_assert(g->given && g->cutoff == 1e4 && g->speed == 0.5 && g->order == 2);
     ck_assert(r.scene.contacts->contact.impacts.rub.interval == 22.6757e-6 &&
