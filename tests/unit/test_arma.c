@@ -116,7 +116,7 @@ START_TEST(test_likelihood)
     for (size_t k = 0; k < sizeof sets / sizeof sets[0]; k++) {
         struct dense d;
         struct arma f;
-        double a, b;
+        double a = NAN, b = NAN;
         series_draw(g, 7, 0.5, sets[k][0], sets[k][1], d.x, SMALL);
         dense_fit(&d, &a, &b);
         arma_fit(d.x, SMALL, &f);

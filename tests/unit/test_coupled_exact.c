@@ -33,7 +33,7 @@ START_TEST(restitution_is_exact)
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
             for (int k = 0; k < 3; k++)
-                for (int over = 1; over <= 64; over *= 4) {
+                for (int over = 1; over <= (i == j ? 64 : 4); over *= 4) {
                     struct arena *a = arena_open();
                     double of =
                         worst_of(a, (struct ball_case){EXACT, kappas[i], mus[j], 0, BALL_RATE * over}, speeds[k]);

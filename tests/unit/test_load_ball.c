@@ -179,7 +179,7 @@ START_TEST(range_of_any_motion)
 {
     static const double bends[] = {0, 0, 0.3, 0.1, 0.2, -0.4, 0.0, -0.3};
     srand48(2);
-    for (int i = 0; i < 30; i++) {
+    for (int i = 0; i < 15; i++) {
         struct contact c = on(i % 12);
         c.ball.offset = c.ball.radius * between(0.05, 0.6);
         if (i % 5 == 1) /* 500 turns, of which one is fastest */

@@ -185,14 +185,14 @@ START_TEST(continuous_everywhere)
     setup();
     for (int p = 0; p < PLACES; p++)
         k[p].x = 0.1 * (p % 3), k[p].y = 0.1 * (p / 3);
-    for (int trial = 0; trial < 10; trial++) {
+    for (int trial = 0; trial < 6; trial++) {
         fill(k, PLACES, trial % 2 ? 0.2 : 0);
         for (int p = 0; p < PLACES; p++)
             for (int i = 0; trial % 3 == 0 && i < MODES; i++)
                 k[p].phase[i] = 0.3; /* real gains of both signs */
         struct modes m = table_of(text_of(k, PLACES, "# pairing: ids\n" SEPARATE), MODES, arena);
         struct modes_point at[2] = {modes_point_make(arena, m.n), modes_point_make(arena, m.n)};
-        for (int way = 0; way < 60; way++) {
+        for (int way = 0; way < 30; way++) {
             double x = 0.2 * drand48(), y = 0.2 * drand48(), dx = 0.2 * drand48() - x, dy = 0.2 * drand48() - y,
                    worst = 0;
             if (way % 3 == 0) /* along lines of the grid, on both sides of which there are triangles */

@@ -23,7 +23,7 @@ static struct motion any(int path, int law, double duration)
 START_TEST(circle_is_closed_form)
 {
     srand48(1);
-    for (int i = 0; i < 5000; i++) {
+    for (int i = 0; i < 1500; i++) {
         struct motion m = any(PATH_CIRCLE, SPEED_AUTO, between(0.1, 20));
         m.center[0] = between(-1, 1), m.center[1] = between(-1, 1), m.radius = pow(10, between(-3, 0));
         m.start_angle = between(-6, 6), m.turns = between(0.1, 30) * (i % 2 ? 1 : -1);

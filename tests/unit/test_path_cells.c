@@ -253,7 +253,7 @@ END_TEST
 START_TEST(circles)
 {
     static const double radii[] = {1e-4, 1e-3, 1e-2, 1};
-    for (int k = 0; k < 32; k++) {
+    for (int k = 0; k < 32; k += 1 + k % 2) {
         double radius = radii[k / 8], step = 0.2 / 96000;
         struct motion m = {.path = PATH_CIRCLE,
                            .radius = radius,
@@ -266,7 +266,7 @@ START_TEST(circles)
         srand48(k);
         surface_plane(1);
         prepare(&m, 48000, 2);
-        int n = (int)fmin(1000, floor(motion.duration * 96000));
+        int n = (int)fmin(500, floor(motion.duration * 96000));
         travel(CELLS_ALONG, 1e-3, n, CELLS_CHUNK);
         ck_assert(path.halves && path.curved && path.channels == 2);
         check_tiling(n, 1e-15);

@@ -25,7 +25,8 @@ static long double ulps(double got, long double want)
     static double one_##name(double x) { return real_##name(x); }
 ONE(exp)
 ONE(exp10)
-ONE(log) ONE(log10) ONE(log1p) ONE(sin) ONE(cos) ONE(tan) ONE(tanh) ONE(sinpi) ONE(cospi)
+ONE(log)
+ONE(log10) ONE(log1p) ONE(sin) ONE(cos) ONE(tan) ONE(tanh) ONE(sinpi) ONE(cospi)
 
     static long double sinpi_reference(long double x)
 {

@@ -273,7 +273,7 @@ END_TEST
 START_TEST(rho_is_equation_16)
 {
     srand48(16);
-    for (int trial = 0; trial < 12; trial++) {
+    for (int trial = 0; trial < 6; trial++) {
         double radius = 2e-3 * pow(20, drand48()), r = radius * (trial % 3 == 0 ? 0.1 : 0.95 * drand48());
         double turn = 12.56 * (drand48() - 0.5), speed = 0.2 + drand48();
         double from = trial % 2 ? 0.1 * speed : 0;

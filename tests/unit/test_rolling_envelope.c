@@ -10,7 +10,7 @@ static double between(double low, double high) { return low + (high - low) * dra
 
 #define PITCH 2.5e-6
 
-enum { N = 600, PLACES = 2000 };
+enum { N = 600, PLACES = 700 };
 
 struct plain {
     double e, slope, second; /* the largest; its slope; the second largest */
@@ -569,8 +569,8 @@ START_TEST(blocks_of_smooth_ground)
         double radius = (double[]){1e-4, 4e-3}[k];
         bed_make(&b, radius, pitch, radius, HUGE_VAL);
         long reach = (long)ceil(radius / pitch), side = 2 * reach > 1024 ? 2 * reach : 1024;
-        for (int i = 0; i < 16; i++) {
-            double x = i < 8 ? (double)(side * (i % 7 - 3)) * pitch + (i - 4) * 0.3 * pitch : between(-5e-2, 5e-2),
+        for (int i = 0; i < 8; i++) {
+            double x = i < 4 ? (double)(side * (2 * i - 3)) * pitch + (i - 4) * 0.3 * pitch : between(-5e-2, 5e-2),
                    most = -HUGE_VAL;
             for (double t = x - radius; t <= x + radius; t += fine)
                 if (rough_arc(radius, x, t) > most - 1e-9) most = fmax(most, rough_top(radius, x, t, fine));

@@ -188,7 +188,7 @@ START_TEST(ripple_is_an_offset_curve)
     struct tip t;
     double patch = 2e-5, missed = 2.5e-6 * 2.5e-6 / 8 * 1158;
     tip_make(&t, ripple, ALONG_PATH, 1e-3, patch, 5e-6);
-    for (int k = 0; k < 200; k++) {
+    for (int k = 0; k < 60; k++) {
         double x = between(-2e-3, 2e-3);
         struct read want = smoothed(ripple_envelope, x, patch), got = tip_read(&t, x, 0);
         ck_assert(got.z < want.z + 1e-12 && got.z > want.z - missed);
@@ -459,7 +459,7 @@ END_TEST
 
 /* ------------------------------------------------------------------ what kind of function it is */
 
-enum { PLACES = 100 };
+enum { PLACES = 40 };
 
 /* One by one in any order, in another instance, alone in a third: the same bits. Places lie far apart, so that blocks
    are forgotten and made again. */
@@ -482,7 +482,7 @@ START_TEST(order_does_not_matter)
             ck_assert_mem_eq(&back, &first[k], sizeof back);
             ck_assert_mem_eq(&other, &first[k], sizeof other);
         }
-        for (int k = 0; k < PLACES; k += 97) {
+        for (int k = 0; k < PLACES; k += 37) {
             struct tip alone;
             tip_make(&alone, rough, along, 2e-4, 2e-5, 1e-5);
             struct read only = tip_read(&alone, x[k], y[k]);

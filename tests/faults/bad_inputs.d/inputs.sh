@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 
 # A scene of 0.15 s that renders with all its outputs, two mode tables, and results of an earlier render that must survive.
-good_inputs() {
+good_made() {
     cat > scene.yaml << 'END'
 rasp: 1
 title: a short stroke
@@ -38,8 +38,13 @@ END
 place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad
 end,0,0,1,700,40,1,0
 END
-    [ -d "$TOP/earlier" ] || { mkdir "$TOP/earlier" && rasp render -q scene.yaml -o "$TOP/earlier/out.wav" --set surface.roughness.rms='1 um'; }
-    cp "$TOP"/earlier/* .
+    rasp render -q scene.yaml -o out.wav --set surface.roughness.rms='1 um'
+}
+
+# They are made once.
+good_inputs() {
+    [ -d "$TOP/good" ] || { mkdir "$TOP/good" && (cd "$TOP/good" && good_made); }
+    cp "$TOP"/good/* .
 }
 
 # ------------------------------------------------------------------ text
