@@ -87,15 +87,6 @@ struct roll_report {           /* of a whole render; steps 0: no coupled model  
     double iterations[2];      /* of a step in contact: mean, greatest                                */
 };
 
-struct impact_report {                        /* of a whole render; count 0: no series of impacts                    */
-    long count;                               /* impacts laid on the board                                            */
-    long limited_amplitude, limited_interval; /* draws raised to their floors                       */
-    long overlaps;                            /* impacts that begin before the one before is over                     */
-    double time;                              /* s in which they come                                                 */
-    double mean_amplitude, mean_interval;     /* N, s                                                   */
-    double longest;                           /* s, duration of the longest one                                       */
-};
-
 struct params;
 struct trajectory;
 struct load_law;
@@ -140,8 +131,7 @@ struct board {
     double ring;                 /* s, until the slowest response has decayed by 80 dB */
     double lifted;               /* s during which the scraper was lifted off         */
     struct roll_report roll;
-    bool rolls; /* the report holds something                        */
-    struct impact_report impacts;
+    bool rolls;       /* the report holds something                        */
     bool unstated;    /* a recorded response, whose quantity is not stated, rings */
     double energy[2]; /* quantity^2, summed over frames and channels: of the surface's sound and of the scraper's or
                          ball's, where both are heard */

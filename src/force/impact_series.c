@@ -21,8 +21,10 @@
    at any instant. So a long interval is more likely to lie across time 0 than a short one, as it should. */
 #include "force/impact_series.h"
 
+#include <jansson.h>
 #include <math.h>
 
+#include "file/json_value.h"
 #include "num/real.h"
 #include "stage.h"
 #include "trajectory/trajectory.h"
@@ -181,4 +183,62 @@ struct impact impact_series_take(struct impact_train *t)
     train_report(t, &now);
     train_look(t);
     return now;
+}
+
+/* ------------------------------------------------------------------ the report */
+
+#define LIMITED_OFTEN 5.0 /* per cent of the draws */
+#define IMPACT_LONG 0.1   /* s */
+
+static double percent(long some, long all) { return all > 0 ? 100 * (double)some / (double)all : 0; }
+
+static const char *impacted(const struct impact_report *o, struct arena *a)
+{
+    return arena_format(a,
+                        "%ld impact%s, %.*g a second, of %.4g N on average; %ld amplitude%s (%.3g %%) and %ld "
+                        "interval%s (%.3g %%) raised to their floors; %ld overlap%s (%.3g %%)",
+                        o->count, o->count == 1 ? "" : "s", (double)o->count < 1e4 * o->time ? 4 : 6,
+                        (double)o->count / o->time, o->mean_amplitude, o->limited_amplitude,
+                        o->limited_amplitude == 1 ? "" : "s", percent(o->limited_amplitude, o->count),
+                        o->limited_interval, o->limited_interval == 1 ? "" : "s",
+                        percent(o->limited_interval, o->count), o->overlaps, o->overlaps == 1 ? "" : "s",
+                        percent(o->overlaps, o->count));
+}
+
+static json_t *impacts_json(const struct impact_report *o)
+{
+    return json_pack("{s:I, s:o, s:I, s:I, s:I, s:o, s:o, s:o}", "count", (json_int_t)o->count, "per_second",
+                     json_value_number((double)o->count / o->time), "limited_amplitudes",
+                     (json_int_t)o->limited_amplitude, "limited_intervals", (json_int_t)o->limited_interval, "overlaps",
+                     (json_int_t)o->overlaps, "mean_amplitude_n", json_value_number(o->mean_amplitude),
+                     "mean_interval_s", json_value_number(o->mean_interval), "longest_s",
+                     json_value_number(o->longest));
+}
+
+/* NULL: there are few of them. */
+static const char *limited_warning(const char *what, long limited, long all, struct arena *a)
+{
+    if (!(percent(limited, all) > LIMITED_OFTEN)) return NULL;
+    return arena_format(a,
+                        "%.3g %% of the %ss were drawn below contact.impacts.floor.%s and raised to it: the series has "
+                        "other statistics than were asked for; lower the deviation, or set contact.impacts.marginal "
+                        "to lognormal",
+                        percent(limited, all), what, what);
+}
+
+struct stage_report impact_series_report(const struct impact_report *o, struct arena *a)
+{
+    struct stage_report r = {.key = "impacts", .value = impacts_json(o), .note = impacted(o, a)};
+    const char *warnings[STAGE_WARNINGS] = {
+        limited_warning("amplitude", o->limited_amplitude, o->count, a),
+        limited_warning("interval", o->limited_interval, o->count, a),
+        o->longest > IMPACT_LONG ? arena_format(a,
+                                                "an impact lasts %.4g s: lower contact.impacts.duration.zeta, or raise "
+                                                "the least amplitude",
+                                                o->longest)
+                                 : NULL,
+        o->count == 0 ? arena_format(a, "no impact comes within the motion's %.4g s", o->time) : NULL};
+    for (int i = 0, n = 0; i < STAGE_WARNINGS; i++)
+        if (warnings[i]) r.warnings[n++] = warnings[i];
+    return r;
 }

@@ -42,6 +42,15 @@ void impact_series_next(struct impact_series *s, struct impact *i);
    durations in s. Impacts that follow each other without a gap may meet by rounding, and do not overlap: they touch. */
 bool impact_series_overlap(double distance, double before, double now, double grain);
 
+struct impact_report {                        /* of a whole render; count 0: no series of impacts                    */
+    long count;                               /* impacts laid on the board                                            */
+    long limited_amplitude, limited_interval; /* draws raised to their floors                       */
+    long overlaps;                            /* impacts that begin before the one before is over                     */
+    double time;                              /* s in which they come                                                 */
+    double mean_amplitude, mean_interval;     /* N, s                                                   */
+    double longest;                           /* s, duration of the longest one                                       */
+};
+
 /* The impacts of a contact that take place, and what is to be reported of them. Whoever needs them draws them anew: the
  * force, the listing, the table. */
 struct impact_train {
@@ -61,5 +70,8 @@ bool impact_series_train(const struct stage_run *r, struct impact_train *t, stru
 
 /* Takes `next`, which there is, and looks for the one after it. The report is that of all that have been taken. */
 struct impact impact_series_take(struct impact_train *t);
+
+/* What a stage reports of those that it has taken. */
+struct stage_report impact_series_report(const struct impact_report *o, struct arena *a);
 
 #endif

@@ -141,8 +141,13 @@ static bool stage_fill(struct stage_run *r, long from, long to, struct err *e)
     (void)e;
     memset(block.force, 0, (size_t)((to - from) * over) * sizeof *block.force);
     queue_lay(q, &block, b->rate * (double)over, r->arena);
-    b->impacts = q->train.report;
     return true;
+}
+
+static struct stage_report stage_reports(const struct stage_run *r, struct arena *a)
+{
+    const struct impact_queue *q = r->state;
+    return impact_series_report(&q->train.report, a);
 }
 
 const struct stage impacts_stage = {
@@ -157,4 +162,5 @@ const struct stage impacts_stage = {
     .work = stage_work,
     .open = stage_open,
     .run = stage_fill,
+    .report = stage_reports,
 };

@@ -41,8 +41,13 @@ static bool rows_run(struct stage_run *r, long from, long to, struct err *e)
                              e))
             return false;
     }
-    r->board->impacts = t->report;
     return true;
+}
+
+static struct stage_report rows_report(const struct stage_run *r, struct arena *a)
+{
+    const struct impact_train *t = r->state;
+    return impact_series_report(&t->report, a);
 }
 
 const struct stage impact_rows_stage = {
@@ -56,4 +61,5 @@ const struct stage impact_rows_stage = {
     .work = rows_work,
     .open = rows_open,
     .run = rows_run,
+    .report = rows_report,
 };

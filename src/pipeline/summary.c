@@ -16,9 +16,6 @@
 
 enum { MOST_OF_BOARD = (int)(sizeof((struct board *)0)->warnings / sizeof((struct board *)0)->warnings[0]) };
 
-#define LIMITED_OFTEN 5.0 /* per cent of the draws */
-#define IMPACT_LONG 0.1   /* s */
-
 static void warn(struct render_report *report, const char *text) { report->warnings[report->n_warnings++] = text; }
 
 /* ------------------------------------------------------------------ what stages report */
@@ -88,51 +85,6 @@ static const char *rolled(const struct roll_report *o, struct arena *a)
     return arena_format(a, "%s%s%s%s", rolled_contacts(o, a), rests, rolled_steps(o, a), rings);
 }
 
-/* ------------------------------------------------------------------ series of impacts */
-
-static double percent(long some, long all) { return all > 0 ? 100 * (double)some / (double)all : 0; }
-
-static const char *impacted(const struct impact_report *o, struct arena *a)
-{
-    return arena_format(a,
-                        "%ld impact%s, %.*g a second, of %.4g N on average; %ld amplitude%s (%.3g %%) and %ld "
-                        "interval%s (%.3g %%) raised to their floors; %ld overlap%s (%.3g %%)",
-                        o->count, o->count == 1 ? "" : "s", (double)o->count < 1e4 * o->time ? 4 : 6,
-                        (double)o->count / o->time, o->mean_amplitude, o->limited_amplitude,
-                        o->limited_amplitude == 1 ? "" : "s", percent(o->limited_amplitude, o->count),
-                        o->limited_interval, o->limited_interval == 1 ? "" : "s",
-                        percent(o->limited_interval, o->count), o->overlaps, o->overlaps == 1 ? "" : "s",
-                        percent(o->overlaps, o->count));
-}
-
-/* Has it been drawn? */
-static bool impacts(const struct board *b) { return b->impacts.time > 0; }
-
-static void warn_limited(const struct contact *c, const char *what, long limited, long all,
-                         struct render_report *report, struct arena *a)
-{
-    if (percent(limited, all) > LIMITED_OFTEN)
-        warn(report, arena_format(a,
-                                  "contact '%s': %.3g %% of the %ss were drawn below contact.impacts.floor.%s and "
-                                  "raised to it: the series has other statistics than were asked "
-                                  "for; lower the deviation, or set contact.impacts.marginal to lognormal",
-                                  c->name, percent(limited, all), what, what));
-}
-
-static void warn_impacts(const struct contact *c, const struct impact_report *o, struct render_report *report,
-                         struct arena *a)
-{
-    warn_limited(c, "amplitude", o->limited_amplitude, o->count, report, a);
-    warn_limited(c, "interval", o->limited_interval, o->count, report, a);
-    if (o->longest > IMPACT_LONG)
-        warn(report, arena_format(a,
-                                  "contact '%s': an impact lasts %.4g s: lower contact.impacts.duration.zeta, or raise "
-                                  "the least amplitude",
-                                  c->name, o->longest));
-    if (o->count == 0)
-        warn(report, arena_format(a, "contact '%s': no impact comes within the motion's %.4g s", c->name, o->time));
-}
-
 /* ------------------------------------------------------------------ notes */
 
 void summary_notes(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a)
@@ -141,9 +93,9 @@ void summary_notes(const struct scene *s, const struct run *const *runs, struct 
     if (report->error_budget.text) report->notes[report->n_notes++] = report->error_budget.text;
     for (int i = 0; i < s->n_contacts; i++) {
         const struct board *b = runs[i] ? &runs[i]->board : NULL;
-        if (b && (b->rolls || impacts(b)))
-            report->notes[report->n_notes++] = arena_format(a, "contact '%s': %s", s->contacts[i].name,
-                                                            b->rolls ? rolled(&b->roll, a) : impacted(&b->impacts, a));
+        if (b && b->rolls)
+            report->notes[report->n_notes++] =
+                arena_format(a, "contact '%s': %s", s->contacts[i].name, rolled(&b->roll, a));
         struct stage_report all[REPORTS];
         int n = runs[i] ? reports_make(runs[i], a, all) : 0;
         for (int k = 0; k < n; k++)
@@ -194,7 +146,6 @@ static void warn_contact(const struct contact *c, const struct run *r, struct re
                                   "%s, like its mode table",
                                   c->name, modes_quantity_unit(b->quantity)));
     warn_drowned(c, b, report, a);
-    if (impacts(b)) warn_impacts(c, &b->impacts, report, a);
     struct stage_report all[REPORTS];
     int n = reports_make(r, a, all);
     for (int k = 0; k < n; k++)
@@ -341,16 +292,6 @@ static json_t *roll_json(const struct roll_report *o)
     return r;
 }
 
-static json_t *impacts_json(const struct impact_report *o)
-{
-    return json_pack("{s:I, s:o, s:I, s:I, s:I, s:o, s:o, s:o}", "count", (json_int_t)o->count, "per_second",
-                     json_value_number((double)o->count / o->time), "limited_amplitudes",
-                     (json_int_t)o->limited_amplitude, "limited_intervals", (json_int_t)o->limited_interval, "overlaps",
-                     (json_int_t)o->overlaps, "mean_amplitude_n", json_value_number(o->mean_amplitude),
-                     "mean_interval_s", json_value_number(o->mean_interval), "longest_s",
-                     json_value_number(o->longest));
-}
-
 /* cpu NAN: no times. */
 static json_t *contact_json(const struct run *run, const struct scene *s, double cpu, struct arena *a)
 {
@@ -360,7 +301,6 @@ static json_t *contact_json(const struct run *run, const struct scene *s, double
     if (!isnan(cpu)) json_object_set_new(c, "stages", stages_json(run, cpu));
     if (choice && !choice->recorded) json_object_set_new(c, "response", response_json(choice, s));
     if (b->rolls) json_object_set_new(c, "roll", roll_json(&b->roll));
-    if (impacts(b)) json_object_set_new(c, "impacts", impacts_json(&b->impacts));
     struct stage_report all[REPORTS];
     int n = reports_make(run, a, all);
     for (int k = 0; k < n; k++)

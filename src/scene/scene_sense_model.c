@@ -29,7 +29,7 @@ static void still_check(const struct scene_part *p, const struct contact *c)
                  c->contact.model == CONTACT_PLAYBACK ? "sound" : model(c), scene_part_label(p, kind), model(c));
 }
 
-static void idle_tell(const struct scene_part *p, const struct contact *c, const char *path, bool keys_say_it)
+static void idle_refuse(const struct scene_part *p, const struct contact *c, const char *path, bool keys_say_it)
 {
     const struct yaml_node *node = yaml_find(p->map, path);
     if (node && (node->n == 0 || !keys_say_it))
@@ -47,9 +47,9 @@ static void idle_check(const struct scene_part *p, const struct contact *c)
     bool reads = ball_rolls(c) || c->contact.model == CONTACT_PLAYBACK;
     const struct params *own;
     for (int i = 0; i < (reads ? 1 : IDLE); i++)
-        idle_tell(p, c, idle[i], i == 0);
+        idle_refuse(p, c, idle[i], i == 0);
     for (int i = 0; !reads && (own = stages_params(i)); i++)
-        if (own->ground) idle_tell(p, c, own->section, false);
+        if (own->ground) idle_refuse(p, c, own->section, false);
 }
 
 /* ------------------------------------------------------------------ strike */
