@@ -433,7 +433,7 @@ bool strikes_response(struct strikes_recording *r, double delay, struct arena *a
     if (most == 0.0)
         return err_set(e, ERR_SCENE, "%s: the response is silent (all samples are 0): is --channel right?", r->name);
     find_clip(&r->sound, r->n);
-    if (clips(&r->sound, shift, r->n))
+    if (clips(&r->sound, 0, r->n)) /* also before the delay: what is clipped at its onset rings wrongly */
         NOTE(s, a, "its greatest sample is as large as the file can hold, or stands in a row: it may be clipped");
     return true;
 }

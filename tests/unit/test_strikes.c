@@ -257,6 +257,10 @@ START_TEST(clipped_and_scaled)
         slow[i] = fmax(-0.5, real_sin(2.0 * REAL_PI * 310.0 * (double)i / RATE));
     ck_assert(strikes_response(&r, 0.0, m.a, &s, &e) && strstr(s.note, "may be clipped"));
     ck_assert(r.sound.clip[0] == -0.5 && r.sound.clip[1] == 0.0);
+    for (long i = 0; i < N; i++) /* clipped before the delay alone */
+        slow[i] = i < 2000 ? fmax(-0.5, real_sin(2.0 * REAL_PI * 310.0 * (double)i / RATE))
+                           : 0.3 * real_sin(2.0 * REAL_PI * 310.0 * (double)i / RATE);
+    ck_assert(strikes_response(&r, 4000.0 / RATE, m.a, &s, &e) && strstr(s.note, "may be clipped"));
     arena_close(m.a);
 }
 END_TEST
