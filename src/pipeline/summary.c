@@ -28,7 +28,7 @@ static int reports_make(const struct run *r, struct arena *a, struct stage_repor
     int n = 0;
     for (int i = 0; i < r->n; i++) {
         const struct stage_run *st = &r->stages[i];
-        struct stage_report one = st->stage->report ? st->stage->report(st, a) : (struct stage_report){NULL};
+        struct stage_report one = st->stage->report ? st->stage->report(st, a) : (struct stage_report){.key = NULL};
         int k = 0;
         while (one.key && k < n && strcmp(all[k].key, one.key) != 0)
             k++;
