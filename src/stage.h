@@ -10,7 +10,8 @@
    then lets everything before it run that much ahead in time, so that no stage delays or buffers for another. Values of
    sub-sampled items belong to the instant (frame + j / over) / rate, except ITEM_CURVATURE, ITEM_CURVATURE_Y and
    ITEM_SLOPE, which are means weighted by a linear B-spline about it (force/path_integral.h), and ITEM_SUBFORCE, which
-   is such a mean where board->bspline says so, else the exact mean over the interval that starts there. */
+   is such a mean where board->bspline says so, else the exact mean over the interval that starts there. Whoever adds
+   to it gives the same kind: path_integral_add does. */
 #ifndef STAGE_H
 #define STAGE_H
 #include <assert.h>
@@ -151,7 +152,8 @@ struct stage_run { /* one stage at work */
     struct arena *arena;
     void *state;
     int back, ahead;   /* frames read around a frame; set by open     */
-    long ends;         /* from this frame on it gives zeros only; LONG_MAX, unless open sets it */
+    long ends;         /* from this frame on it gives zeros only; LONG_MAX, unless open sets it. A stage that adds to
+                          an item in place may set it with ahead 0 only                         */
     long offset, done; /* the runner's: lead, and frames done         */
     long limit;        /* the runner's: until when it works (run.c) */
     double seconds;    /* CPU time spent                              */

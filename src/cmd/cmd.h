@@ -1,4 +1,4 @@
-/* What a subcommand is. foo.c in this folder exports `const struct command foo_command`; commands.c lists them.
+/* What a subcommand is. foo.c in this folder exports `const struct command foo_command`; cmd_table in cmd.c lists them.
 
    main parses the options, calls run, and gives its return value as the exit code. When run leaves an error in *e, main
    prints "rasp foo: error: text" on stderr and the exit code is e->kind. Data goes to stdout (main closes and checks

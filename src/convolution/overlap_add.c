@@ -1,5 +1,5 @@
-/* Fast convolution (papers/000 equations 10 and 13), exact to rounding where responses stay, of order hop^4 where one
-   moves.
+/* Modified convolution as printed (papers/000 eq. 10, eq. 13), by fast convolution: exact to rounding where
+   responses stay, of order hop^4 where one moves.
 
    Responses that stay, each fed with its share of the force: y = sum_k h_k * (w_k f). Uniform partitions of B samples;
    the sum over responses is taken in the spectrum. With f_j the force of block j, zero-padded to 2 B, and H_kq the

@@ -1,4 +1,5 @@
-/* A bank of modes driven by a force whose place moves: one exact recursion per mode (papers/000 eq. 10 and 13).
+/* A bank of modes driven by a force whose place moves: one exact recursion per mode (modified convolution,
+   papers/000 eq. 10, eq. 13).
 
    Mode i rings as h_i(t) = Im(A_i e^(s_i t)), A_i = gain e^(j phase), s_i = -decay + j 2 pi f. With p_i = e^(s_i/rate),
 
@@ -23,8 +24,8 @@
    every sample (n = 1). A call in which nothing changes runs through the same arithmetic, so that then the output does
    not depend on how the frames are cut into calls. Stability: |z| never grows by more than |A f|/rate, whatever gains
    and poles do, for a chord of the unit disk stays in it (|p| < 1; |p| = 1 for a mode without decay). A direct-form
-   biquad under the same modulation blows up (test_glide.c). Silence: after 256 frames without force, states become zero
-   that have fallen in both parts below 1e-22 (-440 dB) of the loudest state there was, which is below the rounding of
+   biquad under the same modulation blows up (tests/unit/test_glide.c). Silence: after 256 frames without force, states
+   become zero that have fallen in both parts below 1e-22 (-440 dB) of the loudest state there was, which is below the rounding of
    any sound that has not itself fallen by as much; after a call with force those below 1e-200. A group of eight modes
    that are zero and get no force costs nothing. Nothing becomes subnormal on the way unless a mode falls by 1e-107
    within one call.

@@ -1,5 +1,5 @@
-/* The set P of papers/004 at an instant. On its disk of actions the share of an anchor that lies at theta_k = 0, 2
-   pi/3, 4 pi/3 (rub, scratch, roll) is
+/* The action space: the set P of papers/004 at an instant. On its disk of actions the share of an
+   anchor that lies at theta_k = 0, 2 pi/3, 4 pi/3 (rub, scratch, roll) is
 
      s_k = (1 - r)/3 + r T(theta - theta_k),   T(t) = 1 - 3 |t| / (2 pi) for |t| < 2 pi/3, t taken round the circle,
                                                else 0     (equations 8 to 11)

@@ -100,7 +100,7 @@ static bool paper_curvature_open(struct stage_run *r, struct err *e)
     struct paper *s = ARENA_TAKE(r->arena, struct paper, 1);
     s->beta1 = r->contact->contact.beta1;
     s->beta2 = r->contact->contact.beta2;
-    s->path.use = paper_use;
+    s->path.integrate = paper_use;
     s->path.self = s;
     r->state = s;
     r->ahead = 1;

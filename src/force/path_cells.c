@@ -95,7 +95,7 @@ static void cells_flush(struct path_cells *w)
                                               p->moment[k]},
                       w->limiter);
     }
-    w->use(w->self, p);
+    w->integrate(w->self, p);
     p->n = p->points = 0;
 }
 

@@ -55,19 +55,19 @@ struct path_cells {
     struct relief *relief;
     struct cells cells;
     double xx[LIMITER_POINTS], xy[LIMITER_POINTS], yy[LIMITER_POINTS];
-    void (*use)(void *self, const struct cells *p); /* called with limited cells, in the order travelled */
+    void (*integrate)(void *self, const struct cells *p); /* called with limited cells, in the order travelled */
     void *self;
 };
 
-/* longest: m, no cell is longer; use and self are the caller's to set. ERR_SCENE when the surface has too many
+/* longest: m, no cell is longer; integrate and self are the caller's to set. ERR_SCENE when the surface has too many
  * families of knots. */
 bool path_cells_make(struct path_cells *w, struct stage_run *r, enum cells_kind kind, double longest, struct err *e);
 
 /* The part of it that is about places alone: relief, field, curved, from, e and knots. */
 bool path_cells_place(struct path_cells *w, const struct stage_run *r, struct err *e);
 
-/* Cuts the n <= CELLS_CHUNK sub-intervals from number `first` on (since the start) and hands all their cells to use().
- */
+/* Cuts the n <= CELLS_CHUNK sub-intervals from number `first` on (since the start) and hands all their cells to
+   integrate(). */
 void path_cells_run(struct path_cells *w, const struct stage_run *r, long first, int n);
 
 /* Items of the board that a stage with a path reads besides POSITION, VELOCITY and SURFACE. */

@@ -311,7 +311,7 @@ bool path_integral_make(struct path_integral *s, struct stage_run *r, struct err
     double given = r->contact->contact.leak;
     s->leak = given > 0 ? given : PATH_LEAK;
     s->power = r->contact->contact.beta2;
-    s->cells.use = slope_use;
+    s->cells.integrate = slope_use;
     s->cells.self = s;
     return path_cells_make(&s->cells, r, CELLS_ALONG, s->leak / 16, e);
 }

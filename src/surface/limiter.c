@@ -1,4 +1,4 @@
-/* Papers/000 equations 6 and 7:
+/* Limit of curvature: papers/000 eq. 6, eq. 7 here; T of eq. 4, eq. 5 below, at "cells".
 
      alpha(N) = (1 - nu) alpha_max + nu alpha_min,   nu = ((N - N_min) / (N_max - N_min))^zeta
 
@@ -76,7 +76,7 @@ void limiter_warn(struct stage_run *r, double least, double most)
     const double *range = r->contact->contact.limiter.force_range;
     if (r->contact->contact.limiter.curve == LIMITER_TANH && !isnan(range[0]) && (least < range[0] || most > range[1]))
         board_warn(r->board, arena_format(r->arena,
-                                          "%s: the normal force, %s N, bisected contact.limiter.force_range, %.4g to "
+                                          "%s: the normal force, %s N, leaves contact.limiter.force_range, %.4g to "
                                           "%.4g N: alpha stays at that of "
                                           "the range's end there",
                                           r->contact->name,
@@ -110,7 +110,7 @@ void limiter_warn(struct stage_run *r, double least, double most)
    integration by parts, 4 b integral of T'(c) q (1 - q) dq = 8 b moment / (c1 - c0),   or 2/3 b (T' + (x1 - x0)^2/40
    T''') where |x1 - x0| < 0.05. The second order is below 0.22 alpha b^2. Cutting a cell in two quarters b: where
    alpha |b| > 1/64 and tanh is not flat, a cell is halved until neither holds, and its mean and moment are gathered
-   from the parts (bisected). */
+   from the parts (bisected_add). */
 #define INLINE static inline __attribute__((always_inline))
 
 /* rest[k] = G(|x[k]|) above; w <= log 2, so that the first term left out is below 5e-16. */
@@ -316,7 +316,7 @@ static int cells_flat(const struct limiter_cells *p, int *flat)
     return all;
 }
 
-/* Means and moments of the cells that are not flat, anew from their bisected. */
+/* Means and moments of the cells that are not flat, anew from their halves. */
 static void cells_bisected(const struct limiter_cells *p)
 {
     int flat[LIMITER_CELLS];

@@ -52,7 +52,7 @@ static inline bool limiter_chained(int n, int points, const int *at)
 void limiter_cells(const struct limiter_cells *l, bool limiter);
 
 struct stage_run;
-/* Warns where a normal force from `least` to `most` N bisected limiter.force_range. */
+/* Warns where a normal force from `least` to `most` N leaves limiter.force_range. */
 void limiter_warn(struct stage_run *r, double least, double most);
 
 #endif

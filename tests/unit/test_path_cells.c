@@ -79,7 +79,7 @@ static void travel(enum cells_kind kind, double longest, int n, int some)
     struct err e = {0};
     memset(&path, 0, sizeof path);
     ck_assert_msg(path_cells_make(&path, &run, kind, longest, &e), "%s", e.text);
-    path.use = gather;
+    path.integrate = gather;
     all.n = all.flushes = 0;
     for (first_interval = 0; first_interval < n; first_interval += some)
         path_cells_run(&path, &run, first_interval, n - first_interval < some ? n - first_interval : some);
