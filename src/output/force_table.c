@@ -146,8 +146,8 @@ static void row_motion_take(struct row_motion *m, const struct stage_run *r, lon
 /* The stage that writes diagnostics rows. Row k belongs to [t, t + T), t = k T after the contact's first frame, T =
    1/rate: kinematics, normal force and alpha are those at t; forces are the mean, rms and largest magnitude (with its
    sign) of the audio-rate force over the samples in the interval; events are counted in it. Of a ball see
-   roll_rows_take. Rows end with the motion. Numbers are printed with %.9g, lines end in LF; as NPY (file/npy.h) they are doubles, and
-   how many rows there will be is known when the header is written. */
+   roll_rows_take. Rows end with the motion. Numbers are printed with %.9g, lines end in LF; as NPY (file/npy.h) they
+   are doubles, and how many rows there will be is known when the header is written. */
 
 struct force_table {
     bool wanted[MOST], npy;
