@@ -27,8 +27,8 @@
    biquad under the same modulation blows up (tests/unit/test_glide.c). Silence: after 256 frames without force, states
    become zero that have fallen in both parts below 1e-22 (-440 dB) of the loudest state there was, which is below the
    rounding of any sound that has not itself fallen by as much; after a call with force those below 1e-200. A group of
-   eight modes that are zero and get no force costs nothing. Nothing becomes subnormal on the way unless a mode falls by 1e-107
-   within one call.
+   eight modes that are zero and get no force costs nothing. Nothing becomes subnormal on the way unless a mode falls
+   by 1e-107 within one call.
 
    Speed: eight modes are the lanes of a group (6 multiplications and 7 additions per mode-sample, which is what bounds
    it; poles that move take 2 additions more, gains that stand still 2 less), four samples are done before a group's
