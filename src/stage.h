@@ -164,7 +164,7 @@ struct stage_run { /* one stage at work */
 enum { STAGE_WARNINGS = 4 };
 
 /* What a stage says of a whole render, in the summary and on the terminal; key NULL: nothing. Of two reports with one
- * key the later counts. */
+ * key the later counts. It is asked for several times: it changes nothing, and makes its value anew. */
 struct stage_report {
     const char *key;
     struct json_t *value;                 /* under the key, of the contact; whoever asks drops it     */

@@ -13,7 +13,8 @@
 struct scene_part;
 struct stage_run;
 
-/* The value of `path` is at most `factor` times that of `other`; both are numbers, NAN: it does not apply. */
+/* The value of `path` is at most `factor` times that of `other`; both are numbers, NAN: it does not apply. All that is
+ * no such multiple is said by `check`. */
 struct params_rule {
     const char *path;
     double factor;
@@ -22,7 +23,9 @@ struct params_rule {
 
 struct params_column {
     const char *name, *meaning;
-    double (*at)(const struct stage_run *, double t); /* t: s after the contact's start */
+    /* Of the row that begins t s after the contact's start. The stage has run on past it, by what later stages read
+       ahead: what it counts it keeps with its time. */
+    double (*at)(const struct stage_run *, double t);
 };
 
 /* Of a part of the surface, as far as the scene alone tells. */
@@ -39,7 +42,7 @@ struct params {
     const struct params_rule *rules;     /* ends with path NULL; NULL: none */
     const struct params_column *columns; /* of a contact that has the section; ends with name NULL; NULL: none */
     void (*check)(const struct scene_part *, const struct contact *); /* what no row says; NULL: nothing */
-    unsigned gives;                     /* items that its columns belong to: a table that has them lets the stage run */
+    unsigned gives;                     /* items that the table asks for where one of its columns is written */
     const struct params_ground *ground; /* NULL: it is no part of the surface */
     bool shown;                         /* on in the reference scene */
 };

@@ -1,6 +1,6 @@
 # Includes go only leftwards along ORDER, and name their folder: a file includes its own folder and folders to its left.
 . "$ROOT/tests/lib/test.sh"
-ORDER="base num file scene stage.h trajectory surface force response convolution output fem analysis pipeline batch export cmd main"
+ORDER="base num file scene stage.h trajectory surface force response convolution output fem analysis pipeline batch cmd main"
 
 # layers FOLDER: every include that goes the wrong way, one per line.
 layers() {
