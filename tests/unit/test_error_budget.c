@@ -132,7 +132,9 @@ START_TEST(the_best_is_the_same)
         double best = best_of(scenes[i], -240);
         ck_assert_double_lt(best, -105);
         ck_assert_double_eq(best_of(scenes[i], -180), best);
+        ck_assert_double_eq(best_of(scenes[i], best - 1), best);
         ck_assert(isnan(best_of(scenes[i], best)));
+        ck_assert(isnan(best_of(scenes[i], best + 1)));
         ck_assert(isnan(best_of(scenes[i], -105)));
     }
 }

@@ -9,7 +9,7 @@
 
 #include "unit.h"
 
-enum { BLOCK = 1000, BLOCKS = 120 }; /* 300 000 points per range */
+enum { BLOCK = 1000, BLOCKS = 120 }; /* 120 000 points per range */
 
 static uint64_t next(uint64_t *state) /* splitmix64, independent of num/noise */
 {
