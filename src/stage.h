@@ -184,8 +184,8 @@ struct stage {
     unsigned knobs; /* set of knobs (scene/accuracy.def) that what it gives depends on, be it by its own doing only:
                        those of what it reads are theirs */
     unsigned (*turns)(const struct contact *, const struct scene *); /* further knobs, of some scenes; may be NULL */
-    bool (*wanted)(const struct contact *, const struct scene *);
-    double (*work)(const struct contact *, const struct scene *); /* predicted cycles per audio sample */
+    bool (*wanted)(const struct contact *, const struct scene *);    /* NULL: where its params are given */
+    double (*work)(const struct contact *, const struct scene *);    /* predicted cycles per audio sample */
     bool (*open)(struct stage_run *, struct err *);
     bool (*run)(struct stage_run *, long from, long to, struct err *); /* frames [from, to); may be NULL */
     void (*skip)(struct stage_run *, long frame); /* to go on at that frame, from an empty board: of what knows which

@@ -541,7 +541,8 @@ static bool read_surface(struct synth *s, struct err *e)
     const char *rest = "scraper: {mass: 1 g}\nmotion: {path: line, to: [1 cm, 0], speed: 1 cm/s}\noutput: "
                        "{diagnostics: {rate: 1 kHz}}\n";
     if (!cmd_recipe_read(s->c, file, rest, &s->scene, e)) return false;
-    const struct surface *u = &s->scene.contacts[0].surface;
+    const struct contact *c = &s->scene.contacts[0];
+    const struct surface *u = &c->surface;
     if (s->scene.n_contacts > 1)
         return err_set(e, ERR_SCENE, "%s: has %d contacts; synth takes a recipe, or a scene of one contact", file,
                        s->scene.n_contacts);
@@ -550,7 +551,7 @@ static bool read_surface(struct synth *s, struct err *e)
             e, ERR_SCENE,
             "%s: surface.height_map is measured, and needs no synth; rasp surface convert writes it in another format",
             file);
-    return u->roughness.given || params_grounded(&s->scene.contacts[0]) ||
+    return u->roughness.given || params_given(c, ridges_stage.params) || params_given(c, grit_stage.params) ||
            err_set(e, ERR_SCENE, "%s: has no roughness, ridges or grit: there is no procedural surface in it", file);
 }
 
@@ -584,7 +585,7 @@ static bool make(struct synth *s, struct err *e)
                                     .contact = &s->scene.contacts[0],
                                     .board = &board,
                                     .arena = s->c->arena};
-        ok = ok && (!stages[k]->wanted(run[k].contact, &s->scene) || stages[k]->open(&run[k], e));
+        ok = ok && (!stages_wanted(stages[k], run[k].contact, &s->scene) || stages[k]->open(&run[k], e));
     }
     for (int k = 0; k < board.n_warnings; k++)
         message_remark(s->c, "surface", board.warnings[k]);

@@ -46,8 +46,9 @@ static const struct key keys[] = {{ROW_NUMBER(enhance, gain, "contact.enhance.ga
                                    "how many of the strongest modes"},
                                   {.path = NULL}};
 
-static void check(const struct scene_part *p, const struct contact *c)
+static void check(const struct scene_part *p, const struct contact *c, const void *own)
 {
+    (void)own;
     const struct response *r = &c->surface.response;
     const char *path = "contact.enhance";
     if ((rules_responds(r) && !rules_is_recorded(r))) return;
@@ -200,12 +201,6 @@ static bool enhance_run(struct stage_run *r, long from, long to, struct err *e)
     return true;
 }
 
-static bool enhance_wanted(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return enhance_of(c)->given;
-}
-
 static double enhance_work(const struct contact *c, const struct scene *s)
 {
     (void)s;
@@ -220,7 +215,6 @@ const struct stage enhance_stage = {
     .params = &enhance_params,
     .needs = ITEM_BIT(ITEM_FORCE) | ITEM_BIT(ITEM_MOTION), /* its way */
     .gives = ITEM_BIT(ITEM_FORCE),
-    .wanted = enhance_wanted,
     .work = enhance_work,
     .open = enhance_open,
     .run = enhance_run,

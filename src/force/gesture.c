@@ -45,8 +45,9 @@ static const struct key keys[] = {{ROW_NUMBER(gesture, cutoff, "contact.gesture.
                                    "order of the low-pass: 6 or 12 dB an octave"},
                                   {.path = NULL}};
 
-static void check(const struct scene_part *p, const struct contact *c)
+static void check(const struct scene_part *p, const struct contact *c, const void *own)
 {
+    (void)own;
     const char *path = "contact.gesture", *motion = "motion.path";
     const struct yaml_node *node = yaml_find(p->map, path);
     if (!gesture_follows(c) && node->n == 0) /* its keys say it themselves */

@@ -9,6 +9,7 @@
 #include "output/stems.h"
 #include "pipeline/inputs.h"
 #include "pipeline/render.h"
+#include "pipeline/stages.h"
 #include "scene/ablation.h"
 #include "scene/accuracy.h"
 #include "scene/ball.h"
@@ -146,7 +147,7 @@ bool plan_make(const struct stage *const *table, const struct contact *c, const 
     for (int i = p->n - 1; i >= 0; i--) {
         const struct stage *st = table[i];
         p->rows[i] = (struct plan_row){.stage = st, .verdict = PLAN_UNWANTED};
-        if (!st->wanted(c, s)) continue;
+        if (!stages_wanted(st, c, s)) continue;
         /* a stage is needed when something reads what it gives, or, making an item a second time, would clash with who
          * gave it */
         p->rows[i].verdict = st->gives & (l.need | (l.done & ~st->needs)) ? PLAN_RUNS : PLAN_UNNEEDED;

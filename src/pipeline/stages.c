@@ -15,3 +15,8 @@ const struct params *stages_params(int i)
         if ((*s)->params && i-- == 0) return (*s)->params;
     return NULL;
 }
+
+bool stages_wanted(const struct stage *st, const struct contact *c, const struct scene *s)
+{
+    return st->wanted ? st->wanted(c, s) : params_given(c, st->params);
+}

@@ -10,4 +10,7 @@
 /* Ends with NULL. */
 extern const struct stage *const stages_table[];
 
+/* Does the scene want it? */
+bool stages_wanted(const struct stage *st, const struct contact *c, const struct scene *s);
+
 #endif

@@ -105,7 +105,6 @@ static const struct {
 };
 
 static const char *const sections_off[] = {"surface.continuation",
-                                           "surface.fractal",
                                            "surface.object",
                                            "surface.space",
                                            "scraper.object",

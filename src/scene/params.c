@@ -70,7 +70,7 @@ void params_check(const struct scene_part *p, const struct contact *c)
         if (!params_given(c, one)) continue;
         for (const struct params_rule *r = one->rules; r && r->path; r++)
             rule_check(p, c, r);
-        if (one->check) one->check(p, c);
+        if (one->check) one->check(p, c, params_of(c, one));
     }
 }
 
@@ -95,12 +95,6 @@ static const struct params *ground_next(const struct contact *c, int *i)
     return NULL;
 }
 
-bool params_grounded(const struct contact *c)
-{
-    int i = 0;
-    return ground_next(c, &i) != NULL;
-}
-
 bool params_directed(const struct contact *c)
 {
     int i = 0;
@@ -123,5 +117,14 @@ double params_span(const struct contact *c, double span)
     int i = 0;
     for (const struct params *p; (p = ground_next(c, &i));)
         span += p->ground->span(params_of(c, p));
+    return span;
+}
+
+double params_kinked_span(const struct contact *c)
+{
+    double span = 0;
+    int i = 0;
+    for (const struct params *p; (p = ground_next(c, &i));)
+        if (p->ground->kinked) span += p->ground->span(params_of(c, p));
     return span;
 }

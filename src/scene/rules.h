@@ -190,17 +190,6 @@ static inline bool rules_has_band(const struct roughness *r) { return r->longest
 
 static inline bool rules_band_fits(const struct roughness *r) { return r->longest / r->shortest <= RULES_BAND_WIDEST; }
 
-#define RULES_FRACTAL_LEAST 16 /* heights of a fractal profile */
-#define RULES_FRACTAL_MOST 16777216
-
-/* How many heights a period of a fractal profile has: length over pitch, to the nearest even number. */
-static inline double rules_fractal_size(const struct fractal *f) { return 2 * rint(f->length / f->pitch / 2); }
-
-static inline bool rules_fractal_fits(const struct fractal *f)
-{
-    return rules_fractal_size(f) >= RULES_FRACTAL_LEAST && rules_fractal_size(f) <= RULES_FRACTAL_MOST;
-}
-
 #define RULES_APPROACH 5e-3 /* s: contact is made and given up where the motion is at speed, unless the scene says */
 
 static inline bool rules_incline_rests(const struct motion *m, bool at_end)

@@ -45,8 +45,6 @@ enum contact_kind {
 enum impact_listing { LISTING_NONE, LISTING_TABLE };
 enum table_format { TABLE_CSV, TABLE_NPY };
 enum ball_body { BODY_SOLID, BODY_HOLLOW, BODY_HOOP, BODY_WHEEL };
-enum fractal_spectrum { SPECTRUM_POWER, SPECTRUM_AMPLITUDE };
-enum interpolation { INTERPOLATION_NEAREST, INTERPOLATION_LINEAR, INTERPOLATION_SPLINE };
 enum penetration { PENETRATION_DEVIATION, PENETRATION_PAPER };
 enum integrator { INTEGRATOR_DISCRETE_GRADIENT, INTEGRATOR_RK4, INTEGRATOR_EXACT_IMPACT };
 enum ground { GROUND_AUTO, GROUND_ELASTIC, GROUND_RIGID };
@@ -102,16 +100,6 @@ struct roughness { /* procedural: surface/roughness.h                           
     double grain_direction;    /* rad, of the grain's long axis, 0 = +x                             */
     const char *like;          /* height map whose spectrum, rms, skewness and kurtosis are taken; NULL: none */
     double like_pitch;         /* m; NAN: the file says it                                          */
-};
-
-struct fractal { /* a fractal profile as papers/002 and 004 have it: surface/fractal.h   */
-    bool given;
-    double exponent;   /* beta: the spectrum over spatial frequency ~ k^exponent            */
-    int spectrum;      /* enum fractal_spectrum: of power or amplitude                      */
-    double maximum;    /* m, largest height above or below the mean                         */
-    double pitch;      /* m between its heights                                             */
-    double length;     /* m, after which it repeats itself                                  */
-    int interpolation; /* enum interpolation, between its heights                           */
 };
 
 struct continuation { /* finer roughness than a measured map holds: surface/continuation.h */
@@ -179,7 +167,6 @@ struct surface {
     double origin[2];       /* m: where the surface's own x = y = 0 lies in the scene              */
     struct continuation continuation;
     struct roughness roughness;
-    struct fractal fractal;
     struct response response;
 };
 

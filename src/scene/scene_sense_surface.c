@@ -62,35 +62,8 @@ static void continuation_check(const struct scene_part *p, const struct surface 
         scene_part_contradiction(p, waves, "must be less than 0.7 times", "raise from, or lower shortest");
 }
 
-/* A profile, whose kinks and steps are a surface for what has a radius alone. */
-static void fractal_check(const struct scene_part *p, const struct contact *c)
-{
-    const char *fractal = "surface.fractal", *between = "surface.fractal.interpolation",
-               *pitch = "surface.fractal.pitch", *length = "surface.fractal.length";
-    const struct fractal *f = &c->surface.fractal;
-    const struct yaml_node *node = yaml_find(p->map, fractal);
-    if (!f->given || !node) return;
-    if (!isnan(f->pitch) && !isnan(f->length) && !rules_fractal_fits(f))
-        diag_add(p->yaml->diag, scene_part_later(p, pitch, length),
-                 rules_fractal_size(f) < RULES_FRACTAL_LEAST ? "raise length, or lower pitch"
-                                                             : "lower length, or raise pitch",
-                 "%s over %s is %.4g, and from %d to %d heights are offered", scene_part_label(p, length),
-                 scene_part_label(p, pitch), f->length / f->pitch, RULES_FRACTAL_LEAST, RULES_FRACTAL_MOST);
-    if (scene_part_known(p, "surface.along") && rules_along(c) == ALONG_PLANE)
-        diag_add(p->yaml->diag,
-                 yaml_find(p->map, "surface.along") ? scene_part_later(p, fractal, "surface.along") : node->key->at,
-                 "set surface.along to path or x", "%s is a profile, and this surface lies in the plane",
-                 scene_part_label(p, fractal));
-    if (f->interpolation != INTERPOLATION_SPLINE && scene_part_known(p, between) &&
-        c->contact.model == CONTACT_SCRAPE && !yaml_find(p->map, "scraper.radius"))
-        diag_add(p->yaml->diag, scene_part_later(p, between, between), "set it to spline, or give scraper.radius",
-                 "%s must be spline where the scraper is a point: kinks and steps are no surface for it",
-                 scene_part_label(p, between));
-}
-
 void scene_sense_surface(const struct scene_part *p, const struct contact *c)
 {
     roughness_check(p, &c->surface);
     continuation_check(p, &c->surface);
-    fractal_check(p, c);
 }

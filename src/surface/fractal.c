@@ -21,11 +21,85 @@
 
 #include "num/fft.h"
 #include "num/real.h"
+#include "scene/rows.h"
 #include "scene/rules.h"
+#include "scene/scene_part.h"
 #include "stage.h"
 #include "surface/profile.h"
 #include "surface/relief.h"
 #include "trajectory/trajectory.h"
+
+enum { FRACTAL_LEAST = 16, FRACTAL_MOST = 16777216 }; /* heights of a period */
+
+/* ------------------------------------------------------------------ parameters */
+
+static const struct choice spectra[] = {[SPECTRUM_POWER] = {"power", "the power spectrum goes with k^exponent"},
+                                        [SPECTRUM_AMPLITUDE] = {"amplitude", "the amplitude spectrum does"},
+                                        {NULL, NULL}};
+
+static const struct choice between[] = {[INTERPOLATION_NEAREST] = {"nearest", "the nearest height: a flight of steps"},
+                                        [INTERPOLATION_LINEAR] = {"linear", "straight lines"},
+                                        [INTERPOLATION_SPLINE] = {"spline", "a cubic spline"},
+                                        {NULL, NULL}};
+
+static const struct key keys[] = {
+    {ROW_NUMBER(fractal, exponent, "surface.fractal.exponent"), KEY_NONE, -6, 2, "-0.5", NULL,
+     "beta of papers/002: slope of the spectrum over spatial frequency; 004's beta is its negative"},
+    {ROW_CHOICE(fractal, spectrum, "surface.fractal.spectrum"), KEY_NONE, 0, 0, "power", NULL,
+     "of what the exponent is", spectra},
+    {ROW_NUMBER(fractal, maximum, "surface.fractal.maximum"), KEY_LENGTH, 1e-12, 1e-3, "0.1 um", NULL,
+     "largest height above or below the mean"},
+    {ROW_NUMBER(fractal, pitch, "surface.fractal.pitch"), KEY_LENGTH, 1e-6, 1e-2, "0.1 mm", NULL,
+     "distance from height to height"},
+    {ROW_NUMBER(fractal, length, "surface.fractal.length"), KEY_LENGTH, 1e-3, 1000, "1 m", NULL,
+     "length after which the profile repeats itself, to a whole number of heights"},
+    {ROW_CHOICE(fractal, interpolation, "surface.fractal.interpolation"), KEY_NONE, 0, 0, "spline", NULL,
+     "what lies between the heights; only under a ball or a round tip may it be other than spline", between},
+    {.path = NULL}};
+
+double fractal_size(const struct fractal *f) { return 2 * rint(f->length / f->pitch / 2); }
+
+/* A profile, whose kinks and steps are a surface for what has a radius alone. */
+static void check(const struct scene_part *p, const struct contact *c, const void *own)
+{
+    const char *section = "surface.fractal", *interpolation = "surface.fractal.interpolation",
+               *pitch = "surface.fractal.pitch", *length = "surface.fractal.length", *along = "surface.along";
+    const struct fractal *f = own;
+    double heights = fractal_size(f); /* NAN: pitch or length is wrong, and that is said */
+    if (heights < FRACTAL_LEAST || heights > FRACTAL_MOST)
+        diag_add(p->yaml->diag, scene_part_later(p, pitch, length),
+                 heights < FRACTAL_LEAST ? "raise length, or lower pitch" : "lower length, or raise pitch",
+                 "%s over %s is %.4g, and from %d to %d heights are offered", scene_part_label(p, length),
+                 scene_part_label(p, pitch), f->length / f->pitch, FRACTAL_LEAST, FRACTAL_MOST);
+    if (scene_part_known(p, along) && rules_along(c) == ALONG_PLANE)
+        diag_add(p->yaml->diag,
+                 yaml_find(p->map, along) ? scene_part_later(p, section, along) : yaml_find(p->map, section)->key->at,
+                 "set surface.along to path or x", "%s is a profile, and this surface lies in the plane",
+                 scene_part_label(p, section));
+    if (f->interpolation != INTERPOLATION_SPLINE && scene_part_known(p, interpolation) &&
+        c->contact.model == CONTACT_SCRAPE && !yaml_find(p->map, "scraper.radius"))
+        diag_add(p->yaml->diag, scene_part_later(p, interpolation, interpolation),
+                 "set it to spline, or give scraper.radius",
+                 "%s must be spline where the scraper is a point: kinks and steps are no surface for it",
+                 scene_part_label(p, interpolation));
+}
+
+static double likely_finest(const void *own) { return ((const struct fractal *)own)->pitch; }
+
+static double likely_span(const void *own) { return 2 * ((const struct fractal *)own)->maximum; }
+
+static const struct params fractal_params = {
+    .section = "surface.fractal",
+    .meaning = "a fractal profile as the papers on rolling have it: heights on an even pitch, drawn from the seed",
+    .size = sizeof(struct fractal),
+    .keys = keys,
+    .check = check,
+    .ground = &(const struct params_ground){.kinked = true, .finest = likely_finest, .span = likely_span},
+};
+
+static const struct fractal *fractal_of(const struct contact *c) { return params_of(c, &fractal_params); }
+
+/* ------------------------------------------------------------------ the heights */
 
 static void lines_draw(const struct fractal *f, struct noise stream, long n, double *re, double *im)
 {
@@ -41,7 +115,7 @@ static void lines_draw(const struct fractal *f, struct noise stream, long n, dou
 
 void fractal_heights(const struct fractal *f, struct noise stream, double *z)
 {
-    long n = (long)rules_fractal_size(f);
+    long n = (long)fractal_size(f);
     struct arena *a = arena_open();
     double *re = ARENA_TAKE(a, double, n / 2 + 1), *im = ARENA_TAKE(a, double, n / 2 + 1), most = 0;
     struct fft *fft = fft_open((size_t)n);
@@ -101,20 +175,13 @@ static struct relief_part *knots_part(struct arena *a, const struct fractal *f, 
     return part;
 }
 
-struct relief_part *fractal_part(struct arena *a, const struct fractal *f, struct noise stream, struct err *e)
+struct relief_part *fractal_part(struct arena *a, const struct fractal *f, struct noise stream)
 {
-    double size = rules_fractal_size(f), *z;
-    if (!rules_fractal_fits(f)) {
-        err_set(e, ERR_SCENE,
-                "surface.fractal: %g m at a pitch of %g m are %.0f heights, and from %d to %d are offered; %s",
-                f->length, f->pitch, size, RULES_FRACTAL_LEAST, RULES_FRACTAL_MOST,
-                size < RULES_FRACTAL_LEAST ? "raise length, or lower pitch" : "lower length, or raise pitch");
-        return NULL;
-    }
-    z = ARENA_TAKE(a, double, (size_t)size);
+    long n = (long)fractal_size(f);
+    double *z = ARENA_TAKE(a, double, n);
     fractal_heights(f, stream, z);
-    if (f->interpolation != INTERPOLATION_SPLINE) return knots_part(a, f, z, (long)size);
-    struct profile *p = profile_from_samples(a, z, (size_t)size, f->pitch, OFF_MAP_WRAP);
+    if (f->interpolation != INTERPOLATION_SPLINE) return knots_part(a, f, z, n);
+    struct profile *p = profile_from_samples(a, z, (size_t)n, f->pitch, OFF_MAP_WRAP);
     p->from = -HUGE_VAL;
     p->to = HUGE_VAL;
     return profile_part(a, p, "fractal", 0);
@@ -122,18 +189,12 @@ struct relief_part *fractal_part(struct arena *a, const struct fractal *f, struc
 
 /* ------------------------------------------------------------------ the stage */
 
-static bool fractal_wanted(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return c->surface.fractal.given;
-}
-
 static double fractal_work(const struct contact *c, const struct scene *s)
 {
-    return 8 * relief_readings(s, c->surface.fractal.pitch);
+    return 8 * relief_readings(s, fractal_of(c)->pitch);
 }
 
-static bool fractal_fits(const struct stage_run *r, struct err *e)
+static bool surface_fits(const struct stage_run *r, struct err *e)
 {
     const struct contact *c = r->contact;
     if (r->board->relief->along == ALONG_PLANE)
@@ -141,8 +202,8 @@ static bool fractal_fits(const struct stage_run *r, struct err *e)
                        "contact '%s': surface.fractal is a profile, and this surface lies in the plane; set "
                        "surface.along to path or x%s",
                        c->name,
-                       c->surface.height_map ? " (and take one row of the map, with rasp surface convert --row)" : "");
-    return c->surface.fractal.interpolation == INTERPOLATION_SPLINE || !isnan(c->scraper.radius) ||
+                       r->board->height_map ? " (and take one row of the map, with rasp surface convert --row)" : "");
+    return fractal_of(c)->interpolation == INTERPOLATION_SPLINE || !isnan(c->scraper.radius) ||
            err_set(e, ERR_SCENE,
                    "contact '%s': surface.fractal.interpolation must be spline under a point, for which kinks and "
                    "steps are no surface; set it "
@@ -165,14 +226,12 @@ static void fractal_repeats(struct stage_run *r, double period)
 
 static bool fractal_open(struct stage_run *r, struct err *e)
 {
-    const struct fractal *f = &r->contact->surface.fractal;
+    const struct fractal *f = fractal_of(r->contact);
     struct noise stream = noise_make(r->scene->seed, arena_format(r->arena, "fractal/%s", r->contact->name));
     relief_decide(r->board->relief, r->contact);
-    if (!fractal_fits(r, e)) return false;
-    struct relief_part *part = fractal_part(r->arena, f, stream, e);
-    if (!part) return err_at(e, "contact '%s'", r->contact->name);
-    fractal_repeats(r, rules_fractal_size(f) * f->pitch);
-    relief_add(r->board->relief, part);
+    if (!surface_fits(r, e)) return false;
+    fractal_repeats(r, fractal_size(f) * f->pitch);
+    relief_add(r->board->relief, fractal_part(r->arena, f, stream));
     return true;
 }
 
@@ -181,9 +240,9 @@ const struct stage fractal_stage = {
     .does = "fractal profile, heights on an even pitch",
     .paper = "002 sec. II-B, III-B",
     .idle = "no surface.fractal",
+    .params = &fractal_params,
     .needs = ITEM_BIT(ITEM_SURFACE),
     .gives = ITEM_BIT(ITEM_SURFACE),
-    .wanted = fractal_wanted,
     .work = fractal_work,
     .open = fractal_open,
 };

@@ -198,13 +198,6 @@ struct relief_part *grit_part(struct arena *a, const struct grit *g, struct nois
 
 /* ------------------------------------------------------------------ the stage */
 
-static bool grit_wanted(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return grit_of(c)->given;
-}
-
-/* Cycles: 4 for each grain of nine cells, of which there are at least nine. */
 static double grit_work(const struct contact *c, const struct scene *s)
 {
     const struct grit *g = grit_of(c);
@@ -230,7 +223,6 @@ const struct stage grit_stage = {
     .params = &grit_params,
     .needs = ITEM_BIT(ITEM_SURFACE),
     .gives = ITEM_BIT(ITEM_SURFACE),
-    .wanted = grit_wanted,
     .work = grit_work,
     .open = grit_open,
 };

@@ -164,12 +164,6 @@ struct relief_part *ridges_part(struct arena *a, const struct ridges *recipe, in
 
 /* ------------------------------------------------------------------ the stage */
 
-static bool ridges_wanted(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return ridges_of(c)->given;
-}
-
 static double ridges_work(const struct contact *c, const struct scene *s)
 {
     return 90 * relief_readings(s, ridges_of(c)->spacing / 8);
@@ -197,7 +191,6 @@ const struct stage ridges_stage = {
     .params = &ridges_params,
     .needs = ITEM_BIT(ITEM_SURFACE),
     .gives = ITEM_BIT(ITEM_SURFACE),
-    .wanted = ridges_wanted,
     .work = ridges_work,
     .open = ridges_open,
 };

@@ -136,10 +136,9 @@ static double likely_finest(const struct contact *c)
 /* m, between places where the ground under a tip without a patch is read. */
 static double likely_pitch(const struct contact *c)
 {
-    const struct surface *s = &c->surface;
-    double finest = likely_finest(c);
-    if (!s->fractal.given) return finest / 4;
-    return fmin(fmin(finest, s->fractal.pitch) / 4, sqrt(8 * c->scraper.radius * TIP_DIP * 2 * s->fractal.maximum));
+    double kinked = params_kinked_span(c),
+           dips = kinked > 0 ? sqrt(8 * c->scraper.radius * TIP_DIP * kinked) : HUGE_VAL;
+    return fmin(likely_finest(c) / 4, dips);
 }
 
 /* m between the greatest and least height: of what is random 8 times the rms. */

@@ -49,7 +49,7 @@ START_TEST(the_periodogram_is_the_power_law)
             f.exponent = exponents[k];
             f.spectrum = spectrum;
             double z[2000], off, want = (spectrum == SPECTRUM_POWER ? 1 : 2) * exponents[k], slope;
-            ck_assert_double_eq(rules_fractal_size(&f), 2000);
+            ck_assert_double_eq(fractal_size(&f), 2000);
             fractal_heights(&f, noise_make(1, "fractal"), z);
             slope = slope_of(z, 2000, &off);
             ck_assert_msg(fabs(slope - want) < 1e-6 && off < 1e-5, "%g: %.9g, off by %g dB", want, slope, off);
@@ -78,10 +78,7 @@ END_TEST
 
 static struct relief_part *part_of(struct arena *a, const struct fractal *f)
 {
-    struct err e = {0};
-    struct relief_part *p = fractal_part(a, f, noise_make(1, "fractal"), &e);
-    ck_assert_msg(p != NULL, "%s", e.text);
-    return p;
+    return fractal_part(a, f, noise_make(1, "fractal"));
 }
 
 /* At the knots the heights, whatever lies between; periodic; and the definition of each between. */
@@ -180,12 +177,8 @@ START_TEST(refused_once_more)
     c->surface.along = ALONG_PLANE;
     fails(&s, "set surface.along to path or x");
     c->surface.along = ALONG_PATH;
-    c->surface.fractal.length = 1e-3;
-    fails(&s, "raise length, or lower pitch");
-    c->surface.fractal.length = 1000;
-    c->surface.fractal.pitch = 1e-6;
-    fails(&s, "lower length, or raise pitch");
-    c->surface.fractal = recipe(INTERPOLATION_LINEAR);
+    struct fractal *f = params_edit(c, fractal_stage.params, rig_arena());
+    *f = recipe(INTERPOLATION_LINEAR);
     c->scraper.radius = NAN;
     fails(&s, "give scraper.radius");
 }

@@ -20,7 +20,7 @@ static void step(struct floor *g, const struct stage *s)
 {
     struct err e = {0};
     struct stage_run *r = &g->opened[g->n];
-    if (!s->wanted(&g->contact, &g->scene)) return;
+    if (!stages_wanted(s, &g->contact, &g->scene)) return;
     *r = g->run;
     r->stage = s;
     ck_assert_msg(s->open(r, &e), "%s", e.text);
