@@ -542,16 +542,16 @@ static bool read_surface(struct synth *s, struct err *e)
                        "{diagnostics: {rate: 1 kHz}}\n";
     if (!cmd_recipe_read(s->c, file, rest, &s->scene, e)) return false;
     const struct contact *c = &s->scene.contacts[0];
-    const struct surface *u = &c->surface;
     if (s->scene.n_contacts > 1)
         return err_set(e, ERR_SCENE, "%s: has %d contacts; synth takes a recipe, or a scene of one contact", file,
                        s->scene.n_contacts);
-    if (u->height_map)
+    if (c->surface.height_map)
         return err_set(
             e, ERR_SCENE,
             "%s: surface.height_map is measured, and needs no synth; rasp surface convert writes it in another format",
             file);
-    return u->roughness.given || params_given(c, ridges_stage.params) || params_given(c, grit_stage.params) ||
+    return params_given(c, roughness_stage.params) || params_given(c, ridges_stage.params) ||
+           params_given(c, grit_stage.params) ||
            err_set(e, ERR_SCENE, "%s: has no roughness, ridges or grit: there is no procedural surface in it", file);
 }
 

@@ -19,6 +19,7 @@
 #include "scene/rules.h"
 #include "surface/limiter.h"
 #include "surface/relief.h"
+#include "surface/roughness.h"
 #include "trajectory/load.h"
 #include "trajectory/trajectory.h"
 
@@ -621,9 +622,8 @@ unsigned path_cells_asks(const struct contact *c, const struct scene *s)
 double path_cells_work(const struct contact *c, const struct scene *s)
 {
     const struct surface *u = &c->surface;
-    double finest = u->roughness.given                  ? relief_roughness_scale(&u->roughness)
-                    : u->height_map && !isnan(u->pitch) ? u->pitch
-                                                        : RELIEF_MAP_PITCH;
+    double rough = roughness_scale(c);
+    double finest = !isnan(rough) ? rough : u->height_map && !isnan(u->pitch) ? u->pitch : RELIEF_MAP_PITCH;
     bool halves = rules_along(c) == ALONG_PLANE;
     return (halves ? 2 : 1) * (s->accuracy.oversampling + rules_speed(&c->motion) / (s->output.sample_rate * finest));
 }

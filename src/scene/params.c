@@ -99,7 +99,7 @@ bool params_directed(const struct contact *c)
 {
     int i = 0;
     for (const struct params *p; (p = ground_next(c, &i));)
-        if (p->ground->directed) return true;
+        if (p->ground->directed && p->ground->directed(params_of(c, p))) return true;
     return false;
 }
 

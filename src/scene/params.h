@@ -30,8 +30,8 @@ struct params_column {
 
 /* Of a part of the surface, as far as the scene alone tells. */
 struct params_ground {
-    bool directed;                     /* are its heights different along x and y? */
     bool kinked;                       /* may its heights have kinks or steps? */
+    bool (*directed)(const void *own); /* are its heights different along x and y? NULL: no */
     double (*finest)(const void *own); /* m, see relief_part.finest */
     double (*span)(const void *own);   /* m between the greatest and least height */
 };

@@ -14,8 +14,7 @@
 #include "scene/params.h"
 #include "scene/scene.h"
 
-#define RULES_BAND_WIDEST 1e5 /* longest over shortest wavelength of a roughness */
-#define RULES_PEAK (-3.0)     /* dB re full scale: the level of a sound for which none is given */
+#define RULES_PEAK (-3.0) /* dB re full scale: the level of a sound for which none is given */
 #define RULES_SMOOTHING_WIDEST                                                                                         \
     0.1 /* s: a wider sigma leaves nothing to hear, and its kernels cost minutes per second of sound */
 
@@ -95,9 +94,8 @@ static inline double rules_speed(const struct motion *m)
 static inline int rules_along(const struct contact *c)
 {
     const struct surface *s = &c->surface;
-    bool directed = (s->roughness.given && s->roughness.grain != 1) || params_directed(c);
     if (s->along != ALONG_AUTO || s->height_map) return s->along;
-    return directed || !rules_straight(&c->motion) ? ALONG_PLANE : ALONG_PATH;
+    return params_directed(c) || !rules_straight(&c->motion) ? ALONG_PLANE : ALONG_PATH;
 }
 
 /* May the surface turn out to lie in the plane? */
@@ -184,11 +182,6 @@ static inline int rules_moving(const struct response *r)
            : rules_responds(r)        ? MOVING_FIXED
                                       : MOVING_AUTO;
 }
-
-/* Has a roughness a band of wavelengths, and not too wide a one? */
-static inline bool rules_has_band(const struct roughness *r) { return r->longest > r->shortest; }
-
-static inline bool rules_band_fits(const struct roughness *r) { return r->longest / r->shortest <= RULES_BAND_WIDEST; }
 
 #define RULES_APPROACH 5e-3 /* s: contact is made and given up where the motion is at speed, unless the scene says */
 

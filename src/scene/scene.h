@@ -89,19 +89,6 @@ struct file_cache;
 
 /* ------------------------------------------------------------------ one contact */
 
-struct roughness { /* procedural: surface/roughness.h                                */
-    bool given;
-    double exponent;           /* one-sided power spectral density of a profile over spatial frequency ~ k^exponent */
-    double rms;                /* m, of the heights                                                 */
-    double longest;            /* m, wavelength above which the spectrum is flat (roll-off)         */
-    double shortest;           /* m, wavelength below which it is zero                              */
-    double skewness, kurtosis; /* of the height distribution; 0 and 3 are Gaussian               */
-    double grain;              /* ratio of correlation lengths along and across the grain; 1: isotropic */
-    double grain_direction;    /* rad, of the grain's long axis, 0 = +x                             */
-    const char *like;          /* height map whose spectrum, rms, skewness and kurtosis are taken; NULL: none */
-    double like_pitch;         /* m; NAN: the file says it                                          */
-};
-
 struct continuation { /* finer roughness than a measured map holds: surface/continuation.h */
     bool given;
     double exponent; /* of its spectrum; NAN: that of the map's own last octaves          */
@@ -166,7 +153,6 @@ struct surface {
     int levelling;          /* enum levelling                                                    */
     double origin[2];       /* m: where the surface's own x = y = 0 lies in the scene              */
     struct continuation continuation;
-    struct roughness roughness;
     struct response response;
 };
 

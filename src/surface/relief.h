@@ -81,13 +81,7 @@ double relief_kinks(const struct relief *);
 /* ------------------------------------------------------------------ how often a surface is read, for predicted work */
 
 #define RELIEF_MAP_PITCH 5e-6 /* m, of a map whose file says it */
-
-/* m, the finest scale of roughness, as far as the scene tells: a quarter of its shortest wave. Roughness like a map has
- * the map's waves, and so its pitch. */
-static inline double relief_roughness_scale(const struct roughness *r)
-{
-    return !r->like ? r->shortest / 4 : isnan(r->like_pitch) ? RELIEF_MAP_PITCH : r->like_pitch;
-}
+#define RELIEF_MAP_SPAN 20e-6 /* m between greatest and least height, of any map */
 
 /* Points per audio sample: both ends and the middle of each sub-interval, and of each cell crossed at 0.2 m/s. */
 static inline double relief_readings(const struct scene *s, double finest)

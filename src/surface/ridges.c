@@ -50,6 +50,12 @@ static const struct key keys[] = {
 static const struct params_rule rules[] = {
     {"surface.ridges.width", 0.9, "surface.ridges.spacing", "lower width, or raise spacing"}, {.path = NULL}};
 
+static bool directed(const void *own)
+{
+    (void)own;
+    return true;
+}
+
 static double likely_finest(const void *own) { return ((const struct ridges *)own)->spacing / 8; }
 
 static double likely_span(const void *own)
@@ -64,7 +70,7 @@ static const struct params ridges_params = {
     .size = sizeof(struct ridges),
     .keys = keys,
     .rules = rules,
-    .ground = &(const struct params_ground){.directed = true, .finest = likely_finest, .span = likely_span},
+    .ground = &(const struct params_ground){.directed = directed, .finest = likely_finest, .span = likely_span},
 };
 
 static const struct ridges *ridges_of(const struct contact *c) { return params_of(c, &ridges_params); }

@@ -18,12 +18,111 @@
 #include "file/heightfile.h"
 #include "num/fft.h"
 #include "num/real.h"
+#include "scene/rows.h"
 #include "scene/rules.h"
+#include "scene/scene_part.h"
 #include "stage.h"
 #include "surface/heights.h"
 #include "surface/relief.h"
 #include "surface/spectrum.h"
 #include "surface/tiles.h"
+
+#define BAND_WIDEST 1e5 /* longest over shortest wavelength */
+
+/* ------------------------------------------------------------------ parameters */
+
+#define OWN "!surface.roughness.like"
+
+static const struct key keys[] = {
+    {ROW_NUMBER(roughness, exponent, "surface.roughness.exponent"), KEY_NONE, -8, 2, "-2.4", OWN,
+     "slope of a profile's power spectral density over spatial frequency, between the two cut-off wavelengths"},
+    {ROW_NUMBER(roughness, rms, "surface.roughness.rms"), KEY_LENGTH, 1e-10, 1e-3, "4 um", OWN,
+     "root-mean-square height"},
+    {ROW_NUMBER(roughness, longest, "surface.roughness.longest"), KEY_LENGTH, 1e-5, 1, "2 mm", OWN,
+     "wavelength above which the spectrum is flat"},
+    {ROW_NUMBER(roughness, shortest, "surface.roughness.shortest"), KEY_LENGTH, 1e-7, 1e-2, "20 um", OWN,
+     "wavelength below which there is no roughness"},
+    {ROW_NUMBER(roughness, skewness, "surface.roughness.skewness"), KEY_NONE, -3, 3, "0", OWN,
+     "skewness of the height distribution: below 0 a plateau with valleys, above 0 a ground with peaks"},
+    {ROW_NUMBER(roughness, kurtosis, "surface.roughness.kurtosis"), KEY_NONE, 1.8, 30, "3", OWN,
+     "kurtosis of the height distribution; 3 is Gaussian"},
+    {ROW_NUMBER(roughness, grain, "surface.roughness.grain"), KEY_NONE, 1, 100, "1", NULL,
+     "how many times longer features are along the grain than across it; 1: isotropic"},
+    {ROW_NUMBER(roughness, grain_direction, "surface.roughness.grain_direction"), KEY_ANGLE, -6.2832, 6.2832, "0 deg",
+     NULL, "direction of the grain, 0 is +x"},
+    {ROW_FILE(roughness, like, "surface.roughness.like"), KEY_NONE, 0, 0, "", NULL,
+     "height map whose statistics (spectrum, rms, skewness, kurtosis) the roughness takes, in place of those above"},
+    {ROW_NUMBER(roughness, like_pitch, "surface.roughness.like_pitch"), KEY_LENGTH, 1e-8, 1e-3, "",
+     "surface.roughness.like", "distance between two of its samples, where the file does not hold it"},
+    {.path = NULL}};
+
+static void band_check(const struct scene_part *p, const struct roughness *r)
+{
+    static const char *const waves[2] = {"surface.roughness.shortest", "surface.roughness.longest"};
+    if (r->longest <= r->shortest)
+        scene_part_contradiction(p, waves, "must be less than", "raise longest, or lower shortest");
+    else if (r->longest / r->shortest > BAND_WIDEST)
+        diag_add(p->yaml->diag, scene_part_later(p, waves[0], waves[1]), "lower longest, or raise shortest",
+                 "%s is %.3g times %s, and at most 100 000 times are offered", scene_part_label(p, waves[1]),
+                 r->longest / r->shortest, scene_part_label(p, waves[0]));
+}
+
+/* (E x^3)^2 <= E x^2 E (x^2 - 1)^2 for x of mean 0 and variance 1: no distribution lies beyond, and none that is
+ * continuous on it. */
+static void moments_check(const struct scene_part *p, const struct roughness *r)
+{
+    const char *skewness = "surface.roughness.skewness", *kurtosis = "surface.roughness.kurtosis";
+    double least = r->skewness * r->skewness + 1;
+    if (r->kurtosis <= least)
+        diag_add(p->yaml->diag, scene_part_later(p, skewness, kurtosis),
+                 arena_format(p->yaml->arena, "raise %s, or bring %s nearer to 0", kurtosis, skewness),
+                 "%s: no heights have a skewness of %.4g and a kurtosis of %.4g: it is above skewness^2 + 1, %.4g",
+                 scene_part_label(p, "surface.roughness"), r->skewness, r->kurtosis, least);
+}
+
+static void check(const struct scene_part *p, const struct contact *c, const void *own)
+{
+    const struct roughness *r = own;
+    const char *grain = "surface.roughness.grain", *along = "surface.along";
+    band_check(p, r);
+    moments_check(p, r);
+    if (r->grain > 1 && scene_part_known(p, along) && (c->surface.along == ALONG_PATH || c->surface.along == ALONG_X))
+        diag_add(p->yaml->diag, scene_part_later(p, grain, along),
+                 arena_format(p->yaml->arena, "set %s to plane, or remove the grain", along),
+                 "%s: a profile has no grain: it needs %s: plane", scene_part_label(p, grain), along);
+}
+
+static bool directed(const void *own) { return ((const struct roughness *)own)->grain != 1; }
+
+/* A quarter of the shortest wave. Roughness like a map has the map's waves, and so its pitch. */
+static double likely_finest(const void *own)
+{
+    const struct roughness *r = own;
+    return !r->like ? r->shortest / 4 : isnan(r->like_pitch) ? RELIEF_MAP_PITCH : r->like_pitch;
+}
+
+static double likely_span(const void *own)
+{
+    const struct roughness *r = own;
+    return r->like ? RELIEF_MAP_SPAN : 8 * r->rms;
+}
+
+static const struct params roughness_params = {
+    .section = "surface.roughness",
+    .meaning = "procedural roughness: endless, aperiodic, drawn from the seed",
+    .size = sizeof(struct roughness),
+    .keys = keys,
+    .check = check,
+    .ground = &(const struct params_ground){.directed = directed, .finest = likely_finest, .span = likely_span},
+    .shown = true,
+};
+
+static const struct roughness *roughness_of(const struct contact *c) { return params_of(c, &roughness_params); }
+
+double roughness_scale(const struct contact *c)
+{
+    return roughness_of(c)->given ? likely_finest(roughness_of(c)) : NAN;
+}
 
 /* ------------------------------------------------------------------ along a line */
 
@@ -263,11 +362,6 @@ bool roughness_plan(struct arena *a, struct file_cache *file_cache, const struct
 {
     *p = (struct roughness_plan){.rms = r->rms, .skewness = r->skewness, .kurtosis = r->kurtosis};
     if (r->like) return plan_like(file_cache, r, a, p, e);
-    if (r->longest <= r->shortest)
-        return err_set(e, ERR_SCENE, "surface.roughness: longest (%g m) must be more than shortest (%g m)", r->longest,
-                       r->shortest);
-    if (r->longest / r->shortest > 1e5)
-        return err_set(e, ERR_SCENE, "surface.roughness: longest is more than 100 000 times shortest; lower longest");
     p->spectrum = spectrum_power_law(a, r->exponent, r->longest, r->shortest, r->rms);
     return true;
 }
@@ -313,12 +407,6 @@ struct relief_part *roughness_part(struct arena *a, struct roughness_plan *p, co
 
 /* ------------------------------------------------------------------ the stage */
 
-static bool roughness_wanted(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return c->surface.roughness.given;
-}
-
 static double roughness_octaves(const struct roughness *r)
 {
     return r->like ? 9 : 1 + real_log(r->longest / r->shortest) / real_log(2);
@@ -326,7 +414,8 @@ static double roughness_octaves(const struct roughness *r)
 
 double roughness_bytes(const struct contact *c)
 {
-    int bands = c->surface.roughness.given ? (int)roughness_octaves(&c->surface.roughness) : 0;
+    const struct roughness *r = roughness_of(c);
+    int bands = r->given ? (int)roughness_octaves(r) : 0;
     return bands > 0 && rules_along(c) == ALONG_PLANE
                ? (double)(tiles_bytes(bands, rules_once(c)) + (size_t)bands * TILE_SIDE * TILE_ROW * sizeof(double))
                : 0;
@@ -337,9 +426,9 @@ double roughness_bytes(const struct contact *c)
    of heights. What a tip reads in the plane is told with the tip. */
 static double roughness_work(const struct contact *c, const struct scene *s)
 {
-    const struct roughness *r = &c->surface.roughness;
+    const struct roughness *r = roughness_of(c);
     bool plane = rules_along(c) == ALONG_PLANE, shaped = r->like || r->skewness != 0 || r->kurtosis != 3;
-    double finest = relief_roughness_scale(r), points = relief_readings(s, finest),
+    double finest = likely_finest(r), points = relief_readings(s, finest),
            cells = rules_speed(&c->motion) / (s->output.sample_rate * finest);
     if (plane && !isnan(c->scraper.radius)) return 1;
     return (plane ? (rules_once(c) ? 900 : 700) * cells + 50 * s->accuracy.oversampling : 8 * points) +
@@ -348,7 +437,7 @@ static double roughness_work(const struct contact *c, const struct scene *s)
 
 static bool roughness_open(struct stage_run *r, struct err *e)
 {
-    const struct roughness *recipe = &r->contact->surface.roughness;
+    const struct roughness *recipe = roughness_of(r->contact);
     struct noise stream = noise_make(r->scene->seed, arena_format(r->arena, "roughness/%s", r->contact->name));
     struct roughness_plan p;
     relief_decide(r->board->relief, r->contact);
@@ -371,9 +460,9 @@ const struct stage roughness_stage = {
     .does = "procedural roughness, random with a given spectrum",
     .paper = "000 sec. 2.2",
     .idle = "no surface.roughness",
+    .params = &roughness_params,
     .needs = ITEM_BIT(ITEM_SURFACE),
     .gives = ITEM_BIT(ITEM_SURFACE),
-    .wanted = roughness_wanted,
     .work = roughness_work,
     .open = roughness_open,
     .close = relief_close,

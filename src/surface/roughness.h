@@ -11,6 +11,19 @@
 #include "surface/relief.h"
 #include "surface/spectrum.h"
 
+struct roughness { /* section surface.roughness */
+    bool given;
+    double exponent;           /* one-sided power spectral density of a profile over spatial frequency ~ k^exponent */
+    double rms;                /* m, of the heights                                                 */
+    double longest;            /* m, wavelength above which the spectrum is flat (roll-off)         */
+    double shortest;           /* m, wavelength below which it is zero                              */
+    double skewness, kurtosis; /* of the height distribution; 0 and 3 are Gaussian                  */
+    double grain;              /* ratio of correlation lengths along and across the grain; 1: isotropic */
+    double grain_direction;    /* rad, of the grain's long axis, 0 = +x                             */
+    const char *like;          /* height map whose spectrum, rms, skewness and kurtosis are taken; NULL: none */
+    double like_pitch;         /* m; NAN: the file says it                                          */
+};
+
 /* What a recipe comes to. */
 struct roughness_plan {
     struct spectrum spectrum;
@@ -30,6 +43,9 @@ bool roughness_plan(struct arena *a, struct file_cache *file_cache, const struct
    with its own close(). NULL: ERR_SCENE, for heights or a spectrum that there are none of. */
 struct relief_part *roughness_part(struct arena *a, struct roughness_plan *p, const struct roughness *recipe, int along,
                                    struct noise stream, struct err *e);
+
+/* m, the finest scale of a contact's roughness, as far as the scene tells; NAN: it has none. */
+double roughness_scale(const struct contact *c);
 
 /* What a contact's roughness holds at most, in bytes; 0: next to nothing, or it has none. */
 double roughness_bytes(const struct contact *c);

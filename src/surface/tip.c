@@ -121,14 +121,11 @@ enum {
 #define GATHER 3.5
 #define HEIGHT 45
 
-#define MAP_SPAN 20e-6 /* m, of any map */
-
 /* m, the surface's finest scale, as far as the scene tells. */
 static double likely_finest(const struct contact *c)
 {
     const struct surface *s = &c->surface;
     double finest = s->height_map ? isnan(s->pitch) ? RELIEF_MAP_PITCH : s->pitch : HUGE_VAL;
-    finest = fmin(finest, s->roughness.given ? relief_roughness_scale(&s->roughness) : HUGE_VAL);
     finest = fmin(finest, s->continuation.given ? s->continuation.shortest / 4 : HUGE_VAL);
     return fmin(finest, params_finest(c));
 }
@@ -145,8 +142,7 @@ static double likely_pitch(const struct contact *c)
 static double likely_span(const struct contact *c)
 {
     const struct surface *s = &c->surface;
-    double span = s->height_map ? MAP_SPAN : 0;
-    span += s->roughness.given ? 8 * (s->roughness.like ? MAP_SPAN / 8 : s->roughness.rms) : 0;
+    double span = s->height_map ? RELIEF_MAP_SPAN : 0;
     return params_span(c, span);
 }
 

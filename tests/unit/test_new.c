@@ -3,11 +3,14 @@
 #include "unit.h"
 
 #include "cmd/cmd.h"
+#include "pipeline/stages.h"
 #include "scene/keys.h"
 #include "scene/keys_reference.h"
 #include "scene/keys_text.h"
 #include "scene/keys_yaml.h"
+#include "scene/params.h"
 #include "scene/scene_read.h"
+#include "surface/roughness.h"
 
 static struct arena *a;
 static struct scene s;
@@ -98,9 +101,11 @@ START_TEST(test_reference_is_a_scene_with_the_defaults)
               "short", NULL);
     ck_assert(given.contacts->contact.leak == s.contacts->contact.leak);
     ck_assert(given.contacts->contact.limiter.alpha == s.contacts->contact.limiter.alpha);
-    ck_assert(given.contacts->surface.roughness.rms == s.contacts->surface.roughness.rms);
+    const struct roughness *r = params_of(given.contacts, roughness_stage.params),
+                           *of_s = params_of(s.contacts, roughness_stage.params);
+    ck_assert(r->rms == of_s->rms);
     ck_assert(given.output.sample_rate == s.output.sample_rate && given.output.encoding == s.output.encoding);
-    ck_assert(given.output.diagnostics.given && given.contacts->surface.roughness.given && !given.contacts->grip.given);
+    ck_assert(given.output.diagnostics.given && r->given && !given.contacts->grip.given);
     ck_assert(given.accuracy.oversampling == s.accuracy.oversampling && isnan(given.output.tail));
     free(text);
     arena_close(a);

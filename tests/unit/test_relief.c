@@ -7,6 +7,7 @@
 #include "scene/params.h"
 #include "surface/height_map.h"
 #include "surface/profile.h"
+#include "surface/roughness.h"
 #include "unit.h"
 
 enum { POINTS = 50, SIDE = 12 };
@@ -132,10 +133,11 @@ START_TEST(settled_along)
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct relief r = {.along = cases[i].along};
-        struct contact c = {.motion = {.path = cases[i].path},
-                            .surface = {.roughness = {.given = cases[i].roughness, .grain = cases[i].grain}}};
+        struct contact c = {.motion = {.path = cases[i].path}};
         struct arena *a = arena_open();
         *(bool *)params_edit(&c, ridges_stage.params, a) = cases[i].ridges;
+        *(struct roughness *)params_edit(&c, roughness_stage.params, a) =
+            (struct roughness){.given = cases[i].roughness, .grain = cases[i].grain};
         relief_decide(&r, &c);
         ck_assert_msg(r.along == cases[i].want, "case %zu: %d", i, r.along);
         ck_assert(rules_straight(&c.motion) == (cases[i].path <= PATH_FOUR_IN_LINE));

@@ -5,7 +5,9 @@
 #include <sys/stat.h>
 
 #include "folder.h"
+#include "pipeline/stages.h"
 #include "scene/keys.h"
+#include "scene/params.h"
 #include "scenes.h"
 
 static struct result read_good(const char *text, const char *const *set)
@@ -33,7 +35,7 @@ START_TEST(test_full)
     ck_assert(c->motion.duration == 1.5 && isnan(c->motion.speed));
     ck_assert(c->grip.given && c->grip.angle == 0.5 && c->grip.friction == 0.3 && isnan(c->load.constant));
     ck_assert(c->contact.force == FORCE_PAPER && isnan(c->contact.leak) && c->contact.limiter.force_range[1] == 5);
-    ck_assert(!c->surface.roughness.given && isnan(c->surface.pitch));
+    ck_assert(!params_given(c, roughness_stage.params) && isnan(c->surface.pitch));
     ck_assert_str_eq(s->accuracy.preset, "high");
     ck_assert(s->accuracy.oversampling == 16 && s->accuracy.gain_ramp == 16);
     ck_assert(s->output.sample_rate == 44100 && s->output.encoding == ENCODING_PCM16 && s->output.level.lufs == -23);

@@ -4,6 +4,7 @@
 #include "scene/scene_read.h"
 #include "surface/grit.h"
 #include "surface/ridges.h"
+#include "surface/roughness.h"
 
 #include <sys/stat.h>
 
@@ -110,10 +111,9 @@ START_TEST(test_good)
         arena_close(r.arena);
     }
     struct result r = surface_read("{roughness: {like: a.gsf}, grit: {density: 12.5 /mm^2}}");
-    const struct surface *s = &r.scene.contacts->surface;
+    const struct roughness *rough = params_of(r.scene.contacts, roughness_stage.params);
     const struct grit *grit = params_of(r.scene.contacts, grit_stage.params);
-    ck_assert(isnan(s->roughness.rms) && isnan(s->roughness.exponent) && isnan(s->roughness.shortest) &&
-              grit->density == 12.5e6);
+    ck_assert(isnan(rough->rms) && isnan(rough->exponent) && isnan(rough->shortest) && grit->density == 12.5e6);
     arena_close(r.arena);
 }
 END_TEST
@@ -169,8 +169,9 @@ START_TEST(test_recipe)
     struct result r = read_file("one.yaml", NULL);
     const struct surface *s = &r.scene.contacts->surface;
     const struct grit *grit = params_of(r.scene.contacts, grit_stage.params);
+    const struct roughness *rough = params_of(r.scene.contacts, roughness_stage.params);
     ck_assert_msg(r.good, "%s", r.messages);
-    ck_assert(s->roughness.rms == 5e-6 && s->roughness.exponent == -3 && grit->given && grit->density == 30e6 &&
+    ck_assert(rough->rms == 5e-6 && rough->exponent == -3 && grit->given && grit->density == 30e6 &&
               grit->height == 20e-6);
     ck_assert(grit->diameter == 125e-6 && !params_given(r.scene.contacts, ridges_stage.params));
     ck_assert_str_eq(s->recipe, folder_path("sub/paper.yaml"));
@@ -178,7 +179,8 @@ START_TEST(test_recipe)
     arena_close(r.arena);
     r = read_file("sub/including.yaml", NULL); /* the recipe is seen from the file that names it */
     ck_assert_msg(r.good, "%s", r.messages);
-    ck_assert(r.scene.contacts->surface.roughness.rms == 2e-6 && !params_given(r.scene.contacts, grit_stage.params));
+    rough = params_of(r.scene.contacts, roughness_stage.params);
+    ck_assert(rough->rms == 2e-6 && !params_given(r.scene.contacts, grit_stage.params));
     arena_close(r.arena);
     char set[256];
     snprintf(set, sizeof set, "surface.recipe=%s",
@@ -197,7 +199,7 @@ START_TEST(test_recipe)
     ck_assert(params_given(&r.scene.contacts[0], grit_stage.params) &&
               !params_given(&r.scene.contacts[0], ridges_stage.params));
     ck_assert(((const struct ridges *)params_of(&r.scene.contacts[1], ridges_stage.params))->spacing == 2e-3 &&
-              !r.scene.contacts[1].surface.roughness.given);
+              !params_given(&r.scene.contacts[1], roughness_stage.params));
     arena_close(r.arena);
     folder_remove();
 }
@@ -213,7 +215,8 @@ START_TEST(test_recipe_set)
         SET(set, "surface.height_map=mine.gsf")); /* a name on the command line is seen from the current folder */
     ck_assert_msg(r.good, "%s", r.messages);
     ck_assert_str_eq(r.scene.contacts->surface.height_map, "mine.gsf");
-    ck_assert_str_eq(r.scene.contacts->surface.roughness.like, folder_path("sub/like.gsf"));
+    const struct roughness *rough = params_of(r.scene.contacts, roughness_stage.params);
+    ck_assert_str_eq(rough->like, folder_path("sub/like.gsf"));
     arena_close(r.arena);
     snprintf(set_b, sizeof set_b, "contacts.b.surface.recipe=%s", folder_path("sub/paper.yaml"));
     r = read_file("several.yaml", SET(set_b, "contacts.a.surface={recipe: null, ridges: {}, response: x.csv}"));

@@ -12,6 +12,7 @@
 #include "scene/params.h"
 #include "scene/scene_read.h"
 #include "scene/scene_write.h"
+#include "surface/roughness.h"
 
 #define INDEX "file_name,x_m,y_m\na.wav,0,0\nb.WAV,1,0\n" /* of a folder of responses */
 
@@ -529,8 +530,8 @@ START_TEST(test_recipe)
         "motion: {path: line, to: [1, 1], duration: 0.3}\n");
     must_read("in/scene.yaml", &s);
     const struct surface *f = &s.contacts->surface;
-    ck_assert(f->roughness.rms == 3e-6 && f->roughness.exponent == -3 &&
-              !params_given(s.contacts, ridges_stage.params));
+    const struct roughness *rough = params_of(s.contacts, roughness_stage.params);
+    ck_assert(rough->rms == 3e-6 && rough->exponent == -3 && !params_given(s.contacts, ridges_stage.params));
     ck_assert_str_eq(f->recipe, "in/files/recipe.yaml");
     ck_assert_str_eq(f->response.file, "in/files/plank.csv"); /* as seen from the recipe */
     const char *text = scene_write(&s, "out", a);
