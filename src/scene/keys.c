@@ -165,7 +165,7 @@ static void rivals_add(struct key_alternative *t)
             t->paths[n++] = old.paths[k];
         else
             for (int i = 0; (p = stages_params(i)); i++)
-                if (p->ground && !is_named(&old, p->section)) {
+                if (p->ground && p->ground->span && !is_named(&old, p->section)) {
                     assert(n < KEYS_RIVALS);
                     t->paths[n++] = p->section;
                 }

@@ -104,14 +104,8 @@ static const struct {
     {NULL, NULL, false},
 };
 
-static const char *const sections_off[] = {"surface.continuation",
-                                           "surface.object",
-                                           "surface.space",
-                                           "scraper.object",
-                                           "ball.object",
-                                           "grip",
-                                           "output.listen",
-                                           NULL};
+static const char *const sections_off[] = {
+    "surface.object", "surface.space", "scraper.object", "ball.object", "grip", "output.listen", NULL};
 
 static const char head[] =
     "# Every key of a scene, with its default. It is a scene: rasp check takes it as it stands.\n"

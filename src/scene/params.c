@@ -116,7 +116,7 @@ double params_span(const struct contact *c, double span)
 {
     int i = 0;
     for (const struct params *p; (p = ground_next(c, &i));)
-        span += p->ground->span(params_of(c, p));
+        if (p->ground->span) span += p->ground->span(params_of(c, p));
     return span;
 }
 

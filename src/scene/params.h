@@ -33,7 +33,8 @@ struct params_ground {
     bool kinked;                       /* may its heights have kinks or steps? */
     bool (*directed)(const void *own); /* are its heights different along x and y? NULL: no */
     double (*finest)(const void *own); /* m, see relief_part.finest */
-    double (*span)(const void *own);   /* m between the greatest and least height */
+    double (*span)(const void *own);   /* m between the greatest and least height; NULL: it refines others, and is no
+                                          surface by itself */
 };
 
 struct params {

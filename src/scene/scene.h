@@ -89,13 +89,6 @@ struct file_cache;
 
 /* ------------------------------------------------------------------ one contact */
 
-struct continuation { /* finer roughness than a measured map holds: surface/continuation.h */
-    bool given;
-    double exponent; /* of its spectrum; NAN: that of the map's own last octaves          */
-    double from;     /* m, wavelength where it takes over; NAN: the map's band limit, measured */
-    double shortest; /* m                                                                 */
-};
-
 struct object_given { /* an object of simple shape, whose modes are closed forms: response/object.h */
     bool given;
     int shape, edges, waves;      /* enum object_shape, object_edges, object_waves                     */
@@ -152,7 +145,6 @@ struct surface {
     int holes;              /* enum holes                                                        */
     int levelling;          /* enum levelling                                                    */
     double origin[2];       /* m: where the surface's own x = y = 0 lies in the scene              */
-    struct continuation continuation;
     struct response response;
 };
 

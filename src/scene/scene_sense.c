@@ -121,7 +121,6 @@ void scene_sense_contact(const struct scene_part *p)
 {
     const struct contact *c = p->to;
     scene_sense_motion(p, &c->motion);
-    scene_sense_surface(p, c);
     params_check(p, c);
     if (c->contact.model == CONTACT_SCRAPE) {
         grip_check(p, &c->grip);

@@ -41,7 +41,7 @@ static void idle_refuse(const struct scene_part *p, const struct contact *c, con
 
 static void idle_check(const struct scene_part *p, const struct contact *c)
 {
-    static const char *const idle[] = {"grip", "surface.height_map", "surface.continuation"};
+    static const char *const idle[] = {"grip", "surface.height_map"};
     enum { IDLE = sizeof idle / sizeof idle[0] };
     bool reads = ball_rolls(c) || c->contact.model == CONTACT_PLAYBACK;
     const struct params *own;

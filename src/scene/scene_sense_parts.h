@@ -5,7 +5,6 @@
 #include "scene/scene_part.h"
 
 void scene_sense_motion(const struct scene_part *p, const struct motion *m);    /* scene_sense_motion.c  */
-void scene_sense_surface(const struct scene_part *p, const struct contact *c);  /* scene_sense_surface.c */
 void scene_sense_model(const struct scene_part *p, const struct contact *c);    /* scene_sense_model.c   */
 void scene_sense_ball(const struct scene_part *p, const struct contact *c);     /* scene_sense_ball.c    */
 void scene_sense_impacts(const struct scene_part *p, const struct contact *c);  /* scene_sense_impacts.c */

@@ -12,12 +12,59 @@
 #include "surface/continuation.h"
 
 #include "num/real.h"
+#include "scene/rows.h"
 #include "scene/rules.h"
+#include "scene/scene_part.h"
 #include "stage.h"
 #include "surface/relief.h"
 #include "surface/roughness.h"
 #include "surface/spectrum.h"
 #include "surface/tiles.h"
+
+/* ------------------------------------------------------------------ parameters */
+
+static const struct key keys[] = {
+    {ROW_NUMBER(continuation, exponent, "surface.continuation.exponent"), KEY_NONE, -8, 0, "", NULL,
+     "exponent of its spectrum; left out: fitted to the map's two octaves before its band limit"},
+    {ROW_NUMBER(continuation, from, "surface.continuation.from"), KEY_LENGTH, 1e-7, 1e-1, "", NULL,
+     "wavelength below which it takes over; left out: the map's band limit, measured"},
+    {ROW_NUMBER(continuation, shortest, "surface.continuation.shortest"), KEY_LENGTH, 1e-7, 1e-2, "5 um", NULL,
+     "wavelength below which there is no roughness"},
+    {.path = NULL}};
+
+/* It takes over half an octave to both sides of `from`. */
+static void check(const struct scene_part *p, const struct contact *c, const void *own)
+{
+    static const char *const waves[2] = {"surface.continuation.shortest", "surface.continuation.from"};
+    const struct continuation *k = own;
+    const char *section = "surface.continuation", *map = "surface.height_map";
+    (void)c;
+    if (!yaml_find(p->map, map))
+        diag_add(p->yaml->diag, yaml_find(p->map, section)->key->at,
+                 "give surface.height_map, or write roughness in place of continuation",
+                 "%s needs %s, which it continues", scene_part_label(p, section), scene_part_label(p, map));
+    if (k->shortest >= sqrt(0.5) * k->from)
+        scene_part_contradiction(p, waves, "must be less than 0.7 times", "raise from, or lower shortest");
+}
+
+static double likely_finest(const void *own) { return ((const struct continuation *)own)->shortest / 4; }
+
+static const struct params continuation_params = {
+    .section = "surface.continuation",
+    .meaning = "finer roughness than the height map holds: a fractal continuation of its spectrum beyond its band "
+               "limit, drawn from the seed",
+    .size = sizeof(struct continuation),
+    .keys = keys,
+    .check = check,
+    .ground = &(const struct params_ground){.finest = likely_finest},
+};
+
+static const struct continuation *continuation_of(const struct contact *c)
+{
+    return params_of(c, &continuation_params);
+}
+
+/* ------------------------------------------------------------------ its spectrum */
 
 struct takeover {
     double k, fit; /* cycles/m: k_c, and where the fit ends */
@@ -74,16 +121,10 @@ bool continuation_spectrum(struct arena *a, const struct continuation *c, const 
 
 /* ------------------------------------------------------------------ the stage */
 
-static bool continuation_wanted(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return c->surface.continuation.given && c->surface.height_map;
-}
-
 /* As roughness_work (surface/roughness.c). */
 static double continuation_work(const struct contact *c, const struct scene *s)
 {
-    double finest = c->surface.continuation.shortest / 4,
+    double finest = likely_finest(continuation_of(c)),
            cells = rules_speed(&c->motion) / (s->output.sample_rate * finest);
     if (c->surface.along != ALONG_PLANE) return 8 * relief_readings(s, finest);
     return isnan(c->scraper.radius) ? 800 * cells + 50 * s->accuracy.oversampling : 1;
@@ -96,7 +137,7 @@ static bool continuation_open(struct stage_run *r, struct err *e)
     struct spectrum s;
     double lost;
     relief_decide(relief, r->contact);
-    if (!continuation_spectrum(r->arena, &r->contact->surface.continuation, r->board->height_map, &s, e))
+    if (!continuation_spectrum(r->arena, continuation_of(r->contact), r->board->height_map, &s, e))
         return err_at(e, "contact '%s'", r->contact->name);
     struct relief_part *part =
         relief->along == ALONG_PLANE
@@ -113,9 +154,9 @@ const struct stage continuation_stage = {
     .does = "finer roughness than the map holds, its spectrum continued",
     .paper = "000 sec. 2.2",
     .idle = "no surface.continuation of a height map",
+    .params = &continuation_params,
     .needs = ITEM_BIT(ITEM_SURFACE),
     .gives = ITEM_BIT(ITEM_SURFACE),
-    .wanted = continuation_wanted,
     .work = continuation_work,
     .open = continuation_open,
     .close = relief_close,

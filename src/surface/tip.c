@@ -126,7 +126,6 @@ static double likely_finest(const struct contact *c)
 {
     const struct surface *s = &c->surface;
     double finest = s->height_map ? isnan(s->pitch) ? RELIEF_MAP_PITCH : s->pitch : HUGE_VAL;
-    finest = fmin(finest, s->continuation.given ? s->continuation.shortest / 4 : HUGE_VAL);
     return fmin(finest, params_finest(c));
 }
 
