@@ -545,7 +545,7 @@ static bool read_surface(struct synth *s, struct err *e)
     if (s->scene.n_contacts > 1)
         return err_set(e, ERR_SCENE, "%s: has %d contacts; synth takes a recipe, or a scene of one contact", file,
                        s->scene.n_contacts);
-    if (c->surface.height_map)
+    if (params_given(c, height_map_stage.params))
         return err_set(
             e, ERR_SCENE,
             "%s: surface.height_map is measured, and needs no synth; rasp surface convert writes it in another format",

@@ -51,7 +51,7 @@ bool heightfile_read(const char *path, struct arena *a, struct heightfile *h, st
 bool heightfile_room(const char *path, struct heightfile *h, struct arena *a, struct err *e);
 
 /* Levelling a height map: what is subtracted before its roughness is looked at. Missing points are left out of the fit.
-   In the order of enum levelling of scene/scene.h. */
+ */
 enum heightfile_levelling { HEIGHTFILE_LEVEL_NONE, HEIGHTFILE_LEVEL_MEAN, HEIGHTFILE_LEVEL_PLANE };
 
 /* The least-squares plane (of a profile: line) through the heights; a direction without two different places has slope
@@ -71,7 +71,6 @@ bool heightfile_fill(const char *path, struct heightfile *h, struct err *e);
 /* A height map ready for use: in metres, with its pitch, holes filled or refused, levelled, and plausible. What the
    scene's height maps, `rasp surface` and roughness.like share. */
 
-/* REFUSE and FILL in the order of enum holes of scene/scene.h. */
 enum heightfile_holes { HEIGHTFILE_REFUSE, HEIGHTFILE_FILL, HEIGHTFILE_LEAVE };
 
 /* How the caller's user sets these things, for messages. */
@@ -87,7 +86,7 @@ struct heightfile_options {
     double height_scale; /* factor on the heights: m per stored unit; NAN or 1: none                   */
     double height_range; /* m that white stands for (PNG); NAN: not given                              */
     int holes;           /* enum heightfile_holes                                                      */
-    int levelling;       /* enum heightfile_levelling as enum levelling of a scene */
+    int levelling;       /* enum heightfile_levelling                                                  */
     const struct heightfile_names *names; /* NULL: as in a scene                         */
 };
 

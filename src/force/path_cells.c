@@ -17,6 +17,7 @@
 
 #include "num/lanes.h"
 #include "scene/rules.h"
+#include "surface/height_map.h"
 #include "surface/limiter.h"
 #include "surface/relief.h"
 #include "surface/roughness.h"
@@ -621,9 +622,7 @@ unsigned path_cells_asks(const struct contact *c, const struct scene *s)
 
 double path_cells_work(const struct contact *c, const struct scene *s)
 {
-    const struct surface *u = &c->surface;
-    double rough = roughness_scale(c);
-    double finest = !isnan(rough) ? rough : u->height_map && !isnan(u->pitch) ? u->pitch : RELIEF_MAP_PITCH;
+    double rough = roughness_scale(c), finest = isnan(rough) ? height_map_pitch(c) : rough;
     bool halves = rules_along(c) == ALONG_PLANE;
     return (halves ? 2 : 1) * (s->accuracy.oversampling + rules_speed(&c->motion) / (s->output.sample_rate * finest));
 }

@@ -39,9 +39,6 @@
 #define TYPE_CHOICE_MOTION_PATH TYPE_CHOICE(MOTION_PATH)
 #define TYPE_CHOICE_SPEED_LAW TYPE_CHOICE(SPEED_LAW)
 #define TYPE_CHOICE_ALONG TYPE_CHOICE(ALONG)
-#define TYPE_CHOICE_HOLES TYPE_CHOICE(HOLES)
-#define TYPE_CHOICE_LEVELLING TYPE_CHOICE(LEVELLING)
-#define TYPE_CHOICE_OFF_MAP TYPE_CHOICE(OFF_MAP)
 #define TYPE_CHOICE_CONTACT_KIND TYPE_CHOICE(CONTACT_KIND)
 #define TYPE_CHOICE_FORCE_KIND TYPE_CHOICE(FORCE_KIND)
 #define TYPE_CHOICE_LIMITER_CURVE TYPE_CHOICE(LIMITER_CURVE)
@@ -143,7 +140,8 @@ static struct key_section *sections_add(struct key_section *s, const char *map)
 {
     const struct params *p;
     for (int i = 0; (p = stages_params(i)); i++)
-        if (is_here(p, map)) *s++ = (struct key_section){KEY_CONTACT, params_at(p), p->section, p->meaning, p};
+        if (p->meaning && is_here(p, map))
+            *s++ = (struct key_section){KEY_CONTACT, params_at(p), p->section, p->meaning, p};
     return s;
 }
 

@@ -39,7 +39,10 @@ const void *params_of(const struct contact *c, const struct params *p)
     return (const char *)params_block(c) + params_at(p);
 }
 
-bool params_given(const struct contact *c, const struct params *p) { return *(const bool *)params_of(c, p); }
+bool params_given(const struct contact *c, const struct params *p)
+{
+    return p->given ? p->given(c) : *(const bool *)params_of(c, p);
+}
 
 void *params_edit(struct contact *c, const struct params *p, struct arena *a)
 {
@@ -95,12 +98,15 @@ static const struct params *ground_next(const struct contact *c, int *i)
     return NULL;
 }
 
-bool params_directed(const struct contact *c)
+int params_directed(const struct contact *c)
 {
-    int i = 0;
-    for (const struct params *p; (p = ground_next(c, &i));)
-        if (p->ground->directed && p->ground->directed(params_of(c, p))) return true;
-    return false;
+    int directed = 0, i = 0;
+    for (const struct params *p; (p = ground_next(c, &i));) {
+        int is = p->ground->directed ? p->ground->directed(params_of(c, p)) : 0;
+        if (is < 0) return is;
+        directed |= is;
+    }
+    return directed;
 }
 
 double params_finest(const struct contact *c)
@@ -112,8 +118,9 @@ double params_finest(const struct contact *c)
     return finest;
 }
 
-double params_span(const struct contact *c, double span)
+double params_span(const struct contact *c)
 {
+    double span = 0;
     int i = 0;
     for (const struct params *p; (p = ground_next(c, &i));)
         if (p->ground->span) span += p->ground->span(params_of(c, p));

@@ -31,7 +31,7 @@ struct params_column {
 /* Of a part of the surface, as far as the scene alone tells. */
 struct params_ground {
     bool kinked;                       /* may its heights have kinks or steps? */
-    bool (*directed)(const void *own); /* are its heights different along x and y? NULL: no */
+    int (*directed)(const void *own);  /* are its heights different along x and y? -1: its file tells; NULL: no */
     double (*finest)(const void *own); /* m, see relief_part.finest */
     double (*span)(const void *own);   /* m between the greatest and least height; NULL: it refines others, and is no
                                           surface by itself */
@@ -44,10 +44,11 @@ struct params {
     const struct params_rule *rules;     /* ends with path NULL; NULL: none */
     const struct params_column *columns; /* of a contact that has the section; ends with name NULL; NULL: none */
     void (*check)(const struct scene_part *, const struct contact *,
-                  const void *own);     /* what no row says; may be NULL */
-    unsigned gives;                     /* items that the table asks for where one of its columns is written */
-    const struct params_ground *ground; /* NULL: it is no part of the surface */
-    bool shown;                         /* on in the reference scene */
+                  const void *own);        /* what no row says; may be NULL */
+    unsigned gives;                        /* items that the table asks for where one of its columns is written */
+    const struct params_ground *ground;    /* NULL: it is no part of the surface */
+    bool (*given)(const struct contact *); /* of keys that make no section of their own, meaning NULL: do they count? */
+    bool shown;                            /* on in the reference scene */
 };
 
 /* The i-th of all, in the order of pipeline/stages.def; NULL: there are no more. Of pipeline/stages.c, since this layer
@@ -68,11 +69,11 @@ bool params_given(const struct contact *c, const struct params *p);
 /* The struct, to be changed: the contact gets a block of its own. */
 void *params_edit(struct contact *c, const struct params *p, struct arena *a);
 
-/* Of all given parts of the surface that have parameters of their own: is one directed; their finest
- * scale; `span` and theirs; the span of those with kinks; m. */
-bool params_directed(const struct contact *c);
+/* Of all given parts of the surface: is one directed (-1: its file tells); their finest scale; their span; the span of
+ * those with kinks; m. */
+int params_directed(const struct contact *c);
 double params_finest(const struct contact *c);
-double params_span(const struct contact *c, double span);
+double params_span(const struct contact *c);
 double params_kinked_span(const struct contact *c);
 
 /* Its rules, and those of its function, of all that are given. */

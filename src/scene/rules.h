@@ -94,8 +94,9 @@ static inline double rules_speed(const struct motion *m)
 static inline int rules_along(const struct contact *c)
 {
     const struct surface *s = &c->surface;
-    if (s->along != ALONG_AUTO || s->height_map) return s->along;
-    return params_directed(c) || !rules_straight(&c->motion) ? ALONG_PLANE : ALONG_PATH;
+    int directed = params_directed(c);
+    if (s->along != ALONG_AUTO || directed < 0) return s->along;
+    return directed || !rules_straight(&c->motion) ? ALONG_PLANE : ALONG_PATH;
 }
 
 /* May the surface turn out to lie in the plane? */

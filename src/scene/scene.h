@@ -30,9 +30,6 @@ enum motion_path {
 };
 enum speed_law { SPEED_AUTO, SPEED_HARMONIC, SPEED_CONSTANT, SPEED_MINIMUM_JERK, SPEED_TWO_THIRDS, SPEED_GIVEN };
 enum along { ALONG_AUTO, ALONG_PATH, ALONG_X, ALONG_PLANE };
-enum holes { HOLES_REFUSE, HOLES_FILL };
-enum levelling { LEVELLING_NONE, LEVELLING_MEAN, LEVELLING_PLANE };
-enum off_map { OFF_MAP_MIRROR, OFF_MAP_WRAP, OFF_MAP_ERROR };
 enum contact_kind {
     CONTACT_SCRAPE,
     CONTACT_STRIKE,
@@ -135,16 +132,9 @@ struct response {     /* how a body rings: a table of modes, recorded responses,
 };
 
 struct surface {
-    const char *recipe;     /* YAML of surface keys, already merged under the scene's own        */
-    const char *height_map; /* NPY, GSF, SDF, GWY, 16-bit PNG or CSV, resolved path; NULL: none  */
-    double pitch;           /* m between samples; NAN: the file says it                          */
-    double height_scale;    /* m per stored unit; NAN: the file says it, or 1                    */
-    double height_range;    /* m, what full scale of a PNG stands for                            */
-    int along;              /* enum along                                                        */
-    int off_map;            /* enum off_map                                                      */
-    int holes;              /* enum holes                                                        */
-    int levelling;          /* enum levelling                                                    */
-    double origin[2];       /* m: where the surface's own x = y = 0 lies in the scene              */
+    const char *recipe; /* YAML of surface keys, already merged under the scene's own        */
+    int along;          /* enum along                                                        */
+    double origin[2];   /* m: where the surface's own x = y = 0 lies in the scene              */
     struct response response;
 };
 

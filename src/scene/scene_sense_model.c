@@ -41,12 +41,9 @@ static void idle_refuse(const struct scene_part *p, const struct contact *c, con
 
 static void idle_check(const struct scene_part *p, const struct contact *c)
 {
-    static const char *const idle[] = {"grip", "surface.height_map"};
-    enum { IDLE = sizeof idle / sizeof idle[0] };
     bool reads = ball_rolls(c) || c->contact.model == CONTACT_PLAYBACK;
     const struct params *own;
-    for (int i = 0; i < (reads ? 1 : IDLE); i++)
-        idle_refuse(p, c, idle[i], i == 0);
+    idle_refuse(p, c, "grip", true);
     for (int i = 0; !reads && (own = stages_params(i)); i++)
         if (own->ground) idle_refuse(p, c, own->section, false);
 }

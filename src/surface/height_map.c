@@ -5,10 +5,85 @@
 #include "file/heightfile.h"
 #include "num/lanes.h"
 #include "num/real.h"
+#include "scene/rows.h"
 #include "stage.h"
 #include "surface/bicubic.h"
-#include "surface/profile.h"
 #include "trajectory/trajectory.h"
+
+/* ------------------------------------------------------------------ parameters */
+
+#define MAP "surface.height_map"
+
+static const struct choice off_maps[] = {[OFF_MAP_MIRROR] = {"mirror", "the profile mirrored at its ends, for ever"},
+                                         [OFF_MAP_WRAP] = {"wrap", "the profile repeated"},
+                                         [OFF_MAP_ERROR] = {"error", "a motion that leaves the map is refused"},
+                                         {NULL, NULL}};
+
+static const struct choice holes[] = {
+    [HEIGHTFILE_REFUSE] = {"refuse", "a map with missing points is an error"},
+    [HEIGHTFILE_FILL] = {"fill", "missing points are filled from their surroundings (Laplace's equation)"},
+    {NULL, NULL}};
+
+static const struct choice levellings[] = {
+    [HEIGHTFILE_LEVEL_NONE] = {"none", "heights as they are"},
+    [HEIGHTFILE_LEVEL_MEAN] = {"mean", "the mean height is subtracted"},
+    [HEIGHTFILE_LEVEL_PLANE] = {"plane", "the least-squares plane (line of a profile) is subtracted"},
+    {NULL, NULL}};
+
+static const struct key keys[] = {
+    {ROW_FILE(height_map_file, path, MAP), KEY_NONE, 0, 0, "", NULL,
+     "measured height map or profile: GSF, SDF, GWY, NPY, 16-bit PNG, or CSV grid; told apart by content"},
+    {ROW_NUMBER(height_map_file, read.pitch, "surface.pitch"), KEY_LENGTH, 1e-8, 1e-3, "", MAP,
+     "distance between two samples of the height map; must be given for NPY, PNG and CSV, which do not hold it"},
+    {ROW_NUMBER(height_map_file, read.height_scale, "surface.height_scale"), KEY_LENGTH, 1e-12, 1e3, "1 m", MAP,
+     "factor on the heights: what one stored unit of NPY or CSV stands for (GSF, SDF and GWY hold metres already)"},
+    {ROW_NUMBER(height_map_file, read.height_range, "surface.height_range"), KEY_LENGTH, 1e-9, 1e-1, "", MAP,
+     "height that white, 65535, of a PNG stands for; must be given for PNG"},
+    {ROW_CHOICE(height_map_file, off_map, "surface.off_map"), KEY_NONE, 0, 0, "mirror", MAP,
+     "what lies beyond the ends of a height map", off_maps},
+    {ROW_CHOICE(height_map_file, read.holes, "surface.holes"), KEY_NONE, 0, 0, "refuse", MAP,
+     "what happens to missing points", holes},
+    {ROW_CHOICE(height_map_file, read.levelling, "surface.levelling"), KEY_NONE, 0, 0, "none", MAP,
+     "what is subtracted from a height map", levellings},
+    {.path = NULL}};
+
+static bool given(const struct contact *c);
+
+/* Only the file has the number of its rows. */
+static int directed(const void *own)
+{
+    (void)own;
+    return -1;
+}
+
+static double likely_finest(const void *own)
+{
+    const struct height_map_file *m = own;
+    return m->path && !isnan(m->read.pitch) ? m->read.pitch : RELIEF_MAP_PITCH;
+}
+
+static double likely_span(const void *own)
+{
+    (void)own;
+    return RELIEF_MAP_SPAN;
+}
+
+static const struct params height_map_params = {
+    .section = MAP,
+    .size = sizeof(struct height_map_file),
+    .keys = keys,
+    .given = given,
+    .ground = &(const struct params_ground){.directed = directed, .finest = likely_finest, .span = likely_span},
+    .shown = true,
+};
+
+static const struct height_map_file *map_of(const struct contact *c) { return params_of(c, &height_map_params); }
+
+static bool given(const struct contact *c) { return map_of(c)->path != NULL; }
+
+double height_map_pitch(const struct contact *c) { return likely_finest(map_of(c)); }
+
+/* ------------------------------------------------------------------ a map as a part of a relief */
 
 /* ------------------------------------------------------------------ the spline */
 
@@ -153,7 +228,7 @@ static void height_map_grain(struct stage_run *r, const struct heightfile *h)
                                           "%s: heights are stored in steps of %.3g m, whose curvature noise of %.3g "
                                           "1/m is heard: the limiter's is "
                                           "%.3g 1/m; use a finer file (32-bit), or a coarser pitch",
-                                          r->contact->surface.height_map, step, noise, limit));
+                                          map_of(r->contact)->path, step, noise, limit));
 }
 
 /* A map as it was read, with its spline: what all stimuli of a set share. */
@@ -168,16 +243,11 @@ struct height_map_read {
 
 static bool height_map_make(const char *path, const void *how, struct arena *a, void *thing, struct err *e)
 {
-    const struct surface *s = how;
+    const struct height_map_file *s = how;
     struct height_map_read *m = thing;
     struct heightfile *h = &m->file;
-    struct heightfile_options o = {.pitch = s->pitch,
-                                   .height_scale = s->height_scale,
-                                   .height_range = s->height_range,
-                                   .holes = s->holes,
-                                   .levelling = s->levelling};
     *m = (struct height_map_read){0};
-    if (!heightfile_load(path, &o, a, h, e)) return false;
+    if (!heightfile_load(path, &s->read, a, h, e)) return false;
     m->n_doubts = heightfile_warnings(h, NULL, a, m->doubts);
     m->map = (struct height_map){h->z, h->columns, h->rows, {h->pitch_x, h->rows > 1 ? h->pitch_y : h->pitch_x}};
     if (h->rows > 1) {
@@ -192,17 +262,16 @@ static bool height_map_make(const char *path, const void *how, struct arena *a, 
 static const struct height_map_read *height_map_load(struct stage_run *r, struct err *e)
 {
     static const struct file_cache_kind maps = {"height map", sizeof(struct height_map_read), height_map_make, false};
-    const struct surface *s = &r->contact->surface;
-    const char *key = arena_format(r->arena, "%a %a %a %d %d %d", s->pitch, s->height_scale, s->height_range, s->holes,
-                                   s->levelling, s->off_map);
+    const struct height_map_file *s = map_of(r->contact);
+    const char *key = arena_format(r->arena, "%a %a %a %d %d %d", s->read.pitch, s->read.height_scale,
+                                   s->read.height_range, s->read.holes, s->read.levelling, s->off_map);
     const struct height_map_read *m =
-        file_cache_take(r->scene->file_cache, &(struct file_cache_ask){&maps, s->height_map, key, s}, r->arena, e);
+        file_cache_take(r->scene->file_cache, &(struct file_cache_ask){&maps, s->path, key, s}, r->arena, e);
     if (m && m->file.filled)
-        board_warn(r->board,
-                   arena_format(r->arena, "%s: %zu missing points were filled", s->height_map, m->file.filled));
+        board_warn(r->board, arena_format(r->arena, "%s: %zu missing points were filled", s->path, m->file.filled));
     if (m) height_map_grain(r, &m->file);
     for (int k = 0; m && k < m->n_doubts; k++)
-        board_warn(r->board, arena_format(r->arena, "%s: %s", s->height_map, m->doubts[k]));
+        board_warn(r->board, arena_format(r->arena, "%s: %s", s->path, m->doubts[k]));
     return m;
 }
 
@@ -214,11 +283,11 @@ static bool height_map_along(struct relief *r, const struct contact *c, const st
         return err_set(e, ERR_SCENE,
                        "%s: a map of %zu x %zu samples lies in the plane: leave surface.along out, or take one row of "
                        "it with rasp surface convert --row",
-                       c->surface.height_map, m->columns, m->rows);
+                       map_of(c)->path, m->columns, m->rows);
     return m->rows > 1 || r->along != ALONG_PLANE ||
            err_set(e, ERR_SCENE,
                    "%s: a profile has no second dimension: leave surface.along out, or set it to path or x",
-                   c->surface.height_map);
+                   map_of(c)->path);
 }
 
 static struct relief_part *part_of(struct stage_run *r, const struct height_map_read *m)
@@ -226,7 +295,7 @@ static struct relief_part *part_of(struct stage_run *r, const struct height_map_
     if (r->board->relief->along == ALONG_PLANE)
         return height_map_part(r->arena, m->plane, (double[]){0, 0}, "height_map");
     struct profile *p =
-        profile_from_coefficients(r->arena, m->line, m->map.columns, m->map.pitch[0], r->contact->surface.off_map);
+        profile_from_coefficients(r->arena, m->line, m->map.columns, m->map.pitch[0], map_of(r->contact)->off_map);
     return profile_part(r->arena, p, "height_map", 0);
 }
 
@@ -258,20 +327,13 @@ static bool height_map_inside(const struct stage_run *r, const struct relief_par
 
 static bool height_map_open(struct stage_run *r, struct err *e)
 {
-    const struct surface *s = &r->contact->surface;
     const struct height_map_read *m = height_map_load(r, e);
     if (!m || !height_map_along(r->board->relief, r->contact, &m->map, e)) return false;
     struct relief_part *part = part_of(r, m);
     relief_add(r->board->relief, part);
     r->board->height_map = &m->map;
     r->state = part;
-    return s->off_map != OFF_MAP_ERROR || height_map_inside(r, part, e);
-}
-
-static bool height_map_wanted(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return c->surface.height_map != NULL;
+    return map_of(r->contact)->off_map != OFF_MAP_ERROR || height_map_inside(r, part, e);
 }
 
 static double height_map_work(const struct contact *c, const struct scene *s)
@@ -285,9 +347,9 @@ const struct stage height_map_stage = {
     .does = "measured map as a cubic spline",
     .paper = "000 sec. 2.2",
     .idle = "no surface.height_map",
+    .params = &height_map_params,
     .needs = ITEM_BIT(ITEM_SURFACE),
     .gives = ITEM_BIT(ITEM_SURFACE),
-    .wanted = height_map_wanted,
     .work = height_map_work,
     .open = height_map_open,
 };

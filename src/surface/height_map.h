@@ -5,6 +5,8 @@
 #include <stddef.h>
 
 #include "base/arena.h"
+#include "file/heightfile.h"
+#include "surface/profile.h"
 #include "surface/relief.h"
 
 struct height_map {
@@ -12,6 +14,15 @@ struct height_map {
     size_t columns, rows;
     double pitch[2]; /* m along x (or the path) and y */
 };
+
+struct height_map_file {            /* keys surface.height_map, pitch, ... */
+    const char *path;               /* NPY, GSF, SDF, GWY, 16-bit PNG or CSV; NULL: none */
+    struct heightfile_options read; /* names: NULL */
+    int off_map;                    /* enum off_map */
+};
+
+/* m between the samples of a contact's map, as far as the scene tells, or of a usual one. */
+double height_map_pitch(const struct contact *c);
 
 struct height_map_spline {
     long columns, rows;

@@ -7,6 +7,8 @@
 #include "base/arena.h"
 #include "surface/relief.h"
 
+enum off_map { OFF_MAP_MIRROR, OFF_MAP_WRAP, OFF_MAP_ERROR };
+
 struct profile {
     double pitch;    /* m between knots */
     double from, to; /* m: where heights are given; -HUGE_VAL, HUGE_VAL when endless */

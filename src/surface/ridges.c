@@ -50,10 +50,10 @@ static const struct key keys[] = {
 static const struct params_rule rules[] = {
     {"surface.ridges.width", 0.9, "surface.ridges.spacing", "lower width, or raise spacing"}, {.path = NULL}};
 
-static bool directed(const void *own)
+static int directed(const void *own)
 {
     (void)own;
-    return true;
+    return 1;
 }
 
 static double likely_finest(const void *own) { return ((const struct ridges *)own)->spacing / 8; }

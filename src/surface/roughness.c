@@ -92,7 +92,7 @@ static void check(const struct scene_part *p, const struct contact *c, const voi
                  "%s: a profile has no grain: it needs %s: plane", scene_part_label(p, grain), along);
 }
 
-static bool directed(const void *own) { return ((const struct roughness *)own)->grain != 1; }
+static int directed(const void *own) { return ((const struct roughness *)own)->grain != 1; }
 
 /* A quarter of the shortest wave. Roughness like a map has the map's waves, and so its pitch. */
 static double likely_finest(const void *own)

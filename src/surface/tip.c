@@ -121,28 +121,12 @@ enum {
 #define GATHER 3.5
 #define HEIGHT 45
 
-/* m, the surface's finest scale, as far as the scene tells. */
-static double likely_finest(const struct contact *c)
-{
-    const struct surface *s = &c->surface;
-    double finest = s->height_map ? isnan(s->pitch) ? RELIEF_MAP_PITCH : s->pitch : HUGE_VAL;
-    return fmin(finest, params_finest(c));
-}
-
 /* m, between places where the ground under a tip without a patch is read. */
 static double likely_pitch(const struct contact *c)
 {
     double kinked = params_kinked_span(c),
            dips = kinked > 0 ? sqrt(8 * c->scraper.radius * TIP_DIP * kinked) : HUGE_VAL;
-    return fmin(likely_finest(c) / 4, dips);
-}
-
-/* m between the greatest and least height: of what is random 8 times the rms. */
-static double likely_span(const struct contact *c)
-{
-    const struct surface *s = &c->surface;
-    double span = s->height_map ? RELIEF_MAP_SPAN : 0;
-    return params_span(c, span);
+    return fmin(params_finest(c) / 4, dips);
 }
 
 /* |cos| + |sin| of the motion's heading; in the mean where it turns. */
@@ -155,9 +139,9 @@ static double aslant(const struct motion *m)
 static double plane_metre(const struct contact *c, double dense)
 {
     const struct scraper *s = &c->scraper;
-    double h = s->patch / PATCH_POINTS, finer = ceil(h / fmin(h, likely_finest(c) / 2) * dense * (1 - 1e-12)),
+    double h = s->patch / PATCH_POINTS, finer = ceil(h / fmin(h, params_finest(c) / 2) * dense * (1 - 1e-12)),
            d = h / finer;
-    double reach = fmin(s->radius, sqrt(2 * s->radius * 1.5 * likely_span(c)));
+    double reach = fmin(s->radius, sqrt(2 * s->radius * 1.5 * params_span(c)));
     struct rolling_plan p = {
         .radius = s->radius, .patch = s->patch, .reach = reach, .finer = finer > 1 ? (int)fmin(finer, 1e6) : 1};
     double side = (double)contact_patch_side(&p), envelope = WIDE * (POINT + GATHER * side * side / (SQUARE * SQUARE));

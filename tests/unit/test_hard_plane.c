@@ -3,6 +3,7 @@
 #include <fenv.h>
 
 #include "plane.h"
+#include "scene/params.h"
 
 enum { SIDE = 64 };
 
@@ -11,12 +12,12 @@ static double spike_height;
 /* Flat at 1 mm, but for one sample. */
 static struct relief_part *spike_map(struct arena *a, const struct contact *c)
 {
+    const struct height_map_file *map = params_of(c, height_map_stage.params);
     double *z = ARENA_TAKE(a, double, SIDE *SIDE);
     for (int i = 0; i < SIDE * SIDE; i++)
         z[i] = 1e-3;
     z[20 * SIDE + 20] += spike_height;
-    return height_map_part(a,
-                           height_map_spline(a, &(struct height_map){z, SIDE, SIDE, {5e-6, 5e-6}}, c->surface.off_map),
+    return height_map_part(a, height_map_spline(a, &(struct height_map){z, SIDE, SIDE, {5e-6, 5e-6}}, map->off_map),
                            (double[]){0, 0}, "spike");
 }
 
@@ -74,7 +75,8 @@ START_TEST(spike)
             spike_map, arena_format(rig_arena(), "contact: {beta1: 0, smoothing: 0, force: %s}\nmotion: %s\n",
                                     paper ? "paper" : "directional", motions[k]));
         s.contacts[0].contact.limiter.alpha = alpha;
-        s.contacts[0].surface.off_map = n % 2 ? OFF_MAP_WRAP : OFF_MAP_MIRROR;
+        ((struct height_map_file *)params_edit(&s.contacts[0], height_map_stage.params, rig_arena()))->off_map =
+            n % 2 ? OFF_MAP_WRAP : OFF_MAP_MIRROR;
         spike_height = heights[n / 3 % 3];
         double peak = peak_of(&s, ITEM_SUBFORCE, 700);
         ck_assert_double_le(peak, 0.02 / alpha * (2 * v * v + acceleration * 2e-3) * (1 + 1e-6));

@@ -1,6 +1,9 @@
 /* height_map: the stage on files written here: what becomes of their heights, which coordinates the surface follows,
    and what of their geometry and place under the motion is refused. */
 #include "file/heightfile.h"
+#include "pipeline/stages.h"
+#include "rig.h"
+#include "scene/params.h"
 #include "scene/scene.h"
 #include "stage.h"
 #include "surface/height_map.h"
@@ -31,6 +34,8 @@ static void write_map(size_t columns, size_t rows, double pitch, double height)
     ck_assert_msg(heightfile_write(map, &h, HEIGHTFILE_GSF, &w, &e), "%s", e.text);
 }
 
+static struct height_map_file *asked; /* of the contact of stroke() */
+
 /* A stroke along +x over the first half of a map of 100 intervals of 10 um. */
 static struct contact stroke(void)
 {
@@ -38,14 +43,12 @@ static struct contact stroke(void)
     ck_assert_int_ge(handle, 0);
     close(handle);
     remove(map);
-    return (struct contact){.name = "rod",
-                            .surface = {.height_map = map,
-                                        .pitch = NAN,
-                                        .height_scale = NAN,
-                                        .height_range = NAN,
-                                        .off_map = OFF_MAP_MIRROR},
-                            .contact = {.limiter = {.alpha = 0.03, .alpha_max = 0.05}},
-                            .motion = {.path = PATH_LINE, .to = {5e-4, 0}, .speed = 0.1, .duration = NAN}};
+    struct contact c = {.name = "rod",
+                        .contact = {.limiter = {.alpha = 0.03, .alpha_max = 0.05}},
+                        .motion = {.path = PATH_LINE, .to = {5e-4, 0}, .speed = 0.1, .duration = NAN}};
+    asked = params_edit(&c, height_map_stage.params, rig_arena());
+    *asked = (struct height_map_file){.path = map, .read = {.pitch = NAN, .height_scale = NAN, .height_range = NAN}};
+    return c;
 }
 
 struct opened {
@@ -94,7 +97,7 @@ START_TEST(heights_are_the_files)
     struct contact c = stroke();
     struct opened o;
     write_map(N, 1, 10e-6, 1e-6);
-    c.surface.height_scale = 2.5;
+    asked->read.height_scale = 2.5;
     open_map(&o, &c);
     ck_assert_msg(o.good, "%s", o.err.text);
     const struct relief_part *p = o.relief.first;
@@ -151,7 +154,7 @@ START_TEST(pitch_is_told_once)
     struct contact c = stroke();
     write_map(N, 1, 10e-6, 1e-6);
     check_accepted(&c);
-    c.surface.pitch = 11e-6;
+    asked->read.pitch = 11e-6;
     check_refused(&c, ERR_SCENE, "surface.pitch");
 }
 END_TEST
@@ -198,13 +201,13 @@ START_TEST(leaving_the_profile)
         c.surface.origin[0] = cases[i].origin;
         c.motion.from[0] = cases[i].from, c.motion.to[0] = cases[i].to;
         write_map(N, 1, 10e-6, 1e-6);
-        c.surface.off_map = OFF_MAP_ERROR;
+        asked->off_map = OFF_MAP_ERROR;
         if (cases[i].inside)
             check_accepted(&c);
         else
             check_refused(&c, ERR_SCENE, "leaves the height map");
         write_map(N, 1, 10e-6, 1e-6);
-        c.surface.off_map = i % 2 ? OFF_MAP_MIRROR : OFF_MAP_WRAP;
+        asked->off_map = i % 2 ? OFF_MAP_MIRROR : OFF_MAP_WRAP;
         check_accepted(&c);
     }
     remove(map);
@@ -229,7 +232,7 @@ START_TEST(leaving_the_map)
                                    .turns = 1,
                                    .speed = 0.1,
                                    .duration = NAN};
-        c.surface.off_map = OFF_MAP_ERROR;
+        asked->off_map = OFF_MAP_ERROR;
         write_map(40, 30, 10e-6, 1e-6);
         if (!cases[i].word)
             check_accepted(&c);

@@ -62,7 +62,8 @@ START_TEST(every_rule_is_of_two_numbers)
 }
 END_TEST
 
-/* Its rows are in its section, and its struct begins with the bool that says whether it is given. */
+/* Its rows are in its section, and its struct begins with the bool that says whether it is given; or it has no section,
+ * and says itself when its rows count. */
 START_TEST(every_effect_is_in_its_section)
 {
     const struct params *p;
@@ -71,11 +72,11 @@ START_TEST(every_effect_is_in_its_section)
         const struct key_section *s = keys_sections;
         while (s->path && strcmp(s->path, p->section) != 0)
             s++;
-        ck_assert_msg(s->path && s->in == p, "%s", p->section);
-        for (const struct key *k = p->keys; k->path; k++)
-            ck_assert_msg(!strncmp(k->path, p->section, n) && k->path[n] == '.' && k->offset >= sizeof(bool) &&
-                              keys_find(k->path) && keys_find(k->path)->in == p,
-                          "%s", k->path);
+        ck_assert_msg(p->given ? !p->meaning && !s->path : s->path && s->in == p, "%s", p->section);
+        for (const struct key *k = p->keys; k->path; k++) {
+            bool within = !strncmp(k->path, p->section, n) && k->path[n] == '.' && k->offset >= sizeof(bool);
+            ck_assert_msg((p->given || within) && keys_find(k->path) && keys_find(k->path)->in == p, "%s", k->path);
+        }
     }
 }
 END_TEST

@@ -56,7 +56,7 @@ START_TEST(test_starters_are_scenes)
                       "%s does not say where responses and surfaces are", starter->name);
         for (int i = 0; i < s.n_contacts; i++)
             ck_assert(!s.contacts[i].surface.response.file && !s.contacts[i].scraper.response.file &&
-                      !s.contacts[i].surface.height_map);
+                      !params_given(&s.contacts[i], height_map_stage.params));
         free(text);
     }
     arena_close(a);

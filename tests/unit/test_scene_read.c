@@ -9,6 +9,7 @@
 #include "scene/keys.h"
 #include "scene/params.h"
 #include "scenes.h"
+#include "surface/height_map.h"
 
 static struct result read_good(const char *text, const char *const *set)
 {
@@ -16,6 +17,8 @@ static struct result read_good(const char *text, const char *const *set)
     ck_assert_msg(r.good, "%s", r.messages);
     return r;
 }
+
+static const struct height_map_file *map_of(const struct contact *c) { return params_of(c, height_map_stage.params); }
 
 START_TEST(test_full)
 {
@@ -25,7 +28,7 @@ START_TEST(test_full)
     ck_assert(s->version == 1 && s->seed == UINT64_MAX && s->n_contacts == 1 && s->n_inputs == 2);
     ck_assert_str_eq(s->file, "scenes/t.yaml");
     ck_assert_str_eq(s->title, "PVC rod on a plank");
-    ck_assert_str_eq(c->surface.height_map, "scenes/../surfaces/basswood.gsf");
+    ck_assert_str_eq(map_of(c)->path, "scenes/../surfaces/basswood.gsf");
     ck_assert_str_eq(c->surface.response.file, "/irs/plank.csv");
     ck_assert_str_eq(c->scraper.response.file, "scenes/rod.csv");
     ck_assert(c->surface.along == ALONG_X && c->surface.origin[0] == 0.01 && c->surface.origin[1] == -0.002);
@@ -35,7 +38,7 @@ START_TEST(test_full)
     ck_assert(c->motion.duration == 1.5 && isnan(c->motion.speed));
     ck_assert(c->grip.given && c->grip.angle == 0.5 && c->grip.friction == 0.3 && isnan(c->load.constant));
     ck_assert(c->contact.force == FORCE_PAPER && isnan(c->contact.leak) && c->contact.limiter.force_range[1] == 5);
-    ck_assert(!params_given(c, roughness_stage.params) && isnan(c->surface.pitch));
+    ck_assert(!params_given(c, roughness_stage.params) && isnan(map_of(c)->read.pitch));
     ck_assert_str_eq(s->accuracy.preset, "high");
     ck_assert(s->accuracy.oversampling == 16 && s->accuracy.gain_ramp == 16);
     ck_assert(s->output.sample_rate == 44100 && s->output.encoding == ENCODING_PCM16 && s->output.level.lufs == -23);
@@ -57,7 +60,8 @@ START_TEST(test_defaults)
     const struct limiter *l = &c->contact.limiter;
     ck_assert_str_eq(c->name, "contact");
     ck_assert(c->start == 0 && c->gain == 1 && r.scene.seed == 0 && !r.scene.title && r.scene.n_inputs == 0);
-    ck_assert(c->surface.height_scale == 1 && c->surface.along == ALONG_AUTO && c->surface.off_map == OFF_MAP_MIRROR);
+    ck_assert(map_of(c)->read.height_scale == 1 && c->surface.along == ALONG_AUTO &&
+              map_of(c)->off_map == OFF_MAP_MIRROR);
     ck_assert(c->surface.origin[0] == 0 && c->surface.response.modes == 50 && isnan(c->surface.response.length));
     ck_assert(c->motion.from[0] == 0 && c->motion.from[1] == 0 && isnan(c->motion.rate) && c->motion.law == SPEED_AUTO);
     ck_assert(!c->grip.given && isnan(c->load.constant) && c->contact.leak == 2e-3 && c->contact.smoothing == 50e-6);
@@ -215,7 +219,7 @@ START_TEST(test_include)
     ck_assert(c->scraper.mass == 0.007 && c->motion.to[0] == 0.05 && c->motion.to[1] == 0.06 &&
               c->motion.duration == 1);
     ck_assert_str_eq(c->scraper.response.file, folder_path("sub/rod.csv"));
-    ck_assert_str_eq(c->surface.height_map, folder_path("a.npy"));
+    ck_assert_str_eq(map_of(c)->path, folder_path("a.npy"));
     ck_assert(r.scene.output.ramp == 2 && isnan(r.scene.output.level.lufs) && r.scene.output.level.rms == -30);
     ck_assert_str_eq(r.scene.accuracy.preset, "high");
     ck_assert(r.scene.accuracy.oversampling == 5 && r.scene.accuracy.gain_ramp == 16);

@@ -3,6 +3,7 @@
 #include "scene/params.h"
 #include "scene/scene_read.h"
 #include "surface/grit.h"
+#include "surface/height_map.h"
 #include "surface/ridges.h"
 #include "surface/roughness.h"
 
@@ -214,7 +215,8 @@ START_TEST(test_recipe_set)
         "base.yaml",
         SET(set, "surface.height_map=mine.gsf")); /* a name on the command line is seen from the current folder */
     ck_assert_msg(r.good, "%s", r.messages);
-    ck_assert_str_eq(r.scene.contacts->surface.height_map, "mine.gsf");
+    ck_assert_str_eq(((const struct height_map_file *)params_of(r.scene.contacts, height_map_stage.params))->path,
+                     "mine.gsf");
     const struct roughness *rough = params_of(r.scene.contacts, roughness_stage.params);
     ck_assert_str_eq(rough->like, folder_path("sub/like.gsf"));
     arena_close(r.arena);
