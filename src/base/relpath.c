@@ -57,11 +57,22 @@ static size_t shared(const char *x, const char *y)
     return last;
 }
 
+const char *relpath_folder(const char *file, struct arena *a)
+{
+    const char *slash = strrchr(file, '/');
+    return slash ? arena_format(a, "%.*s", slash == file ? 1 : (int)(slash - file), file) : ".";
+}
+
+const char *relpath_stem(const char *file, struct arena *a)
+{
+    const char *name = basename(file), *dot = strrchr(name, '.');
+    return arena_format(a, "%.*s", (int)(dot && dot > name ? (size_t)(dot - name) : strlen(name)), name);
+}
+
 const char *relpath_make(const char *file, const char *folder, struct arena *a)
 {
-    const char *slash = strrchr(file, '/'), *name = slash ? slash + 1 : file;
-    const char *home = slash ? arena_format(a, "%.*s", slash == file ? 1 : (int)(slash - file), file) : ".";
-    const char *from = real_folder(folder ? folder : ".", a), *to = real_folder(home, a);
+    const char *from = real_folder(folder ? folder : ".", a), *to = real_folder(relpath_folder(file, a), a);
+    const char *name = basename(file);
     if (!from || !to) return absolute(file, a);
     if (!strcmp(from, to)) return arena_text(a, name);
     size_t n = shared(from, to);

@@ -9,4 +9,8 @@
    common. */
 const char *relpath_make(const char *file, const char *folder, struct arena *a);
 
+/* The folder that a file's name says, "." where it says none; the name without folder and ending. */
+const char *relpath_folder(const char *file, struct arena *a);
+const char *relpath_stem(const char *file, struct arena *a);
+
 #endif

@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/relpath.h"
 #include "base/text.h"
 #include "scene/keys_text.h"
 #include "scene/keys_yaml.h"
@@ -451,13 +452,6 @@ static struct design_change *change_of(const struct reading_level *l)
 
 /* ------------------------------------------------------------------ labels */
 
-/* Of a file name what stands between folder and ending. */
-static const char *stem_of(const char *file, struct arena *a)
-{
-    const char *slash = strrchr(file, '/'), *name = slash ? slash + 1 : file, *dot = strrchr(name, '.');
-    return arena_format(a, "%.*s", (int)(dot && dot > name ? (size_t)(dot - name) : strlen(name)), name);
-}
-
 static void label_set(const struct reading_level *l, const struct yaml_node *node)
 {
     const char *text = node->text;
@@ -506,7 +500,7 @@ static void scalar_read(const struct reading_level *l, const struct yaml_node *i
     }
     if (*item->text) {
         struct yaml_node *label = yaml_make(l->r->yaml, YAML_SCALAR, item->at,
-                                            k && k->type == KEY_FILE ? stem_of(item->text, a) : item->text);
+                                            k && k->type == KEY_FILE ? relpath_stem(item->text, a) : item->text);
         label_set(l, label);
     }
     design_changes_add(l->r, change_of(l), l->name, item);

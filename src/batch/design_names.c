@@ -13,6 +13,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/relpath.h"
 #include "base/text.h"
 
 /* ------------------------------------------------------------------ names that cannot be */
@@ -313,18 +314,11 @@ static struct design_template template_read(const struct design_reading *r, cons
     return (struct design_template){.node = node};
 }
 
-/* Of a path what stands between folder and ending, in the letters of names. */
-static const char *stem_of(const char *file, struct arena *a)
-{
-    const char *slash = strrchr(file, '/'), *name = slash ? slash + 1 : file, *dot = strrchr(name, '.');
-    return label_name(arena_format(a, "%.*s", (int)(dot && dot > name ? (size_t)(dot - name) : strlen(name)), name), a);
-}
-
 /* All factors, and the replicate where there are several; without either the name of the base. */
 static struct design_template template_default(const struct design_reading *r)
 {
     const struct design *d = r->design;
-    const char *text = d->n_factors ? "" : stem_of(d->base, r->arena);
+    const char *text = d->n_factors ? "" : label_name(relpath_stem(d->base, r->arena), r->arena);
     for (int f = 0; f < d->n_factors; f++)
         text = arena_format(r->arena, "%s%s{%s}", text, f ? "_" : "", d->factors[f].name);
     return template_of(r, r->root, arena_format(r->arena, "%s%s", text, d->replicates > 1 ? "_r{replicate}" : ""));
@@ -391,7 +385,7 @@ static void labels_make(struct names *x)
 static const char *recording_name(struct names *x, int i, const struct design_cell *cell)
 {
     const struct yaml_node *node = yaml_get(cell->entry, "name");
-    if (!node) return stem_of(cell->recording, x->r->arena);
+    if (!node) return label_name(relpath_stem(cell->recording, x->r->arena), x->r->arena);
     struct design_template own = template_read(x->r, node);
     return expanded(x, &own, i);
 }

@@ -27,12 +27,6 @@ static const struct {
 
 static double *number(const struct record *r, size_t k) { return (double *)((char *)r + numbers[k].offset); }
 
-static const char *base_name(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
 const char *record_path(const char *folder, const char *name, struct arena *a)
 {
     return arena_format(a, "%s/%s.json", folder, name);
@@ -40,7 +34,7 @@ const char *record_path(const char *folder, const char *name, struct arena *a)
 
 const char *record_file_path(const char *name, const char *file, bool raw, struct arena *a)
 {
-    return arena_format(a, "%s%.*s%s", raw ? ".rasp/raw/" : "", (int)(base_name(name) - name), name, file);
+    return arena_format(a, "%s%.*s%s", raw ? ".rasp/raw/" : "", (int)(basename(name) - name), name, file);
 }
 
 /* ------------------------------------------------------------------ writing */
@@ -48,7 +42,7 @@ const char *record_file_path(const char *name, const char *file, bool raw, struc
 /* What the render's list says of the file, or a new entry. */
 static json_t *file_json(const json_t *listed, const struct record_file *f)
 {
-    const char *name = base_name(f->path);
+    const char *name = basename(f->path);
     json_t *j = NULL, *file;
     size_t i;
     json_array_foreach(listed, i, file)
@@ -127,7 +121,7 @@ bool record_write(const char *folder, const char *name, const struct record *r, 
 /* Files of a stimulus are called NAME.something: a record that says otherwise leads nowhere. */
 static bool is_own(const char *file, const char *name)
 {
-    const char *base = base_name(name);
+    const char *base = basename(name);
     size_t n = strlen(base);
     return file && !strchr(file, '/') && !strncmp(file, base, n) && file[n] == '.' && strcmp(file + n, ".json") != 0;
 }

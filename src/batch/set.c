@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 
 #include "base/interrupt.h"
+#include "base/relpath.h"
 #include "base/text.h"
 #include "batch/pool.h"
 #include "batch/recording.h"
@@ -137,11 +138,7 @@ static struct trial *trial_open(void)
 static void hash_scene(struct trial *t)
 {
     const struct scene *s = &t->scene;
-    const char *slash = strrchr(s->sources[0], '/'),
-               *beside = slash ? arena_format(t->arena, "%.*s",
-                                              slash == s->sources[0] ? 1 : (int)(slash - s->sources[0]), s->sources[0])
-                               : ".";
-    const char *text = scene_write(s, beside, t->arena);
+    const char *text = scene_write(s, relpath_folder(s->sources[0], t->arena), t->arena);
     hash_bytes(text, strlen(text), t->sha256);
 }
 

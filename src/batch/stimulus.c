@@ -254,12 +254,6 @@ static bool add_file(struct record *r, const char *kind, const char *path, bool 
     return true;
 }
 
-static const char *file_name(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
 /* As far as it is the same everywhere: the meter's filter has its coefficients from libm. */
 static double rounded(double x)
 {
@@ -321,7 +315,7 @@ static bool list_render(const struct work *w, const struct render_report *report
     for (int k = 0; k < report->n_files; k++) {
         const struct render_file *f = &report->files[k];
         bool raw = r->status == RECORD_WAITS && f->written;
-        if (!add_file(r, f->kind, record_file_path(w->name, file_name(f->path), raw, w->arena), raw, f->temporary,
+        if (!add_file(r, f->kind, record_file_path(w->name, basename(f->path), raw, w->arena), raw, f->temporary,
                       w->arena, e))
             return false;
         wav = !strcmp(f->kind, "wav") ? f->temporary : wav;
@@ -454,7 +448,7 @@ static bool scale(const struct work *w, struct made *m, struct record_file *f, s
     bool force = !strcmp(f->kind, "stem") && is_force(f->path);
     double gain = force ? 1 : sound_known_gain(&w->scene);
     const char *raw = arena_format(w->arena, "%s/%s", w->k->folder, f->path),
-               *path = record_file_path(w->name, file_name(f->path), false, w->arena);
+               *path = record_file_path(w->name, basename(f->path), false, w->arena);
     if (!measure_open(&in, raw, NULL, e)) return false;
     struct track_format t = sound_format(&w->scene, in.frames);
     struct wav_format format = {
@@ -520,7 +514,7 @@ static const char *render_text(const struct work *w, const struct made *m, const
     size_t i;
     if (sound) set_gain_json(sound, r->gain);
     for (int k = 0; k < m->n; k++) {
-        const char *name = file_name(m->files[k].path);
+        const char *name = basename(m->files[k].path);
         json_array_foreach(json_object_get(j, "files"), i, file)
         {
             const char *listed = json_string_value(json_object_get(file, "name"));

@@ -9,6 +9,7 @@
 
 #include "analysis/distribution_fit.h"
 #include "base/outfile.h"
+#include "base/relpath.h"
 #include "base/wrap.h"
 #include "cmd/report.h"
 #include "file/csv.h"
@@ -484,8 +485,6 @@ bool analyse_report_part(struct analysis *a, const char *file, struct analyse_fi
 {
     struct part p = {.a = a};
     FILE *f;
-    const char *slash = strrchr(file, '/');
-    long folder = slash ? slash - file + 1 : 0;
     if (!values_fit(a, e)) return false;
     /* Floors: the least that was seen, of amplitudes if they have one sign, and no more than the mean, which may lie
    below it: it is estimated with the filter. As both are written with the same digits, the floor is not above the mean
@@ -504,7 +503,7 @@ bool analyse_report_part(struct analysis *a, const char *file, struct analyse_fi
     for (int k = 0; k < STATISTICS_SERIES && e->kind == ERR_NONE; k++) {
         if (!analyse_tabled(a, k)) continue;
         const char *table = arena_format(a->arena, "%.*s.%s.csv", (int)strlen(file) - 5, file, analyse_series_names[k]);
-        p.table[k] = table + folder;
+        p.table[k] = basename(table);
         if ((f = files_open(a, all, table, e))) put_table(&p, k, f);
     }
     if (e->kind == ERR_NONE && (f = files_open(a, all, file, e))) /* the file that names the tables comes last */
@@ -717,11 +716,9 @@ static const char *prefix_of(const struct analysis *a, const char *prefix)
 {
     struct stat s;
     size_t n = strlen(prefix);
-    const char *slash = strrchr(a->source.file, '/'), *name = slash ? slash + 1 : a->source.file,
-               *dot = strrchr(name, '.');
     if (!(n > 0 && prefix[n - 1] == '/') && (stat(prefix, &s) != 0 || !S_ISDIR(s.st_mode))) return prefix;
-    return arena_format(a->arena, "%s%s%.*s", prefix, n > 0 && prefix[n - 1] == '/' ? "" : "/",
-                        (int)(dot ? dot - name : (long)strlen(name)), name);
+    return arena_format(a->arena, "%s%s%s", prefix, n > 0 && prefix[n - 1] == '/' ? "" : "/",
+                        relpath_stem(a->source.file, a->arena));
 }
 
 bool analyse_report_plot(struct analysis *a, const char *prefix, bool svg, struct analyse_files *to, struct err *e)

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/relpath.h"
 #include "base/text.h"
 #include "batch/batch.h"
 #include "cmd/cmd.h"
@@ -220,10 +221,8 @@ static bool scene_add(struct golden *g, struct line *l, struct err *e)
     const char *file = s->args.operands[0], *name = args_value(&s->args, "name");
     s->file = l->folder && *file != '/' ? arena_format(a, "%s/%s", l->folder, file) : file;
     if (!name) { /* NAME of .../NAME.yaml */
-        const char *slash = strrchr(s->file, '/'), *last = slash ? slash + 1 : s->file, *dot = strrchr(last, '.');
-        size_t n = dot && dot > last ? (size_t)(dot - last) : strlen(last);
-        if (n > 6 && !strncmp(last + n - 6, ".scene", 6)) n -= 6;
-        name = arena_format(a, "%.*s", (int)n, last);
+        name = relpath_stem(s->file, a);
+        if (text_ends(name, ".scene")) name = relpath_stem(name, a);
     }
     s->name = name;
     static const char letters[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz+-_.";

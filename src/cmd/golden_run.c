@@ -53,7 +53,7 @@ static bool note_files(struct golden_scene *s, int pass, const struct render_rep
     for (int i = 0; i < r->n_files; i++) {
         const struct render_file *f = &r->files[i];
         if (!strcmp(f->kind, "scene") || !strcmp(f->kind, "summary")) continue;
-        struct golden_file *to = golden_add(made, arena_text(s->arena, strrchr(f->path, '/') + 1), s->arena);
+        struct golden_file *to = golden_add(made, arena_text(s->arena, basename(f->path)), s->arena);
         if (!hash_file(f->path, to->sha256, e)) return false;
     }
     golden_sort(made);

@@ -243,10 +243,8 @@ static const char *irs_seen(const char *folder, struct arena *a)
 static bool write_file(const struct new_starter *s, const char *file, bool force, struct arena *a, struct err *e)
 {
     struct outfile o;
-    const char *slash = strrchr(file, '/'),
-               *folder = slash ? arena_format(a, "%.*s", slash == file ? 1 : (int)(slash - file), file) : NULL;
     if (!mark_absent(file, force, e) || !outfile_open(&o, file, e)) return false;
-    new_print(o.stream, s, irs_seen(folder, a), a);
+    new_print(o.stream, s, irs_seen(relpath_folder(file, a), a), a);
     return outfile_commit(&o, e);
 }
 

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/hash.h"
+#include "base/relpath.h"
 #include "base/text.h"
 #include "cmd/cmd.h"
 #include "cmd/message.h"
@@ -567,11 +568,9 @@ bool plot_data(struct plot_page *p, struct err *e)
         message_warning(
             p->call, p->file,
             arena_format(p->call->arena, "%s is of another render (it %s), and is not used", summary.file, why));
-    const char *slash = strrchr(p->file, '/'), *name = slash ? slash + 1 : p->file, *dot = strrchr(name, '.'),
-               *title = p->file; /* "glass_1Hz: a tool scraped back and forth": of a set every stimulus has the same */
+    const char *title = p->file; /* "glass_1Hz: a tool scraped back and forth": of a set all have the same title */
     if (*summary.title && ours)
-        title = arena_format(p->arena, "%.*s: %s", (int)(dot && dot > name ? (size_t)(dot - name) : strlen(name)), name,
-                             summary.title);
+        title = arena_format(p->arena, "%s: %s", relpath_stem(p->file, p->arena), summary.title);
     if (e->kind != ERR_NONE) return false;
     if (table       ? !table_alone(p, e)
         : p->silent ? !(tables_find(p, &summary, e) && (p->n_tables || span_set(p, p->length, e)))

@@ -186,11 +186,7 @@ static const char *html(const struct page *g, const char *text)
 static const char *link_to(const struct page *g, const char *file)
 {
     static const char plain[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz-_.~/+";
-    const char *slash = strrchr(g->output, '/'),
-               *folder =
-                   slash ? arena_format(g->arena, "%.*s", slash == g->output ? 1 : (int)(slash - g->output), g->output)
-                         : NULL,
-               *from = relpath_make(file, folder, g->arena);
+    const char *from = relpath_make(file, relpath_folder(g->output, g->arena), g->arena);
     char *out = arena_take(g->arena, 3 * strlen(from) + 1, 1), *to = out;
     for (const char *p = from; *p; p++)
         to += snprintf(to, 4, strchr(plain, *p) ? "%c" : "%%%02X", (unsigned char)*p);

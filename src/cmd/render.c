@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "base/outfile.h"
+#include "base/relpath.h"
 #include "base/text.h"
 #include "cmd/accuracy.h"
 #include "cmd/cmd.h"
@@ -170,15 +171,12 @@ static const struct args_option render_options[] = {
 };
 
 /* NAME of .../NAME.yaml, NAME.yml or NAME.scene.yaml */
-static char *scene_stem(struct arena *a, const char *file)
+static const char *scene_stem(struct arena *a, const char *file)
 {
     static const char *const endings[] = {".yaml", ".yml", ".scene"};
-    const char *slash = strrchr(file, '/');
-    char *stem = arena_text(a, slash ? slash + 1 : file);
-    for (int k = 0; k < 3; k++) {
-        size_t n = strlen(stem), m = strlen(endings[k]);
-        if (n > m && strcmp(stem + n - m, endings[k]) == 0) stem[n - m] = '\0';
-    }
+    const char *stem = basename(file);
+    for (int k = 0; k < 3; k++)
+        if (text_ends(stem, endings[k])) stem = relpath_stem(stem, a);
     return stem;
 }
 

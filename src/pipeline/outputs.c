@@ -9,6 +9,7 @@
 
 #include "base/hash.h"
 #include "base/memory.h"
+#include "base/relpath.h"
 #include "file/csv.h"
 #include "output/mark.h"
 #include "pipeline/plan.h"
@@ -66,8 +67,7 @@ struct outputs outputs_make(const struct scene *s, const char *base, struct aren
 
 const char *outputs_effective(const struct scene *s, const char *path, struct arena *a)
 {
-    const char *slash = strrchr(path, '/');
-    return scene_write(s, slash ? arena_format(a, "%.*s", slash == path ? 1 : (int)(slash - path), path) : ".", a);
+    return scene_write(s, relpath_folder(path, a), a);
 }
 
 /* ------------------------------------------------------------------ outputs and outputs */
