@@ -57,7 +57,7 @@ void file_cache_close(struct file_cache *s)
 }
 
 /* FNV-1a. */
-static size_t hash_text(size_t h, const char *text)
+static size_t add_text(size_t h, const char *text)
 {
     for (; *text; text++)
         h = (h ^ (unsigned char)*text) * (size_t)0x100000001b3;
@@ -68,7 +68,7 @@ static const char *key_of(const struct file_cache_ask *ask) { return ask->key ? 
 
 static size_t hash_of(const struct file_cache_ask *ask)
 {
-    size_t h = hash_text(hash_text(hash_text((size_t)0xcbf29ce484222325, ask->kind->name), ask->file), key_of(ask));
+    size_t h = add_text(add_text(add_text((size_t)0xcbf29ce484222325, ask->kind->name), ask->file), key_of(ask));
     return h ^ h >> 32;
 }
 

@@ -24,6 +24,8 @@ struct hash hash_start(void)
 
 void hash_add(struct hash *h, const void *data, size_t size) { SHA256_Update((SHA256_CTX *)h->state, data, size); }
 
+void hash_text(struct hash *h, const char *text) { hash_add(h, text, strlen(text) + 1); }
+
 void hash_end(struct hash *h, char hex[HASH_TEXT])
 {
     unsigned char digest[SHA256_DIGEST_LENGTH];

@@ -14,6 +14,7 @@ struct hash {
 };
 struct hash hash_start(void);
 void hash_add(struct hash *h, const void *data, size_t size);
+void hash_text(struct hash *h, const char *text); /* with the 0 at its end */
 void hash_end(struct hash *h, char hex[HASH_TEXT]);
 
 void hash_bytes(const void *data, size_t size, char hex[HASH_TEXT]);

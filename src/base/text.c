@@ -198,6 +198,13 @@ const char *text_shown(struct arena *a, const char *s)
     return out;
 }
 
+bool text_is_one(const char *word, const char *const *names)
+{
+    while (*names && strcmp(*names, word) != 0)
+        names++;
+    return *names;
+}
+
 bool text_ends(const char *s, const char *ending)
 {
     size_t n = strlen(s), m = strlen(ending);

@@ -29,6 +29,9 @@ int text_distance(const char *a, const char *b);
 /* The nearest of the names (NULL-terminated), not farther than 3 and than half the word's length; NULL: none. */
 const char *text_nearest(const char *word, const char *const *names);
 
+/* Is the word one of the names (NULL-terminated)? */
+bool text_is_one(const char *word, const char *const *names);
+
 /* Bytes of the UTF-8 character that s[0..n) starts with, and its code; 0: not valid UTF-8 (or n = 0). */
 int text_utf8(const char *s, size_t n, uint32_t *code);
 

@@ -55,14 +55,10 @@ static const char *near_or_all(const struct design_reading *r, const char *word,
 void design_reading_known(const struct design_reading *r, const struct yaml_node *map, const char *const *names,
                           const char *in)
 {
-    for (const struct yaml_node *item = map->first; item; item = item->next) {
-        int i = 0;
-        while (names[i] && strcmp(names[i], item->key->text) != 0)
-            i++;
-        if (!names[i])
+    for (const struct yaml_node *item = map->first; item; item = item->next)
+        if (!text_is_one(item->key->text, names))
             diag_add(r->yaml->diag, item->key->at, near_or_all(r, item->key->text, names, "keys here"),
                      "unknown key '%s'%s", diag_shown(r->yaml->diag, item->key->text), in);
-    }
 }
 
 int design_reading_factor(const struct design_reading *r, const struct yaml_node *key)
@@ -303,12 +299,6 @@ static bool is_field(const char *s, size_t n, const char *name)
 
 /* ------------------------------------------------------------------ checking */
 
-static void field_check(const struct design_reading *r, const struct yaml_node *node, const char *s, size_t n)
-{
-    if (!is_field(s, n, "replicate"))
-        design_reading_factor(r, yaml_make(r->yaml, YAML_SCALAR, node->at, arena_format(r->arena, "%.*s", (int)n, s)));
-}
-
 static void fields_check(const struct design_reading *r, const struct yaml_node *node)
 {
     for (const char *s = node->text + strcspn(node->text, "{}"); *s; s += strcspn(s, "{}")) {
@@ -318,7 +308,9 @@ static void fields_check(const struct design_reading *r, const struct yaml_node 
                      diag_shown(r->yaml->diag, node->text));
             return;
         }
-        field_check(r, node, s + 1, n);
+        if (!is_field(s + 1, n, "replicate"))
+            design_reading_factor(
+                r, yaml_make(r->yaml, YAML_SCALAR, node->at, arena_format(r->arena, "%.*s", (int)n, s + 1)));
         s += n + 2;
     }
 }
@@ -397,24 +389,6 @@ static void add(struct layer *l, const struct design_change *c)
     l->n += c->n;
 }
 
-/* The design's seed in this stimulus, as a key of the scene. */
-static struct scene_layer_key seed_key(struct yaml *y, const struct design *d, int i)
-{
-    struct yaml_node **path = ARENA_TAKE(y->arena, struct yaml_node *, 2);
-    struct diag_place at = d->texts->seed;
-    path[0] = yaml_make(y, YAML_SCALAR, at, "seed");
-    return (struct scene_layer_key){
-        path, yaml_make(y, YAML_SCALAR, at, arena_format(y->arena, "%llu", (unsigned long long)d->stimuli[i].seed))};
-}
-
-static int most_keys(const struct design *d, const int *level)
-{
-    int n = d->texts->set.n + 1;
-    for (int f = 0; f < d->n_factors; f++)
-        n += d->texts->levels[f][level[f]].n;
-    return n;
-}
-
 bool design_scene(const struct design *d, int i, struct arena *a, struct scene *s, const char **messages, struct err *e)
 {
     const struct design_texts *t = d->texts;
@@ -424,7 +398,10 @@ bool design_scene(const struct design *d, int i, struct arena *a, struct scene *
     *messages = "";
     if (d->stimuli[i].recording)
         return err_set(e, ERR_USAGE, "%s is a recording: it has no scene", d->stimuli[i].recording);
-    struct layer l = {ARENA_TAKE(a, struct scene_layer_key, most_keys(d, level)), 0};
+    int n = t->set.n + 1;
+    for (int f = 0; f < d->n_factors; f++)
+        n += t->levels[f][level[f]].n;
+    struct layer l = {ARENA_TAKE(a, struct scene_layer_key, n), 0};
     add(&l, &t->set);
     for (int f = 0; f < d->n_factors; f++) {
         const struct design_change *c = &t->levels[f][level[f]];
@@ -432,7 +409,11 @@ bool design_scene(const struct design *d, int i, struct arena *a, struct scene *
         base = c->base ? d->factors[f].levels[level[f]].base : base;
         named = c->base ? c->base : named;
     }
-    l.keys[l.n++] = seed_key(yaml_open(a), d, i);
+    struct yaml *y = yaml_open(a); /* the design's seed in this stimulus, as a key of the scene */
+    struct yaml_node **path = ARENA_TAKE(a, struct yaml_node *, 2);
+    path[0] = yaml_make(y, YAML_SCALAR, t->seed, "seed");
+    l.keys[l.n++] = (struct scene_layer_key){
+        path, yaml_make(y, YAML_SCALAR, t->seed, arena_format(a, "%llu", (unsigned long long)d->stimuli[i].seed))};
     const struct scene_layer layer = {named->at, l.keys, l.n};
     return scene_read(base, &(struct scene_overrides){.layer = &layer}, a, s, messages, e);
 }
@@ -490,16 +471,6 @@ static const char *cell_text(const struct table *t, int row, int column, char nu
 
 static int width_of(const char *text) { return (int)text_utf8_count(text, strlen(text)); }
 
-static void widths(struct table *t)
-{
-    char number[24];
-    for (int row = -1; row < t->d->n_stimuli; row++)
-        for (int c = 0; c < COLUMN_FACTORS + t->d->n_factors; c++) {
-            int n = width_of(cell_text(t, row, c, number));
-            t->width[c] = n > t->width[c] ? n : t->width[c];
-        }
-}
-
 static void put_cell(const struct table *t, int row, int column, bool last)
 {
     char number[24];
@@ -534,7 +505,12 @@ void design_print(const struct design *d, const bool *mine, const char *const *s
     int digits = snprintf(NULL, 0, "%d", d->n_stimuli);
     for (int i = 0; i < d->n_stimuli; i++)
         t.recordings = t.recordings || d->stimuli[i].recording;
-    widths(&t);
+    for (int row = -1; row < d->n_stimuli; row++)
+        for (int c = 0; c < COLUMN_FACTORS + d->n_factors; c++) {
+            char number[24];
+            int n = width_of(cell_text(&t, row, c, number));
+            t.width[c] = n > t.width[c] ? n : t.width[c];
+        }
     for (int row = -1; row < d->n_stimuli; row++)
         if (row < 0 || !mine || mine[row]) put_row(&t, row, digits);
     arena_close(a);

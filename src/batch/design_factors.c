@@ -32,13 +32,6 @@ static const struct key *design_changes_key(const char *path) { return keys_find
 
 /* ------------------------------------------------------------------ paths */
 
-static bool is_one_of(const char *path, const char *const *names)
-{
-    for (; *names; names++)
-        if (strcmp(*names, path) == 0) return true;
-    return false;
-}
-
 static const char *design_changes_near(const struct design_reading *r, const char *word)
 {
     const char *found = NULL;
@@ -52,7 +45,7 @@ static const char *design_changes_near(const struct design_reading *r, const cha
 static bool design_changes_known(const struct design_reading *r, const struct yaml_node *key)
 {
     const char *plain = keys_text_plain(key->text);
-    if (is_one_of(plain, r->keys)) return true;
+    if (text_is_one(plain, r->keys)) return true;
     const char *near = design_changes_near(r, plain);
     return diag_add(r->yaml->diag, key->at,
                     near ? arena_format(r->arena, "did you mean %s?", near) : "rasp explain lists every key of a scene",
@@ -122,12 +115,7 @@ static bool leaf_add(const struct design_reading *r, struct design_change *c, co
     if (reserved(r, key) || !design_changes_known(r, key) || !value_good(r, key->text, value)) return false;
     struct yaml_node **path = scene_layer_path(r->yaml, key);
     if (!path) return false;
-    if (c->n == c->room) {
-        c->room = 2 * c->room + 4;
-        struct scene_layer_key *more = ARENA_TAKE(r->arena, struct scene_layer_key, c->room);
-        if (c->n > 0) memcpy(more, c->keys, (size_t)c->n * sizeof *more);
-        c->keys = more;
-    }
+    c->keys = arena_more(r->arena, c->keys, c->n, sizeof *c->keys);
     c->keys[c->n++] = (struct scene_layer_key){path, value};
     return true;
 }
@@ -583,10 +571,9 @@ static bool name_good(const struct design_reading *r, const struct yaml_node *na
     static const char *const taken[] = {"replicate", "order", "cell", NULL};
     *key = design_changes_key(name->text) || strcmp(name->text, "accuracy") == 0 || strchr(name->text, '.');
     if (*key) return design_changes_known(r, name);
-    for (int i = 0; taken[i]; i++)
-        if (strcmp(name->text, taken[i]) == 0)
-            return diag_add(r->yaml->diag, name->at, "call the factor otherwise",
-                            "%s has a meaning of its own in names: a factor cannot be called so", name->text);
+    if (text_is_one(name->text, taken))
+        return diag_add(r->yaml->diag, name->at, "call the factor otherwise",
+                        "%s has a meaning of its own in names: a factor cannot be called so", name->text);
     return is_word(name->text) ||
            diag_add(r->yaml->diag, name->at, "write for instance: material",
                     "a factor must be a key of scenes, or a word (letters, digits, _ and -, a letter first), not '%s'",

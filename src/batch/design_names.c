@@ -22,12 +22,6 @@ enum { PART_LONGEST = 200, NAME_LONGEST = 1000 };
 
 /* ------------------------------------------------------------------ one name */
 
-static bool ends_in(const char *s, size_t n, const char *ending)
-{
-    size_t m = strlen(ending);
-    return n >= m && strncasecmp(s + n - m, ending, m) == 0;
-}
-
 static bool is_device(const char *s, size_t n)
 {
     static const char *const words[] = {"con", "prn", "aux", "nul", "com", "lpt", NULL};
@@ -51,8 +45,10 @@ static const char *part_fault(const char *s, size_t n, const char **cure)
     if (s[n - 1] == '.') return "has a part that ends with a dot, which Windows leaves off";
     if (is_device(s, n)) return "has a part that is a device on Windows, which cannot have such a file";
     *cure = "leave the ending out: each file gets its own";
-    for (int i = 0; endings[i]; i++)
-        if (ends_in(s, n, endings[i])) return "ends as a file does";
+    for (int i = 0; endings[i]; i++) {
+        size_t m = strlen(endings[i]);
+        if (n >= m && strncasecmp(s + n - m, endings[i], m) == 0) return "ends as a file does";
+    }
     return NULL;
 }
 
@@ -190,7 +186,7 @@ static void design_names_check(const struct design_reading *r)
 
 /* ------------------------------------------------------------------ names */
 
-enum { NAME_MAX_BYTES = 1000, CHUNK = 1 << 16 };
+enum { NAME_MAX_BYTES = 1000 };
 
 enum { FIELD_TEXT = -1, FIELD_REPLICATE = -2, FIELD_ORDER = -3, FIELD_CELL = -4 };
 
@@ -208,9 +204,7 @@ struct design_template {
 struct names {
     struct design_reading *r;
     const char ***labels; /* [n_factors][n_levels], as names have them */
-    char *chunk;
-    size_t left;
-    int width[3]; /* digits of replicate, order, cell          */
+    int width[3];         /* digits of replicate, order, cell          */
 };
 
 /* ------------------------------------------------------------------ labels */
@@ -326,28 +320,10 @@ static struct design_template template_default(const struct design_reading *r)
 
 /* ------------------------------------------------------------------ making */
 
-static const char *copy_of(struct names *x, const char *text, size_t n)
-{
-    if (x->left < n + 1) {
-        x->chunk = arena_take(x->r->arena, CHUNK, 1);
-        x->left = CHUNK;
-    }
-    char *to = memcpy(x->chunk, text, n);
-    x->chunk += n + 1;
-    x->left -= n + 1;
-    return to;
-}
-
-static size_t number_put(char *to, size_t room, int digits, long number)
-{
-    int n = snprintf(to, room, "%0*ld", digits, number);
-    return (size_t)n < room ? (size_t)n : room;
-}
-
 /* The name of stimulus i; one that is too long is cut, which is told later. */
-static const char *expanded(struct names *x, const struct design_template *t, int i)
+static const char *expanded(const struct names *x, const struct design_template *t, int i)
 {
-    char name[NAME_MAX_BYTES + 2];
+    char name[NAME_MAX_BYTES + 2], digits[24];
     size_t n = 0, room = sizeof name - 1;
     const struct design_stimulus *s = &x->r->design->stimuli[i];
     const long numbers[3] = {s->replicate, i + 1, s->cell + 1};
@@ -357,13 +333,17 @@ static const char *expanded(struct names *x, const struct design_template *t, in
                            : field < 0           ? ""
                            : s->level[field] < 0 ? "na"
                                                  : x->labels[field][s->level[field]];
-        if (field < FIELD_TEXT)
-            n += number_put(name + n, room - n, x->width[FIELD_REPLICATE - field], numbers[FIELD_REPLICATE - field]);
+        if (field < FIELD_TEXT) {
+            snprintf(digits, sizeof digits, "%0*ld", x->width[FIELD_REPLICATE - field],
+                     numbers[FIELD_REPLICATE - field]);
+            text = digits;
+        }
         size_t size = strlen(text) < room - n ? strlen(text) : room - n;
         memcpy(name + n, text, size);
         n += size;
     }
-    return copy_of(x, name, n);
+    name[n] = '\0';
+    return arena_text(x->r->arena, name);
 }
 
 static int digits_of(long n) { return snprintf(NULL, 0, "%ld", n); }
@@ -380,14 +360,6 @@ static void labels_make(struct names *x)
     x->width[0] = digits_of(d->replicates);
     x->width[1] = digits_of(d->n_stimuli);
     x->width[2] = digits_of(x->r->n_cells);
-}
-
-static const char *recording_name(struct names *x, int i, const struct design_cell *cell)
-{
-    const struct yaml_node *node = yaml_get(cell->entry, "name");
-    if (!node) return label_name(relpath_stem(cell->recording, x->r->arena), x->r->arena);
-    struct design_template own = template_read(x->r, node);
-    return expanded(x, &own, i);
 }
 
 void design_names_template(struct design_reading *r)
@@ -407,7 +379,10 @@ void design_names_make(struct design_reading *r)
     labels_make(&x);
     for (int i = 0; i < d->n_stimuli && r->yaml->diag->n == errors; i++) {
         const struct design_cell *cell = &r->cells[d->stimuli[i].cell];
-        d->stimuli[i].name = cell->recording ? recording_name(&x, i, cell) : expanded(&x, &t, i);
+        const struct yaml_node *node = cell->recording ? yaml_get(cell->entry, "name") : NULL;
+        struct design_template own = node ? template_read(r, node) : t;
+        d->stimuli[i].name = cell->recording && !node ? label_name(relpath_stem(cell->recording, r->arena), r->arena)
+                                                      : expanded(&x, &own, i);
     }
     if (r->yaml->diag->n == errors) design_names_check(r);
 }

@@ -10,7 +10,7 @@ enum { DESIGN_READING_CELLS = 1000000 /* stimuli at most */ };
 
 struct design_change { /* what a level, or `set`, changes of the scene       */
     struct scene_layer_key *keys;
-    int n, room;
+    int n;
     const struct yaml_node *base; /* the scene's file name; NULL: not changed           */
 };
 

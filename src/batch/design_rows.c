@@ -50,23 +50,9 @@ static double crossed(const struct design *d, const struct crossing *all)
     return n;
 }
 
-/* The first factor is the slowest. */
-static void levels_of(const struct design *d, const struct crossing *all, long cell, int *level)
+static struct design_cell *cell_add(struct design_reading *r)
 {
-    for (int f = d->n_factors - 1; f >= 0; f--) {
-        level[f] = all[f].level[cell % all[f].n];
-        cell /= all[f].n;
-    }
-}
-
-static struct design_cell *cell_add(struct design_reading *r, long *room)
-{
-    if (r->n_cells == *room) {
-        struct design_cell *more = ARENA_TAKE(r->arena, struct design_cell, 2 * *room + 64);
-        if (r->n_cells > 0) memcpy(more, r->cells, (size_t)r->n_cells * sizeof *more);
-        r->cells = more;
-        *room = 2 * *room + 64;
-    }
+    r->cells = arena_more(r->arena, r->cells, (int)r->n_cells, sizeof *r->cells);
     return &r->cells[r->n_cells++];
 }
 
@@ -83,16 +69,20 @@ static bool excluded(const struct design *d, const int *level, struct exclusion 
     return any;
 }
 
+/* The first factor is the slowest. */
 static void cells_cross(struct design_reading *r, const struct crossing *factors, struct exclusion *all, int n)
 {
     const struct design *d = r->design;
-    long room = (long)crossed(d, factors);
-    int *levels = ARENA_TAKE(r->arena, int, room * d->n_factors + 1);
-    r->cells = ARENA_TAKE(r->arena, struct design_cell, room + 1);
-    for (long i = 0, most = room; i < most; i++) {
-        levels_of(d, factors, i, levels);
+    long most = (long)crossed(d, factors);
+    int *levels = ARENA_TAKE(r->arena, int, most * d->n_factors + 1);
+    for (long i = 0; i < most; i++) {
+        long cell = i;
+        for (int f = d->n_factors - 1; f >= 0; f--) {
+            levels[f] = factors[f].level[cell % factors[f].n];
+            cell /= factors[f].n;
+        }
         if (excluded(d, levels, all, n)) continue;
-        *cell_add(r, &room) = (struct design_cell){.level = levels};
+        *cell_add(r) = (struct design_cell){.level = levels};
         levels += d->n_factors;
     }
 }
@@ -149,7 +139,6 @@ static void cells_list(struct design_reading *r, const struct yaml_node *list, s
 {
     static const char *const own[] = {NULL};
     int errors = r->yaml->diag->n;
-    long room = 0;
     if (!is_list(r, list, "cells", "write for instance: cells: [{material: wood, motion.rate: 1 Hz}]")) return;
     for (const struct yaml_node *entry = list->first; entry; entry = entry->next) {
         if (entry->kind != YAML_MAP) continue;
@@ -157,7 +146,7 @@ static void cells_list(struct design_reading *r, const struct yaml_node *list, s
         cell_complete(r, entry);
         crossed_only(r, level, entry);
         if (r->yaml->diag->n == errors && !excluded(r->design, level, all, n))
-            *cell_add(r, &room) = (struct design_cell){.level = level, .entry = entry};
+            *cell_add(r) = (struct design_cell){.level = level, .entry = entry};
     }
 }
 
@@ -211,7 +200,6 @@ static void recordings_add(struct design_reading *r, const struct yaml_node *lis
 {
     static const char *const own[] = {"file", "name", "text", NULL};
     static const char cure[] = "write for instance: recordings: [{file: recorded/wood.wav, material: wood}]";
-    long room = r->n_cells;
     if (!is_list(r, list, "recordings", cure)) return;
     for (const struct yaml_node *entry = list->first; entry; entry = entry->next) {
         if (entry->kind != YAML_MAP) continue;
@@ -225,8 +213,7 @@ static void recordings_add(struct design_reading *r, const struct yaml_node *lis
         else if (file->kind != YAML_SCALAR || !*file->text)
             design_reading_must(r, file, "file", "the name of a WAV", cure);
         else
-            *cell_add(r, &room) =
-                (struct design_cell){level, entry, scene_merge_path(r->yaml, file->at.source, file->text)};
+            *cell_add(r) = (struct design_cell){level, entry, scene_merge_path(r->yaml, file->at.source, file->text)};
     }
 }
 
@@ -292,30 +279,17 @@ void design_rows_cells(struct design_reading *r)
 
 /* ------------------------------------------------------------------ stimuli */
 
-struct hashing {
-    struct hash h;
-};
-
-static void add_text(struct hashing *x, const char *text) { hash_add(&x->h, text, strlen(text) + 1); }
-
-static void add_number(struct hashing *x, uint64_t n)
+static void add_number(struct hash *x, uint64_t n)
 {
     char text[24];
     snprintf(text, sizeof text, "%llu", (unsigned long long)n);
-    add_text(x, text);
+    hash_text(x, text);
 }
 
-static struct hashing begin(const char *what)
-{
-    struct hashing x = {hash_start()};
-    add_text(&x, what);
-    return x;
-}
-
-static uint64_t first_64_bits(struct hashing *x)
+static uint64_t first_64_bits(struct hash *x)
 {
     char hex[HASH_TEXT];
-    hash_end(&x->h, hex);
+    hash_end(x, hex);
     hex[16] = '\0';
     return strtoull(hex, NULL, 16);
 }
@@ -338,22 +312,23 @@ static const struct design_factor **factors_by_name(const struct design_reading 
     return all;
 }
 
-static void add_labels(struct hashing *x, const struct design *d, const struct design_factor *const *factors,
+static void add_labels(struct hash *x, const struct design *d, const struct design_factor *const *factors,
                        const int *level, bool independent)
 {
     for (; *factors; factors++) {
         const struct design_factor *f = *factors;
         int i = level[f - d->factors];
         if (i < 0 || (independent && !f->independent)) continue;
-        add_text(x, f->name);
-        add_text(x, f->levels[i].label);
+        hash_text(x, f->name);
+        hash_text(x, f->levels[i].label);
     }
 }
 
 static uint64_t seed_of(const struct design *d, const struct design_factor *const *factors,
                         const struct design_stimulus *s)
 {
-    struct hashing x = begin("rasp design seed");
+    struct hash x = hash_start();
+    hash_text(&x, "rasp design seed");
     add_number(&x, d->seed);
     add_number(&x, (uint64_t)s->replicate);
     add_labels(&x, d, factors, s->level, true);
@@ -363,11 +338,12 @@ static uint64_t seed_of(const struct design *d, const struct design_factor *cons
 static uint64_t rank_of(const struct design_reading *r, const struct design_factor *const *factors,
                         const struct design_stimulus *s)
 {
-    struct hashing x = begin("rasp design order");
+    struct hash x = hash_start();
+    hash_text(&x, "rasp design order");
     const struct yaml_node *file = s->recording ? yaml_get(r->cells[s->cell].entry, "file") : NULL;
     add_number(&x, r->design->order_seed);
     add_number(&x, (uint64_t)s->replicate);
-    add_text(&x, file ? file->text : "");
+    hash_text(&x, file ? file->text : "");
     add_labels(&x, r->design, factors, s->level, false);
     return first_64_bits(&x);
 }
@@ -414,56 +390,57 @@ void design_rows_stimuli(struct design_reading *r)
 
 /* ------------------------------------------------------------------ the design */
 
-static void add_change(struct hashing *x, const struct design_change *c, const char **texts)
+static void add_change(struct hash *x, const struct design_change *c, const char **texts)
 {
-    add_text(x, c->base ? c->base->text : "");
+    hash_text(x, c->base ? c->base->text : "");
     for (; *texts; texts++)
-        add_text(x, *texts);
-    add_text(x, "");
+        hash_text(x, *texts);
+    hash_text(x, "");
 }
 
-static void add_rules(struct hashing *x, const struct design *d)
+static void add_rules(struct hash *x, const struct design *d)
 {
     char text[200];
     const struct level *l = &d->level;
-    add_text(x, d->title ? d->title : "");
-    add_text(x, d->text ? d->text : "");
+    hash_text(x, d->title ? d->title : "");
+    hash_text(x, d->text ? d->text : "");
     add_number(x, d->seed);
     snprintf(text, sizeof text, "%d %a %a %a %a %a %d %a", d->level_rule, l->peak, l->rms, l->lufs, l->full_scale,
              l->dbfs_at_1_pa, d->length_rule, d->length);
-    add_text(x, text);
+    hash_text(x, text);
 }
 
-static void add_stimulus(struct hashing *x, const struct design_reading *r, const struct design_stimulus *s)
+static void add_stimulus(struct hash *x, const struct design_reading *r, const struct design_stimulus *s)
 {
-    add_text(x, s->name);
+    hash_text(x, s->name);
     for (int f = 0; f < r->design->n_factors; f++)
         add_number(x, (uint64_t)(s->level[f] + 1));
     add_number(x, (uint64_t)s->replicate);
     add_number(x, (uint64_t)s->cell);
     add_number(x, s->seed);
     if (s->recording && yaml_get(r->cells[s->cell].entry, "text"))
-        add_text(x, yaml_get(r->cells[s->cell].entry, "text")->text);
-    add_text(x, s->recording ? yaml_get(r->cells[s->cell].entry, "file")->text : "");
+        hash_text(x, yaml_get(r->cells[s->cell].entry, "text")->text);
+    hash_text(x, s->recording ? yaml_get(r->cells[s->cell].entry, "file")->text : "");
 }
 
 void design_rows_hash(struct design_reading *r)
 {
     const struct design *d = r->design;
-    struct hashing x = begin("rasp design 1");
+    struct hash x = hash_start();
+    hash_text(&x, "rasp design 1");
     add_rules(&x, d);
-    add_text(&x, r->texts->base ? r->texts->base->text : "");
+    hash_text(&x, r->texts->base ? r->texts->base->text : "");
     add_change(&x, &r->texts->set, d->set);
     for (int f = 0; f < d->n_factors; f++) {
-        add_text(&x, d->factors[f].name);
+        hash_text(&x, d->factors[f].name);
         add_number(&x, (uint64_t)d->factors[f].n_levels);
         for (int i = 0; i < d->factors[f].n_levels; i++) {
-            add_text(&x, d->factors[f].levels[i].label);
-            add_text(&x, d->factors[f].levels[i].text ? d->factors[f].levels[i].text : "");
+            hash_text(&x, d->factors[f].levels[i].label);
+            hash_text(&x, d->factors[f].levels[i].text ? d->factors[f].levels[i].text : "");
             add_change(&x, &r->texts->levels[f][i], d->factors[f].levels[i].set);
         }
     }
     for (int i = 0; i < d->n_stimuli; i++)
         add_stimulus(&x, r, &d->stimuli[i]);
-    hash_end(&x.h, r->design->sha256);
+    hash_end(&x, r->design->sha256);
 }

@@ -398,7 +398,6 @@ struct walk {
     const struct folder_wanted *wanted;
     struct arena *arena;
     struct folder_stale *to;
-    int room;
 };
 
 static int by_text(const void *a, const void *b) { return strcmp(*(const char *const *)a, *(const char *const *)b); }
@@ -420,17 +419,6 @@ static bool is_of_another(const struct walk *x, const char *path, const char *na
         is = strcmp(stem, name) != 0 && stimulus_named(x->wanted, stem) >= 0;
     }
     return is;
-}
-
-static void add(struct walk *x, const char *file)
-{
-    struct folder_stale *s = x->to;
-    if (s->n_files == x->room) {
-        const char **more = ARENA_TAKE(x->arena, const char *, x->room = 2 * x->room + 16);
-        if (s->n_files) memcpy(more, s->files, (size_t)s->n_files * sizeof *more);
-        s->files = more;
-    }
-    s->files[s->n_files++] = file;
 }
 
 /* Of a file that a record lists, and that is there: somebody changed it. */
@@ -478,8 +466,10 @@ static void take_stale(struct walk *x, const char *name, const struct record *r)
     for (int i = 0; i < n; i++)
         if (w->prune && !changed)
             remove_file(x, files[i]);
-        else
-            add(x, files[i]);
+        else {
+            x->to->files = arena_more(x->arena, x->to->files, x->to->n_files, sizeof *x->to->files);
+            x->to->files[x->to->n_files++] = files[i];
+        }
 }
 
 /* A record "NAME.json". */
@@ -493,12 +483,6 @@ static void look_at_record(struct walk *x, const char *path)
         (i >= 0 && (r.status != RECORD_DONE || !strcmp(w->keys[i], r.key))))
         return;
     take_stale(x, name, &r);
-}
-
-static bool is_record_name(const char *name)
-{
-    size_t n = strlen(name);
-    return n > 5 && !strcmp(name + n - 5, ".json");
 }
 
 static bool is_folder(const char *path, const struct dirent *entry)
@@ -516,7 +500,7 @@ static void walk(struct walk *x, const char *below)
                    *whole = arena_format(x->arena, "%s/%s", x->wanted->folder, path);
         if (is_left(name))
             unlink(whole);
-        else if (!is_folder(whole, entry) && is_record_name(name))
+        else if (!is_folder(whole, entry) && text_ends(name, ".json"))
             look_at_record(x, path);
         else if (strcmp(name, ".") != 0 && strcmp(name, "..") != 0 && is_folder(whole, entry) &&
                  (!strcmp(name, ".rasp") || !folder_is_recorded(whole, x->arena)))

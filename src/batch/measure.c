@@ -24,20 +24,14 @@ bool measure_open(struct measure_source *c, const char *path, const struct measu
     return true;
 }
 
-static double greatest(const double *x, int n)
-{
-    double most = 0;
-    for (int k = 0; k < n; k++)
-        most = fmax(most, fabs(x[k]));
-    return most;
-}
-
 static void shape(struct measure_source *c, double *x, long n)
 {
     long last = c->ramp > 1 ? c->ramp : 1;
     for (long i = 0; i < n; i++) {
         long rest = c->frames - 1 - (c->done + i);
-        double *frame = x + i * c->in.channels, size = greatest(frame, c->in.channels);
+        double *frame = x + i * c->in.channels, size = 0;
+        for (int k = 0; k < c->in.channels; k++)
+            size = fmax(size, fabs(frame[k]));
         c->before = fmax(c->before, size);
         c->end = rest < last ? fmax(c->end, size) : c->end;
         double s = rest < c->ramp ? real_sinpi(0.5 * ((double)rest + 0.5) / (double)c->ramp) : 1;

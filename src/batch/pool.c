@@ -17,52 +17,35 @@ struct pool {
     bool *done; /* [n] */
 };
 
-static bool begin(struct pool *p, int *i)
-{
-    pthread_mutex_lock(&p->lock);
-    bool any = !p->stop && p->next < p->work->n;
-    if (any) *i = p->next++;
-    pthread_mutex_unlock(&p->lock);
-    return any;
-}
-
-static void end(struct pool *p, int i, bool go_on)
-{
-    pthread_mutex_lock(&p->lock);
-    p->done[i] = true;
-    p->stop = p->stop || !go_on;
-    while (p->taken < p->work->n && p->done[p->taken]) {
-        if (p->work->took) p->work->took(p->work->context, p->taken);
-        p->taken++;
-    }
-    pthread_mutex_unlock(&p->lock);
-}
-
 static void *worker(void *pool)
 {
     struct pool *p = pool;
-    int i;
-    while (begin(p, &i))
-        end(p, i, p->work->job(p->work->context, i));
+    const struct pool_work *w = p->work;
+    pthread_mutex_lock(&p->lock);
+    while (!p->stop && p->next < w->n) {
+        int i = p->next++;
+        pthread_mutex_unlock(&p->lock);
+        bool go_on = w->job(w->context, i);
+        pthread_mutex_lock(&p->lock);
+        p->done[i] = true;
+        p->stop = p->stop || !go_on;
+        for (; p->taken < w->n && p->done[p->taken]; p->taken++)
+            if (w->took) w->took(w->context, p->taken);
+    }
+    pthread_mutex_unlock(&p->lock);
     return NULL;
-}
-
-static int start(struct pool *p, pthread_t *threads, int most)
-{
-    int n = 0;
-    while (n < most && pthread_create(&threads[n], NULL, worker, p) == 0)
-        n++;
-    return n;
 }
 
 int pool_run(const struct pool_work *w)
 {
     struct pool p = {.work = w, .done = calloc((size_t)w->n + 1, sizeof *p.done)};
     pthread_t threads[MOST_THREADS];
-    int most = w->threads < w->n ? w->threads : w->n;
+    int most = w->threads < w->n ? w->threads : w->n, n = 0;
     if (!p.done) memory_out("for %d jobs", w->n);
     pthread_mutex_init(&p.lock, NULL);
-    int n = start(&p, threads, (most < MOST_THREADS ? most : MOST_THREADS) - 1);
+    most = (most < MOST_THREADS ? most : MOST_THREADS) - 1;
+    while (n < most && pthread_create(&threads[n], NULL, worker, &p) == 0)
+        n++;
     worker(&p);
     for (int i = 0; i < n; i++)
         pthread_join(threads[i], NULL);

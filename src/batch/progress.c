@@ -12,17 +12,11 @@
 
 #define PERIOD 0.1 /* s between two drawings */
 
-static bool is_set(const char *name)
-{
-    const char *value = getenv(name);
-    return value && *value;
-}
-
 void progress_begin(struct progress *p, int n, double cost, bool quiet)
 {
-    const char *term = getenv("TERM");
+    const char *term = getenv("TERM"), *ci = getenv("CI");
     bool dumb = !term || !*term || !strcmp(term, "dumb");
-    *p = (struct progress){.shown = !quiet && isatty(STDERR_FILENO) && !dumb && !is_set("CI"),
+    *p = (struct progress){.shown = !quiet && isatty(STDERR_FILENO) && !dumb && !(ci && *ci),
                            .start = stopwatch_wall(),
                            .cost = cost,
                            .n = n};

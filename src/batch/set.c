@@ -271,17 +271,6 @@ static bool same(const struct set_fault *f, const struct trial *t)
     return !strcmp(f->messages, t->messages) && (*t->messages || !strcmp(f->err->text, t->e.text));
 }
 
-static struct set_fault *more_faults(struct planning *p)
-{
-    struct set_plan *o = p->out;
-    if (o->n_faults == o->room) {
-        struct set_fault *more = ARENA_TAKE(p->arena, struct set_fault, o->room = 2 * o->room + 16);
-        if (o->n_faults) memcpy(more, o->faults, (size_t)o->n_faults * sizeof *more);
-        o->faults = more;
-    }
-    return &o->faults[o->n_faults++];
-}
-
 /* Which fault it is. The first that has it keeps its texts. */
 static int note(struct planning *p, int i, struct trial *t)
 {
@@ -290,9 +279,10 @@ static int note(struct planning *p, int i, struct trial *t)
     o->worst = t->e.kind > o->worst ? t->e.kind : o->worst;
     while (k < o->n_faults && k < SET_FAULTS && !same(&o->faults[k], t))
         k++;
-    if (k == o->n_faults)
-        *more_faults(p) = (struct set_fault){t->arena, t->diag, t->messages, &t->e, name_of(p, i), 0};
-    else
+    if (k == o->n_faults) {
+        o->faults = arena_more(p->arena, o->faults, o->n_faults, sizeof *o->faults);
+        o->faults[o->n_faults++] = (struct set_fault){t->arena, t->diag, t->messages, &t->e, name_of(p, i), 0};
+    } else
         arena_close(t->arena);
     return k;
 }

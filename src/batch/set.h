@@ -67,7 +67,7 @@ struct set_plan {
     double bytes, raw_bytes; /* of the WAVs; of what waits for a level    */
     double cycles;           /* predicted, of all                         */
     struct set_fault *faults;
-    int n_faults, room;                      /* 0: nothing is wrong; there is room for    */
+    int n_faults;                            /* 0: nothing is wrong */
     enum err_kind worst;                     /* of all                                    */
     struct set_warning warnings[SET_FAULTS]; /* the first that differ      */
     int n_warnings;

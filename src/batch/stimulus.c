@@ -12,6 +12,7 @@
 #include "base/interrupt.h"
 #include "base/outfile.h"
 #include "base/stopwatch.h"
+#include "base/text.h"
 #include "batch/measure.h"
 #include "batch/recording.h"
 #include "file/json_value.h"
@@ -423,20 +424,10 @@ bool stimulus_make(const struct stimulus_set *k, int i, enum stimulus_how how, s
 
 /* ------------------------------------------------------------------ the gain of the set */
 
-/* A force is in newtons, whatever the gain, in 32 bits. */
-static bool is_force(const char *path)
-{
-    size_t n = strlen(path);
-    return n > 10 && !strcmp(path + n - 10, ".force.wav");
-}
-
 static const char *stem_of(const char *path, struct arena *a)
 {
-    size_t n = strlen(path);
-    for (int k = 0; k < STEMS; k++) {
-        const char *ending = arena_format(a, ".%s.wav", stems_names[k]);
-        if (n > strlen(ending) && !strcmp(path + n - strlen(ending), ending)) return stems_names[k];
-    }
+    for (int k = 0; k < STEMS; k++)
+        if (text_ends(path, arena_format(a, ".%s.wav", stems_names[k]))) return stems_names[k];
     return NULL;
 }
 
@@ -445,7 +436,7 @@ static bool scale(const struct work *w, struct made *m, struct record_file *f, s
 {
     struct measure_source in;
     char comment[80] = "rasp: contact force, 1.0 is 1 N";
-    bool force = !strcmp(f->kind, "stem") && is_force(f->path);
+    bool force = !strcmp(f->kind, "stem") && text_ends(f->path, ".force.wav"); /* in newtons, whatever the gain */
     double gain = force ? 1 : sound_known_gain(&w->scene);
     const char *raw = arena_format(w->arena, "%s/%s", w->k->folder, f->path),
                *path = record_file_path(w->name, basename(f->path), false, w->arena);

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "base/text.h"
 #include "cmd/cmd.h"
 #include "cmd/plot.h"
 #include "scene/keys_text.h"
@@ -29,14 +30,6 @@ struct setting {
     const char *path;
     const char *const *words; /* NULL-terminated; NULL: none */
 };
-
-/* Is the word one of `list`, which ends with NULL? */
-static bool is_one(const char *word, const char *const *list)
-{
-    while (*list && strcmp(*list, word) != 0)
-        list++;
-    return *list;
-}
 
 static void add(const char **list, int room, const char *word)
 {
@@ -68,14 +61,14 @@ static struct place place_of(const char *text, struct arena *a)
             continue;
         }
         p.settings = p.settings || !strcmp(token, "PATH=VALUE");
-        p.names = p.names || is_one(token, key_name);
+        p.names = p.names || text_is_one(token, key_name);
         for (int k = 0; k < PLOT_PANELS && !strcmp(token, "PANEL"); k++)
             add(p.words, WORDS, plot_panels_words[k]);
-        p.files = p.files || is_one(token, any_file);
-        p.folders = p.folders || is_one(token, folder);
+        p.files = p.files || text_is_one(token, any_file);
+        p.folders = p.folders || text_is_one(token, folder);
         if (dot && isupper((unsigned char)token[0]) && islower((unsigned char)dot[1]))
             add(p.suffixes, SUFFIXES, dot + 1);
-        if (is_one(token, yaml_file) || (dot && !strcmp(dot, ".yaml"))) {
+        if (text_is_one(token, yaml_file) || (dot && !strcmp(dot, ".yaml"))) {
             add(p.suffixes, SUFFIXES, "yaml");
             add(p.suffixes, SUFFIXES, "yml");
         }

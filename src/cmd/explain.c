@@ -14,8 +14,8 @@
 #include "scene/keys_man.h"
 #include "scene/keys_reference.h"
 #include "scene/keys_text.h"
-#include "scene/scene_write.h"
 #include "scene/scene_table.h"
+#include "scene/scene_write.h"
 #include "scene/units_table.h"
 
 /* ------------------------------------------------------------------ JSON Schemas (draft 2020-12), for editors
@@ -419,9 +419,8 @@ static void report_knob(struct report *r, const struct key_knob *k, struct arena
 
 static bool is_scene_file(const char *word)
 {
-    size_t n = strlen(word);
     struct stat s;
-    return strchr(word, '/') || (n > 5 && !strcmp(word + n - 5, ".yaml")) || (n > 4 && !strcmp(word + n - 4, ".yml")) ||
+    return strchr(word, '/') || text_ends(word, ".yaml") || text_ends(word, ".yml") ||
            (stat(word, &s) == 0 && !S_ISDIR(s.st_mode));
 }
 

@@ -15,6 +15,7 @@
 #include "cmd/modes.h"
 #include "fem/shapes.h"
 #include "fem/solid.h"
+#include "file/bytes.h"
 #include "file/csv.h"
 #include "num/real.h"
 #include "output/mark.h"
@@ -235,8 +236,6 @@ static void add_point(struct hash *h, const struct boundary_point *p)
     hash_add(h, p->normal, sizeof p->normal);
 }
 
-static void add_text(struct hash *h, const char *text) { hash_add(h, text ? text : "", text ? strlen(text) + 1 : 1); }
-
 /* SHA-256 of all that the table follows from. */
 static void inputs_hash(const struct compute *k, char hex[HASH_TEXT])
 {
@@ -244,61 +243,47 @@ static void inputs_hash(const struct compute *k, char hex[HASH_TEXT])
     const double numbers[] = {m->alpha, m->beta, m->loss, m->elastic.density, k->top, k->origin[0], k->origin[1]};
     const long wholes[] = {k->most,   k->order,     k->quantity, k->map.face,
                            k->places, k->elsewhere, m->own,      m->own_damping};
+    const char *title = args_value(&k->c->args, "title");
     struct hash h = hash_start();
-    add_text(&h, "rasp modes compute, table 2");
-    add_text(&h, k->mesh.name);
-    add_text(&h, args_value(&k->c->args, "title"));
-    add_text(&h, m->named ? m->named->name : NULL);
+    hash_text(&h, "rasp modes compute, table 2");
+    hash_text(&h, k->mesh.name);
+    hash_text(&h, title ? title : "");
+    hash_text(&h, m->named ? m->named->name : "");
     hash_add(&h, k->mesh.at, (size_t)k->mesh.nodes * sizeof *k->mesh.at);
     hash_add(&h, k->mesh.element, (size_t)k->mesh.elements * sizeof *k->mesh.element);
     hash_add(&h, m->elastic.c, sizeof m->elastic.c);
     hash_add(&h, numbers, sizeof numbers);
     hash_add(&h, wholes, sizeof wholes);
     if (k->boundary.outer < k->boundary.area)
-        add_text(&h, "radius_m of the outer skin"); /* an older table counted walls of cavities */
+        hash_text(&h, "radius_m of the outer skin"); /* an older table counted walls of cavities */
     for (int i = 0; i < k->n_fixed; i++) {
         hash_add(&h, &k->fixed[i].hold, sizeof k->fixed[i].hold);
-        add_text(&h, k->fixed_names[i]);
+        hash_text(&h, k->fixed_names[i]);
         hash_add(&h, k->fixed[i].corner, (size_t)k->fixed[i].n * sizeof *k->fixed[i].corner);
     }
-    add_text(&h, args_given(&k->c->args, "grid") || args_given(&k->c->args, "places") ? "so many places"
-                                                                                      : "as many places as needed");
+    hash_text(&h, args_given(&k->c->args, "grid") || args_given(&k->c->args, "places") ? "so many places"
+                                                                                       : "as many places as needed");
     hash_add(&h, k->xy, (size_t)k->places * sizeof *k->xy);
     for (int i = 0; i < k->places; i++)
         add_point(&h, &k->point[i]);
     if (k->elsewhere) add_point(&h, &k->ear);
-    if (args_given(&k->c->args, "estimate")) add_text(&h, "estimate");
+    if (args_given(&k->c->args, "estimate")) hash_text(&h, "estimate");
     hash_end(&h, hex);
 }
 
-/* NULL: not a regular file; a pipe would be waited for, a device read for ever. */
-static char *contents(const char *file, size_t *size)
-{
-    struct stat s;
-    if (stat(file, &s) != 0 || !S_ISREG(s.st_mode)) return NULL;
-    char *text = NULL;
-    FILE *in = fopen(file, "rb"), *out = open_memstream(&text, size);
-    char piece[1 << 16];
-    for (size_t n; in && out && (n = fread(piece, 1, sizeof piece, in)) > 0;)
-        fwrite(piece, 1, n, out);
-    if (in) fclose(in);
-    if (out) fclose(out);
-    return text;
-}
-
-/* Is the file a table made of these inputs and not changed since? */
+/* Is the file a table made of these inputs and not changed since? A pipe would be waited for. */
 static bool is_current(const char *file, const char *inputs, struct arena *a)
 {
-    size_t size = 0, head = sizeof first - 1 + HASH_TEXT; /* with its line's end in place of the hash's */
-    char *text = contents(file, &size), hex[HASH_TEXT];
-    bool current = false;
-    if (text && size > head && !memcmp(text, first, sizeof first - 1)) {
-        hash_bytes(text + head, size - head, hex);
-        current = !memcmp(text + sizeof first - 1, hex, HASH_TEXT - 1) &&
-                  strstr(text + head, arena_format(a, "\n%s%s\n", second, inputs)) != NULL;
-    }
-    free(text);
-    return current;
+    size_t head = sizeof first - 1 + HASH_TEXT; /* with its line's end in place of the hash's */
+    char hex[HASH_TEXT];
+    struct stat s;
+    struct bytes b;
+    if (stat(file, &s) != 0 || !S_ISREG(s.st_mode) || !bytes_read(file, a, &b, &(struct err){0}) || b.n <= head ||
+        memcmp(b.at, first, sizeof first - 1) != 0)
+        return false;
+    hash_bytes(b.at + head, b.n - head, hex);
+    return !memcmp(b.at + sizeof first - 1, hex, HASH_TEXT - 1) &&
+           strstr(b.at + head, arena_format(a, "\n%s%s\n", second, inputs));
 }
 
 /* ------------------------------------------------------------------ comments */
