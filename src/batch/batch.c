@@ -88,18 +88,6 @@ static bool job(void *context, int at)
     return ok || !stops(e.kind);
 }
 
-static void took_failure(struct batch *b, struct tables_row *o, int i, const struct slot *s)
-{
-    if (stops(s->e->kind)) {
-        err_set(&b->stop, s->e->kind, "%s", s->e->text);
-        return;
-    }
-    o->there = false;
-    o->kind = s->e->kind;
-    o->text = folder_seen(b->ask->folder, s->e->text, b->arena);
-    b->is[i].key = s->key ? arena_text(b->arena, s->key) : "";
-}
-
 static void took(void *context, int at)
 {
     struct batch *b = context;
@@ -108,9 +96,14 @@ static void took(void *context, int at)
     struct tables_row *o = &b->report->rows[i];
     double cost = b->report->set.cost[i];
     bool made = s->is.made && !s->e;
-    if (s->e)
-        took_failure(b, o, i, s);
-    else {
+    if (s->e && stops(s->e->kind))
+        err_set(&b->stop, s->e->kind, "%s", s->e->text);
+    else if (s->e) {
+        o->there = false;
+        o->kind = s->e->kind;
+        o->text = folder_seen(b->ask->folder, s->e->text, b->arena);
+        b->is[i].key = s->key ? arena_text(b->arena, s->key) : "";
+    } else {
         o->there = s->is.state == STIMULUS_THERE;
         o->made = o->made || made;
         o->wall += s->is.wall, o->cpu += s->is.cpu;
@@ -322,30 +315,23 @@ static void find_stale(struct batch *b)
     folder_stale(&w, b->arena, &r->stale);
 }
 
-/* The tables speak of what is on the disk. */
-static void sync_folder(const struct batch *b)
-{
-    bool made = false;
-    for (int i = 0; i < b->report->set.n; i++)
-        made = made || b->report->rows[i].made;
-    int fd = made ? open(b->ask->folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
-    if (fd >= 0) {
-        syncfs(fd);
-        close(fd);
-    }
-}
-
 /* Inputs may be seen from folders that the end removes: they are looked at before. */
 static bool end(struct batch *b, struct err *e)
 {
     struct batch_report *r = b->report;
     b->changed = file_cache_changed(b->k.file_cache, b->arena);
-    bool missing = false;
-    for (int i = 0; i < r->set.n; i++)
+    bool missing = false, made = false;
+    for (int i = 0; i < r->set.n; i++) {
         missing = missing || (b->ask->no_render && r->rows[i].kind);
+        made = made || r->rows[i].made;
+    }
     if (missing) return true;
     find_stale(b);
-    sync_folder(b);
+    int fd = made ? open(b->ask->folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    if (fd >= 0) { /* the tables speak of what is on the disk */
+        syncfs(fd);
+        close(fd);
+    }
     return tables_write(&(struct tables){&r->set, b->ask->folder, r->rows, b->arena}, &r->no_effect, e);
 }
 

@@ -162,26 +162,12 @@ bool folder_look(const struct folder_owner *o, struct arena *a, struct err *e)
     return is_free(o, &was, a, e);
 }
 
-static bool is_same_state(const struct folder_owner *o, const struct owner *was)
-{
-    return was->lines[0] && !strcmp(was->lines[1], o->sha256) && !strcmp(was->lines[3], o->program);
-}
-
 static bool is_busy(const struct folder_owner *o, const struct owner *was, struct err *e)
 {
     return err_set(e, ERR_INTERRUPTED,
                    "%s: another rasp is at work in it%s%s: wait until it has ended, or choose another folder with -o; "
                    "several runs of one set are its shards (--shard)",
                    o->folder, was->lines[4] ? ", " : "", was->lines[4] ? was->lines[4] : "");
-}
-
-/* The lock of who works, while nobody else can enter. *alone: others are not at work. */
-static bool lock_work(const struct folder_owner *o, int fd, const struct owner *was, bool *alone, struct err *e)
-{
-    *alone = flock(fd, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK; /* else there are no locks */
-    bool shared = !*alone && o->part && is_same_state(o, was) && flock(fd, LOCK_SH | LOCK_NB) == 0;
-    if (*alone || shared) return true;
-    return is_busy(o, was, e);
 }
 
 static bool note(const struct folder_owner *o, int fd, struct arena *a, struct err *e)
@@ -197,12 +183,16 @@ static bool note(const struct folder_owner *o, int fd, struct arena *a, struct e
     return err_set(e, err_system(ERR_CREATE), "%s/.rasp/owner: cannot be written: %s", o->folder, strerror(errno));
 }
 
+/* Takes the lock of who works, while nobody else can enter. */
 static bool enter(const struct folder_owner *o, int fd, struct arena *a, struct err *e)
 {
     struct owner was;
-    bool alone;
     read_owner(fd, &was);
-    if (!is_free(o, &was, a, e) || !lock_work(o, fd, &was, &alone, e) || (alone && !note(o, fd, a, e))) return false;
+    if (!is_free(o, &was, a, e)) return false;
+    bool alone = flock(fd, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK; /* else there are no locks */
+    bool same = was.lines[0] && !strcmp(was.lines[1], o->sha256) && !strcmp(was.lines[3], o->program);
+    if (!alone && !(o->part && same && flock(fd, LOCK_SH | LOCK_NB) == 0)) return is_busy(o, &was, e);
+    if (alone && !note(o, fd, a, e)) return false;
     if (o->part && alone) flock(fd, LOCK_SH);
     return true;
 }
@@ -308,23 +298,18 @@ static const struct input *input_at(const struct folder_inputs *all, const char 
 
 bool folder_inputs_has(const struct folder_inputs *all, const char *path) { return input_at(all, path); }
 
-/* Another shard may have begun meanwhile: it says whose the folder is before it writes anything else. */
-static bool is_foreign(const struct folder_output *o, struct arena *a)
-{
-    struct stat s;
-    return o->unknown && lstat(o->path, &s) == 0 && !folder_is_recorded(o->folder, a);
-}
-
 bool folder_spares(const struct folder_inputs *all, const struct folder_output *o, struct arena *a, struct err *e)
 {
     const struct input *in = input_at(all, o->path);
     struct err link = {0};
+    struct stat s;
     if (in)
         return err_set(e, ERR_CREATE,
                        "%s: the output %s would overwrite the input %s (%s): write into another folder with -o, or "
                        "change the name; nothing was written",
                        o->whose, o->path, in->file, in->what);
-    if (is_foreign(o, a))
+    /* Another shard may have begun meanwhile: it says whose the folder is before it writes anything else. */
+    if (o->unknown && lstat(o->path, &s) == 0 && !folder_is_recorded(o->folder, a))
         return err_set(e, ERR_CREATE,
                        "%s: is there already, and nothing says of which design: choose another folder with -o, or say "
                        "--replace, and the folder is this design's from now on; nothing was "
@@ -421,18 +406,6 @@ static bool is_of_another(const struct walk *x, const char *path, const char *na
     return is;
 }
 
-/* Of a file that a record lists, and that is there: somebody changed it. */
-static bool was_changed(const char *path, const struct record *r, const char *file)
-{
-    char hex[HASH_TEXT];
-    struct err unreadable = {0};
-    bool same = false;
-    if (!hash_file(path, hex, &unreadable)) return true;
-    for (int i = 0; i < r->n_files && !same; i++) /* one that was about to be replaced is listed twice */
-        same = !strcmp(r->files[i].path, file) && !strcmp(r->files[i].sha256, hex);
-    return !same;
-}
-
 static void remove_file(struct walk *x, const char *file)
 {
     const char *folder = x->wanted->folder, *slash = strrchr(file, '/');
@@ -452,15 +425,19 @@ static void take_stale(struct walk *x, const char *name, const struct record *r)
     bool changed = false;
     for (int i = 0; i < r->n_files; i++) {
         struct stat s;
+        char hex[HASH_TEXT];
         const char *file = r->files[i].path, *path = arena_format(x->arena, "%s/%s", w->folder, file);
-        bool again = false;
+        bool again = false, same = false;
         for (int k = 0; k < n; k++)
             again = again || !strcmp(files[k], file);
         if (again || r->files[i].raw || lstat(path, &s) != 0 || !S_ISREG(s.st_mode) ||
             folder_inputs_has(w->inputs, path) || is_of_another(x, file, name))
             continue;
         files[n++] = file;
-        changed = changed || was_changed(path, r, file);
+        bool readable = hash_file(path, hex, &(struct err){0});
+        for (int k = 0; readable && k < r->n_files; k++) /* one that was about to be replaced is listed twice */
+            same = same || (!strcmp(r->files[k].path, file) && !strcmp(r->files[k].sha256, hex));
+        changed = changed || !same;
     }
     files[n++] = arena_format(x->arena, "%s.json", name);
     for (int i = 0; i < n; i++)

@@ -158,16 +158,6 @@ static void parse_measured(const json_t *j, struct arena *a, struct record *r)
     r->audio = json_value_text_of(j, "audio_sha256", a);
 }
 
-static void parse_warnings(const json_t *list, struct arena *a, struct record *r)
-{
-    size_t n = json_array_size(list);
-    r->warnings = ARENA_TAKE(a, const char *, n + 1);
-    for (size_t i = 0; i < n; i++) {
-        const char *text = json_string_value(json_array_get(list, i));
-        r->warnings[i] = arena_text(a, text ? text : "");
-    }
-}
-
 bool record_parse(const char *text, size_t n, const char *name, struct arena *a, struct record *r)
 {
     json_t *j = json_loadb(text, n, 0, NULL);
@@ -182,7 +172,12 @@ bool record_parse(const char *text, size_t n, const char *name, struct arena *a,
          r->status--)
         ;
     parse_measured(json_object_get(j, "measured"), a, r);
-    parse_warnings(json_object_get(j, "warnings"), a, r);
+    const json_t *warnings = json_object_get(j, "warnings");
+    r->warnings = ARENA_TAKE(a, const char *, json_array_size(warnings) + 1);
+    for (size_t i = 0; i < json_array_size(warnings); i++) {
+        const char *warning = json_string_value(json_array_get(warnings, i));
+        r->warnings[i] = arena_text(a, warning ? warning : "");
+    }
     ok = ok && r->encoding >= 0 && r->encoding <= 3;
     json_decref(j);
     r->render = ok ? arena_format(a, "%.*s", (int)n, text) : NULL;

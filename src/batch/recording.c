@@ -48,9 +48,7 @@ static bool find_gain(const struct set *set, const char *file, const struct meas
     if (!isnan(l->rms))
         *gain = real_exp10(l->rms / 20) / m->rms;
     else if (isnan(l->lufs))
-        *gain = fmin(real_exp10(l->peak / 20),
-                     set->encoding <= ENCODING_PCM24 ? 1 - ldexp(1, set->encoding == ENCODING_PCM16 ? -15 : -23) : 1) /
-                m->peak;
+        *gain = fmin(real_exp10(l->peak / 20), set_largest(set->encoding)) / m->peak;
     else if (isnan(m->lufs))
         return err_set(e, ERR_SCENE,
                        "%s: its loudness cannot be measured: BS.1770 needs 0.4 s that are not nearly silent, and its "

@@ -134,47 +134,30 @@ static struct trial *trial_open(void)
     return t;
 }
 
-/* File names are seen from the base scene: where all lies does not count. */
-static void hash_scene(struct trial *t)
-{
-    const struct scene *s = &t->scene;
-    const char *text = scene_write(s, relpath_folder(s->sources[0], t->arena), t->arena);
-    hash_bytes(text, strlen(text), t->sha256);
-}
-
-/* The texts it was read from lie in the file cache from now on, which knows whether they change while the set is
- * rendered: each stimulus reads them once more. */
-static bool watch_sources(const struct planning *p, struct trial *t)
-{
-    for (const char *const *file = t->scene.sources; *file; file++)
-        if (!file_cache_sha256(p->ask->file_cache, *file, t->arena, &t->e)) return false;
-    return true;
-}
-
 /* The level that is asked of it in the end, by itself or with the others of a common one. */
 static struct level wants(const struct planning *p, const struct scene *s)
 {
     return p->set->level_rule == DESIGN_LEVEL_SCENE ? s->output.level : p->set->level;
 }
 
-static bool draws(const struct scene *s)
-{
-    for (int i = 0; i < s->n_contacts; i++)
-        if (s->contacts[i].motion.path == PATH_SCRIBBLE) return true;
-    return false;
-}
-
 static bool estimate(const struct planning *p, int i, struct look *l)
 {
     struct plan_scene_estimate x;
-    struct trial *t = l->trial;
+    struct trial *t = l->trial = trial_open();
     struct scene *s = &t->scene;
     bool read = design_scene(p->set->design, i, t->arena, s, &t->messages, &t->e);
     t->diag = s->diag;
-    if (!read || !watch_sources(p, t)) return false;
+    /* The texts it was read from lie in the file cache from now on, which knows whether they change while the set is
+       rendered: each stimulus reads them once more. */
+    for (const char *const *file = s->sources; read && *file; file++)
+        read = file_cache_sha256(p->ask->file_cache, *file, t->arena, &t->e);
+    if (!read) return false;
     s->file_cache = p->ask->file_cache;
-    hash_scene(t);
-    l->drawn = draws(s);
+    /* File names are seen from the base scene: where all lies does not count. */
+    const char *text = scene_write(s, relpath_folder(s->sources[0], t->arena), t->arena);
+    hash_bytes(text, strlen(text), t->sha256);
+    for (int k = 0; k < s->n_contacts; k++)
+        l->drawn = l->drawn || s->contacts[k].motion.path == PATH_SCRIBBLE;
     set_lay(p->set, s);
     design_scene_places(p->set->design, s, t->arena);
     if (!plan_scene_estimate(s, t->arena, &x, &t->e)) return scene_places_report(s, &t->e);
@@ -193,27 +176,11 @@ static bool estimate(const struct planning *p, int i, struct look *l)
     return true;
 }
 
-static void look_at(const struct planning *p, int i, struct look *l)
-{
-    l->trial = trial_open();
-    estimate(p, i, l);
-}
-
 static long frames_of(const struct look *l, double seconds) { return (long)rint(seconds * l->rate); }
 
 static bool is_short(const struct look *l, double seconds)
 {
     return l->sounds && l->loud && frames_of(l, seconds) < loudness_least(l->rate);
-}
-
-static void report_short(const struct planning *p, int i, double seconds, struct look *l)
-{
-    struct trial *t = l->trial = trial_open();
-    struct scene *s = &t->scene;
-    if (!design_scene(p->set->design, i, t->arena, s, &t->messages, &t->e)) return;
-    s->output.level = wants(p, s);
-    design_scene_places(p->set->design, s, t->arena);
-    if (!sound_long_enough(s, frames_of(l, seconds), &t->e)) scene_places_report(s, &t->e);
 }
 
 /* ------------------------------------------------------------------ one form */
@@ -341,7 +308,7 @@ static void note_files(struct planning *p, int i, const struct scene *scene)
 static bool look(void *context, int i)
 {
     struct planning *p = context;
-    if (p->now[i]) look_at(p, i, &p->looks[i]);
+    if (p->now[i]) estimate(p, i, &p->looks[i]);
     return !p->now[i] || !interrupt_seen();
 }
 
@@ -447,19 +414,6 @@ static void look_at_recordings(struct planning *p)
     }
 }
 
-static void look_at_levels_of_recordings(struct planning *p)
-{
-    struct set *s = p->set;
-    for (int i = 0; i < s->n; i++) {
-        struct look *l = &p->looks[i];
-        const char *file = recording_of(p, i);
-        if (!file || l->fault) continue;
-        l->trial = trial_open();
-        if (!recording_check_level(file, s, &l->trial->e)) design_scene_recording(p->set->design, i, &l->trial->e);
-        conclude(p, i, l);
-    }
-}
-
 static double seconds_of(const struct set *s, const struct look *l)
 {
     return isnan(s->length) ? l->seconds : s->length;
@@ -481,37 +435,31 @@ static bool may_be_short(const struct planning *p)
 static void look_at_levels(struct planning *p)
 {
     struct set *s = p->set;
-    look_at_levels_of_recordings(p);
+    for (int i = 0; i < s->n; i++) {
+        struct look *l = &p->looks[i];
+        const char *file = recording_of(p, i);
+        if (!file || l->fault) continue;
+        l->trial = trial_open();
+        if (!recording_check_level(file, s, &l->trial->e)) design_scene_recording(s->design, i, &l->trial->e);
+        conclude(p, i, l);
+    }
     for (int i = 0, some = may_be_short(p); some && i < s->n; i++) {
         struct look *l = &p->looks[p->first[i]];
         double seconds = seconds_of(s, l);
         if (recording_of(p, i) || (p->first[i] == i ? l->fault || !is_short(l, seconds) : !l->brief)) continue;
-        if (p->first[i] == i) report_short(p, i, seconds, l);
+        if (p->first[i] == i) {
+            struct trial *t = l->trial = trial_open();
+            bool read = design_scene(s->design, i, t->arena, &t->scene, &t->messages, &t->e);
+            if (read) {
+                t->scene.output.level = wants(p, &t->scene);
+                design_scene_places(s->design, &t->scene, t->arena);
+            }
+            if (read && !sound_long_enough(&t->scene, frames_of(l, seconds), &t->e))
+                scene_places_report(&t->scene, &t->e);
+        }
         l->brief = true;
         conclude(p, i, l);
     }
-}
-
-static void find_length(const struct planning *p)
-{
-    struct set *s = p->set;
-    double longest = 0;
-    for (int i = 0; i < s->n; i++)
-        longest = fmax(longest, p->looks[p->first[i]].seconds);
-    if (p->set->design->length_rule == DESIGN_LENGTH_LONGEST) s->length = longest;
-}
-
-static void note_length(struct set_plan *o, int i, double seconds)
-{
-    if (!o->n_sounds || seconds < o->least) {
-        o->least = seconds;
-        o->shortest = i;
-    }
-    if (!o->n_sounds || seconds > o->most) {
-        o->most = seconds;
-        o->longest = i;
-    }
-    o->n_sounds++;
 }
 
 static void add_up(const struct planning *p)
@@ -524,34 +472,23 @@ static void add_up(const struct planning *p)
         s->cost[i] = fmax(1, l->seconds > 0 ? l->cost * seconds / l->seconds : l->cost);
         s->lengths[i] = seconds;
         o->seconds += l->sounds ? seconds : 0;
-        if (l->sounds) note_length(o, i, l->seconds);
+        if (l->sounds && (!o->n_sounds || l->seconds < o->least)) {
+            o->least = l->seconds;
+            o->shortest = i;
+        }
+        if (l->sounds && (!o->n_sounds || l->seconds > o->most)) {
+            o->most = l->seconds;
+            o->longest = i;
+        }
+        o->n_sounds += l->sounds;
         o->cycles += s->cost[i];
         o->bytes += samples * l->bits / 8;
         o->raw_bytes += set_waits(s) && !s->design->stimuli[i].recording ? samples * 8 : 0;
     }
 }
 
-static bool report(const struct set_plan *p, const struct set *s, const char *folder, struct err *e)
-{
-    int n = 0;
-    for (int k = 0; k < p->n_faults; k++)
-        n += p->faults[k].n;
-    return !p->n_faults || err_set(e, p->worst, "%d of %d stimuli cannot be rendered%s", n, s->n,
-                                   folder ? "; nothing was written" : "");
-}
-
-/* What the design was read from is known to the file cache, which sees whether it changes; a pipe is read and gone. */
-static bool watch_design(const struct set *s, const struct set_plan_ask *ask, struct arena *a, struct err *e)
-{
-    struct stat status;
-    for (const char *const *file = s->design->sources; *file; file++)
-        if (stat(*file, &status) == 0 && S_ISREG(status.st_mode) && !file_cache_sha256(ask->file_cache, *file, a, e))
-            return false;
-    return true;
-}
-
 /* Nothing that the set writes is one of its inputs, or anybody's. */
-static bool cmd_spares(const struct planning *p, struct err *e)
+static bool spares(const struct planning *p, struct err *e)
 {
     static const char *const own[] = {".json", ".wav", NULL}, *const tables[] = {"manifest.csv", "manifest.json",
                                                                                  "SHA256SUMS", "timings.csv", NULL};
@@ -597,9 +534,13 @@ bool set_plan(struct set *s, const struct set_plan_ask *ask, struct arena *a, st
     *out = (struct set_plan){.inputs = folder_inputs(a)};
     s->cost = ARENA_TAKE(a, double, s->n);
     s->lengths = ARENA_TAKE(a, double, s->n);
-    if (!watch_design(s, ask, a, e)) return false;
-    for (const char *const *file = s->design->sources; *file; file++)
+    /* The file cache knows what the design was read from and sees whether it changes; a pipe is read and gone. */
+    for (const char *const *file = s->design->sources; *file; file++) {
+        struct stat status;
+        if (stat(*file, &status) == 0 && S_ISREG(status.st_mode) && !file_cache_sha256(ask->file_cache, *file, a, e))
+            return false;
         folder_inputs_add_file(out->inputs, *file, "the design");
+    }
     find_first(&p);
     hash_add(&p.scenes, s->design->sha256, HASH_TEXT);
     if (!look_at_all(&p, e) || (find_drawn(&p) && !look_at_all(&p, e))) return false;
@@ -607,10 +548,19 @@ bool set_plan(struct set *s, const struct set_plan_ask *ask, struct arena *a, st
     look_at_recordings(&p);
     hash_end(&p.scenes, sha256);
     s->sha256 = sha256;
-    find_length(&p);
+    double longest = 0;
+    for (int i = 0; i < s->n; i++)
+        longest = fmax(longest, p.looks[p.first[i]].seconds);
+    if (s->design->length_rule == DESIGN_LENGTH_LONGEST) s->length = longest;
     look_at_levels(&p);
     add_up(&p);
-    return report(out, s, ask->folder, e) && (!ask->folder || cmd_spares(&p, e));
+    int faults = 0;
+    for (int k = 0; k < out->n_faults; k++)
+        faults += out->faults[k].n;
+    if (out->n_faults)
+        return err_set(e, out->worst, "%d of %d stimuli cannot be rendered%s", faults, s->n,
+                       ask->folder ? "; nothing was written" : "");
+    return !ask->folder || spares(&p, e);
 }
 
 void set_plan_close(struct set_plan *p)
@@ -683,7 +633,7 @@ void set_loudest_add(struct set_loudest *l, const struct set_measured *m)
     l->any = l->any || m->peak > 0;
 }
 
-static double largest(int encoding)
+double set_largest(int encoding)
 {
     return encoding == ENCODING_PCM16 ? 1 - ldexp(1, -15) : encoding == ENCODING_PCM24 ? 1 - ldexp(1, -23) : 1;
 }
@@ -696,7 +646,7 @@ bool set_gain(const struct set *s, const struct set_loudest *l, double *full_sca
     if (!isnan(level->rms))
         *full_scale = l->rms / real_exp10(level->rms / 20);
     else if (isnan(level->lufs))
-        *full_scale = l->peak / fmin(real_exp10(level->peak / 20), largest(l->encoding));
+        *full_scale = l->peak / fmin(real_exp10(level->peak / 20), set_largest(l->encoding));
     else if (isinf(l->lufs))
         return err_set(e, ERR_SCENE,
                        "level: lufs: no stimulus of the set has a loudness that BS.1770 can measure (0.4 s or more "

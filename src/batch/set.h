@@ -117,6 +117,9 @@ struct set_measured { /* of one stimulus at full_scale 1 */
 struct set_loudest set_loudest(void);
 void set_loudest_add(struct set_loudest *l, const struct set_measured *m);
 
+/* The largest value of an encoding. */
+double set_largest(int encoding);
+
 /* output.level.full_scale of the whole set (set_waits). 1 if all are silent. ERR_SCENE: the loudness of none can be
  * measured */
 bool set_gain(const struct set *s, const struct set_loudest *l, double *full_scale, struct err *e);

@@ -105,13 +105,6 @@ static bool has_files(const struct work *w)
     return there;
 }
 
-static enum stimulus_state state_of(const struct work *w)
-{
-    if (!w->was) return STIMULUS_NEW;
-    if (strcmp(w->was->key, w->key) != 0) return STIMULUS_KEY;
-    return w->was->status != RECORD_MAKING && has_files(w) ? STIMULUS_THERE : STIMULUS_FILE;
-}
-
 static bool begin(struct work *w, const struct stimulus_set *k, int i, struct arena *a, struct err *e)
 {
     const struct design_stimulus *x = &k->set->design->stimuli[i];
@@ -120,7 +113,10 @@ static bool begin(struct work *w, const struct stimulus_set *k, int i, struct ar
     if (!(w->file ? read_recording(w, e) : read_scene(w, e))) return false;
     struct record *r = ARENA_TAKE(a, struct record, 1);
     w->was = record_read(k->folder, w->name, a, r) ? r : NULL;
-    w->state = state_of(w);
+    w->state = !w->was                                           ? STIMULUS_NEW
+               : strcmp(w->was->key, w->key) != 0                ? STIMULUS_KEY
+               : w->was->status != RECORD_MAKING && has_files(w) ? STIMULUS_THERE
+                                                                 : STIMULUS_FILE;
     return true;
 }
 
@@ -197,32 +193,20 @@ static struct record making(const struct work *w, const struct record *to)
     return r;
 }
 
-static bool lists(const struct record *r, const char *path)
-{
-    for (int k = 0; k < r->n_files; k++)
-        if (!strcmp(r->files[k].path, path)) return true;
-    return false;
-}
-
 /* Files of before that are not written any more, unless somebody changed them. */
 static void remove_old(const struct work *w, const struct record *to)
 {
     for (int k = 0; w->was && k < w->was->n_files; k++) {
         const struct record_file *f = &w->was->files[k];
         char hex[HASH_TEXT];
-        struct err unreadable = {0};
         const char *path = arena_format(w->arena, "%s/%s", w->k->folder, f->path);
-        if (!lists(to, f->path) && !folder_inputs_has(w->k->inputs, path) && hash_file(path, hex, &unreadable) &&
+        bool listed = false;
+        for (int i = 0; i < to->n_files; i++)
+            listed = listed || !strcmp(to->files[i].path, f->path);
+        if (!listed && !folder_inputs_has(w->k->inputs, path) && hash_file(path, hex, &(struct err){0}) &&
             !strcmp(hex, f->sha256))
             unlink(path);
     }
-}
-
-static bool inputs_same(const struct work *w, struct err *e)
-{
-    if (!w->file) return inputs_still(&w->inputs, e) || scene_places_report(&w->scene, e);
-    return !watch_changed(&w->inputs) ||
-           err_set(e, ERR_INPUT, "%s: has changed while it was copied: run the same command again", w->file);
 }
 
 /* If all is complete (`whole`), gives the files their names between two records; then *w has the new one as its own. */
@@ -230,7 +214,11 @@ static bool commit(struct work *w, const struct record *to, struct made *m, bool
 {
     const struct record before = making(w, to);
     interrupt_hold();
-    bool ok = whole && inputs_same(w, e) && record_write(w->k->folder, w->name, &before, e);
+    if (whole && !w->file)
+        whole = inputs_still(&w->inputs, e) || scene_places_report(&w->scene, e);
+    else if (whole && watch_changed(&w->inputs))
+        whole = err_set(e, ERR_INPUT, "%s: has changed while it was copied: run the same command again", w->file);
+    bool ok = whole && record_write(w->k->folder, w->name, &before, e);
     if (!ok) drop(m);
     ok = ok && give(m, e);
     if (ok) remove_old(w, to);
@@ -255,21 +243,17 @@ static bool add_file(struct record *r, const char *kind, const char *path, bool 
     return true;
 }
 
-/* As far as it is the same everywhere: the meter's filter has its coefficients from libm. */
-static double rounded(double x)
-{
-    char text[40];
-    snprintf(text, sizeof text, "%.8g", x);
-    return strtod(text, NULL);
-}
-
 /* What the WAV holds. */
 static bool measure(struct record *r, const char *path, struct arena *a, struct err *e)
 {
     struct measure m;
+    char text[40];
     if (!measure_cut(path, NULL, true, &m, e)) return false;
     r->channels = m.channels;
-    r->file_peak = m.peak, r->file_rms = m.rms, r->file_lufs = m.lufs, r->true_peak = rounded(m.true_peak);
+    r->file_peak = m.peak, r->file_rms = m.rms, r->file_lufs = m.lufs;
+    /* As far as it is the same everywhere: the meter's filter has its coefficients from libm. */
+    snprintf(text, sizeof text, "%.8g", m.true_peak);
+    r->true_peak = strtod(text, NULL);
     r->audio = arena_text(a, m.audio);
     return true;
 }
@@ -488,22 +472,19 @@ static void add_warnings(const struct work *w, const struct made *m, struct reco
     r->warnings = all;
 }
 
-static void set_gain_json(json_t *sound, double gain)
-{
-    double peak = json_number_value(json_object_get(sound, "peak")),
-           rms = json_number_value(json_object_get(sound, "rms"));
-    json_object_set_new(sound, "gain", json_real(gain));
-    json_object_set_new(sound, "gain_db", json_real(20 * real_log10(gain)));
-    json_object_set_new(sound, "peak_dbfs", json_value_number(20 * real_log10(gain * peak)));
-    json_object_set_new(sound, "rms_dbfs", json_value_number(20 * real_log10(gain * rms)));
-}
-
 /* The render's text, with the gain and the files that it has now. */
 static const char *render_text(const struct work *w, const struct made *m, const struct record *r)
 {
     json_t *j = json_loads(r->render, 0, NULL), *sound = json_object_get(j, "sound"), *file;
     size_t i;
-    if (sound) set_gain_json(sound, r->gain);
+    if (sound) {
+        double peak = json_number_value(json_object_get(sound, "peak")),
+               rms = json_number_value(json_object_get(sound, "rms"));
+        json_object_set_new(sound, "gain", json_real(r->gain));
+        json_object_set_new(sound, "gain_db", json_real(20 * real_log10(r->gain)));
+        json_object_set_new(sound, "peak_dbfs", json_value_number(20 * real_log10(r->gain * peak)));
+        json_object_set_new(sound, "rms_dbfs", json_value_number(20 * real_log10(r->gain * rms)));
+    }
     for (int k = 0; k < m->n; k++) {
         const char *name = basename(m->files[k].path);
         json_array_foreach(json_object_get(j, "files"), i, file)
