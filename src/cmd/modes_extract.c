@@ -10,6 +10,7 @@
 
 #include "base/interrupt.h"
 #include "base/outfile.h"
+#include "base/relpath.h"
 #include "file/csv.h"
 #include "file/wav.h"
 #include "num/real.h"
@@ -69,19 +70,20 @@ static bool together(struct modes_extract *x, struct err *e)
     return true;
 }
 
+static const char *const output_names[MODES_EXTRACT_FILES] = {"--output", "--residual", "--resynthesis", "--plot"};
+
 /* Outputs: each may be written (output/mark.h), and no two are one file. */
 static bool outputs(struct modes_extract *x, struct err *e)
 {
-    static const char *const names[MODES_EXTRACT_FILES] = {"output", "residual", "resynthesis", "plot"};
     struct modes_extract_given *g = &x->given;
     bool force = args_given(&x->c->args, "force");
     for (int k = 0; k < MODES_EXTRACT_FILES; k++) {
-        const char *file = g->file[k] = args_value(&x->c->args, names[k]);
+        const char *file = g->file[k] = args_value(&x->c->args, output_names[k] + 2);
         if (file && !(k == MODES_EXTRACT_TABLE ? mark_absent(file, force, e) : mark_permits(file, NULL, force, e)))
             return false;
         for (int i = 0; file && i < k; i++)
-            if (g->file[i] && !strcmp(file, g->file[i]))
-                return err_set(e, ERR_USAGE, "--%s and --%s are both %s", names[i], names[k], file);
+            if (g->file[i] && !strcmp(relpath_make(file, NULL, x->arena), relpath_make(g->file[i], NULL, x->arena)))
+                return err_set(e, ERR_USAGE, "%s and %s are both %s", output_names[i], output_names[k], file);
     }
     const char *plot = g->file[MODES_EXTRACT_PLOT];
     g->svg = plot && rules_ends_in(plot, ".svg");
@@ -195,13 +197,10 @@ static bool distinct(const struct modes_extract *x, struct err *e)
                     q->shown, p->shown, p->x, p->y);
     }
     for (int k = 0; k < MODES_EXTRACT_FILES; k++)
-        for (int i = 0; i <= x->n; i++) {
-            const char *from = i < x->n ? x->place[i].file : x->index, *to = x->given.file[k];
-            struct stat s, t;
-            if (from && to && stat(from, &s) == 0 && stat(to, &t) == 0 && s.st_dev == t.st_dev && s.st_ino == t.st_ino)
-                return err_set(e, ERR_CREATE, "the output %s would overwrite the input %s; give it another name", to,
-                               from);
-        }
+        for (int i = 0; i <= x->n; i++)
+            if (!cmd_spares(x->given.file[k], output_names[k], i < x->n ? x->place[i].file : x->index, "another name",
+                            e))
+                return false;
     return true;
 }
 
