@@ -363,7 +363,8 @@ struct list {
     struct cmd_call *c;
     struct line *line;
     int n, places, quantity;
-    bool moves; /* places mean something */
+    bool moves;           /* places mean something */
+    const char *relative; /* no unit: how a table's gains are normalised */
 };
 
 static void start(struct list *l, int n, int quantity)
@@ -389,6 +390,8 @@ static bool from_table(struct list *l, const char *file, struct err *e)
     start(l, (int)t.modes, t.quantity);
     l->places = (int)t.places;
     l->moves = t.places > 1;
+    const char *normalisation = csv_comment(&t.csv, "normalisation");
+    l->relative = normalisation && !strncmp(normalisation, "relative", 8) ? normalisation : NULL;
     for (size_t k = 0; k < t.first[t.places]; k++) {
         const struct mode_entry *v = &t.entry[k];
         for (int i = 0; i < v->n; i++) /* a mode of several slopes counts with each */
@@ -480,7 +483,10 @@ static int modes_list_run(struct cmd_call *c, struct err *e)
         if (l.moves) printf(" %12.6g %12.6g", v->x, v->y);
         putchar('\n');
     }
-    printf("gains in %s/(N s)\n", modes_quantity_unit(l.quantity));
+    if (l.relative)
+        printf("gains of %s, %s\n", modes_quantity_name(l.quantity), l.relative);
+    else
+        printf("gains in %s/(N s)\n", modes_quantity_unit(l.quantity));
     return 0;
 }
 
@@ -690,12 +696,12 @@ const struct command modes_command = {
     .does =
         "rasp modes object RECIPE -o FILE.csv: the modes of an object of simple shape as a mode table: their "
         "frequencies, decays, and gains at places. RECIPE is a YAML file of surface keys, as in irs/, or a scene. "
-        "Places are lengths in the object's own coordinates: of bars, rods, strings, plates and membranes x from 0 to "
+        "Places are lengths in its own coordinates: of bars, rods, strings, plates and membranes x from 0 to "
         "the length and y from 0 to the width, of what is round from the centre, of a shell along great circles from a "
         "pole. Without --line, --grid or --at they are a line along what is slender, a grid on what is flat, rings on "
         "what is round (as many as --grid says), a shell's pole, and of a scraper or ball its object.at. The table has "
         "them where they lie in the scene, moved by surface.object.origin. Rendering needs no such file: a scene's "
-        "surface.object gives the same modes anywhere. A table is for other programs and for changes.\n"
+        "surface.object gives the same modes anywhere.\n"
         "rasp modes compute MESH -o FILE.csv: the modes of any solid by finite elements. MESH is a mesh of tetrahedra, "
         "of Gmsh (.msh, versions 2.2 and 4.1) or TetGen (.node, .ele); or --shape makes one: plate, bar, rod, ring, "
         "bowl, sphere, mug (--shape help lists their sizes). At default fineness and order the 60 lowest modes of "
@@ -710,22 +716,22 @@ const struct command modes_command = {
         "along what is slender. A table that was made from the same inputs and has not been changed since is left as "
         "it is.\n"
         "rasp modes extract RECORDING... -o FILE.csv: the modes of a real object from recordings in which it is "
-        "struck. RECORDING is a sound file with one strike or many on one place. The strikes are found, and the "
-        "recording itself is fitted: every strike has gains of its own; frequencies and decays are those of all, "
-        "within what strikes differ by. A hammer's force (--force-channel) drives the modes, else a strike is an "
-        "impulse. No mode is reported that noise might have made; two decays of one frequency are. What does not decay "
-        "is a hum, and no mode. Strikes that clip or are 30 dB quieter than the loudest sound are left out. Modes that "
-        "explain less than nine tenths of what lags the force, or less than half in a strike, make no table, nor do "
-        "those of different objects. Without a force channel a second hit 5 to 100 ms after the first is mostly not "
-        "seen, and the table holds the spectrum of both: listen, and cut such strikes out. Several places are FILE@X,Y "
-        "each, or one folder with index.csv (columns file_name,x_m,y_m): they share frequencies and decays. The sound "
-        "is taken for a microphone's pressure unless --quantity says what else it is. Without a force each place has a "
-        "level and an onset of its own, so that places cannot be compared with each other. Levels are physical where "
-        "--scale and --force-scale are given and the sound is a vibration, or a pressure with --radius and --distance; "
-        "else relative, and the table says why. Errors stand in the report and in the table's comments: se, by noise, "
-        "and se_between, the standard deviation from strike to strike. The report's median decay counts all modes "
-        "alike, its median by energy is the decay that half of the energy is slower than: the one to compare materials "
-        "by.\n"
+        "struck. RECORDING holds one strike or many on one place. It is fitted itself: every strike has gains of its "
+        "own; frequencies and decays are those of all, within what strikes differ by. A hammer's force (--force- "
+        "channel) drives the modes, else a strike is an impulse. No mode is reported that noise might have made; two "
+        "decays of one frequency are. A hum, which does not decay or was as loud before the first strike, is no mode. "
+        "Strikes that clip, are doubled by a bouncing hammer or 30 dB quieter than the loudest sound are left out; 8 "
+        "bits are mostly refused. Modes that explain less than nine tenths of what lags the force, or less than half "
+        "in a strike, make no table, nor do those of different objects. Without a force a second hit within 100 ms is "
+        "mostly not seen: listen, and cut it out. Several places are FILE@X,Y each, or one folder with index.csv "
+        "(columns file_name,x_m,y_m): they share frequencies and decays; without a force each has a level and an "
+        "onset of its own, so that places cannot be compared. The sound is a microphone's pressure unless --quantity "
+        "is given. Levels are physical where --scale and --force-scale are given and the sound is a vibration, or a "
+        "pressure with --radius and --distance; else relative, and the table says why. Report and table give errors: "
+        "se, by noise, and se_between, the standard deviation from strike to strike, of one strike a stated 0.02 % of "
+        "frequency and 5 % of decay. Modes come by their share of the energy. Modes that overlap may as well be "
+        "others: a small change of the recording may bring them out. The median decay counts all modes alike, that by "
+        "energy, to compare materials by, is what half of it is slower than.\n"
         "rasp modes list FILE: the strongest modes of a mode table, recipe or scene: frequency, time of decay by 60 "
         "dB, largest gain (in a table over its places, of an object over a grid of places, or at one place with --at).",
     .operands = "ACTION FILE",
