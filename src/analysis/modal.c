@@ -1,6 +1,7 @@
 /* From stretches to modes: search from narrow bands to wide ones until nothing comes, fit, elimination, then errors. */
 #include "analysis/modal.h"
 
+#include <gsl/gsl_sort.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -64,7 +65,7 @@ static void search(struct modal_fit *f)
     double width = samples / f->longest, least = HUGE_VAL, noise, best = HUGE_VAL;
     int surviving = 0, room = f->most + MODAL_BLOCK; /* a band brings less than a block */
     struct modal_component *c = ARENA_TAKE(f->a, struct modal_component, room);
-    struct modal_part *part = ARENA_TAKE(f->a, struct modal_part, room * f->data->groups);
+    struct modal_part *part = ARENA_TAKE(f->a, struct modal_part, room * f->data->stretches);
     for (int round = 0, came = 1, last = 0; round < ROUNDS && last < 2 && f->m < f->most; round++) {
         double power = modal_search_round(f, &noise);
         least = fmin(power / step, came > f->m / 10 ? least : least / step);
@@ -82,7 +83,7 @@ static void search(struct modal_fit *f)
         modal_converge_eliminate(f, modal_converge_limit(f, stable));
         double now = score(f);
         bool better = now < best;
-        size_t n = (size_t)(better ? f->m : surviving), size = n * (size_t)f->data->groups * sizeof *part;
+        size_t n = (size_t)(better ? f->m : surviving), size = n * (size_t)f->data->stretches * sizeof *part;
         if (n) memcpy(better ? c : f->c, better ? f->c : c, n * sizeof *c);
         if (n) memcpy(better ? part : f->part, better ? f->part : part, size);
         best = better ? now : best;
@@ -107,7 +108,7 @@ static void redraw(struct modal_block *b, const struct modal_block *was, uint64_
         noise_normal(n, row + (uint64_t)s, (size_t)(2 * bins), x);
         for (long k = 0; k < bins; k++) {
             const struct modal_bins *of = &f->bins[s];
-            double size = sqrt(0.5 * was->noise[f->data->stretch[s].group] * of->variance[b->from[s] + k]);
+            double size = sqrt(0.5 * was->noise[s] * of->variance[b->from[s] + k]);
             b->r[s][k] = was->r[s][k] - of->rr[b->from[s] + k] + size * x[2 * k];
             b->r[s][bins + k] = was->r[s][bins + k] - of->ri[b->from[s] + k] + size * x[2 * k + 1];
         }
@@ -193,38 +194,38 @@ static int by_share(const void *x, const void *y)
                                 : (a->frequency > b->frequency) - (a->frequency < b->frequency);
 }
 
-/* Numbers by falling share; components whose frequencies agree and decays do not are slopes of one mode. */
+static bool are_slopes(const struct modal_mode *a, const struct modal_mode *b)
+{
+    double se = sqrt(a->frequency_se * a->frequency_se + b->frequency_se * b->frequency_se),
+           ratio = a->decay > b->decay ? a->decay / b->decay : b->decay / a->decay;
+    return fabs(a->frequency - b->frequency) < 3.0 * se && ratio > 1.5;
+}
+
+/* Numbers by falling share; components of which each agrees with each in frequency, and with none in decay, are slopes
+ * of one mode. */
 static void number(struct modal_result *r, struct arena *a)
 {
-    int n = 0;
     qsort(r->mode, (size_t)r->n, sizeof *r->mode, by_share);
-    r->modes = 0;
+    char **decays = arena_take(a, (size_t)r->n + 1, sizeof *decays);
+    int *slopes = ARENA_TAKE(a, int, r->n + 1), *first = ARENA_TAKE(a, int, r->n + 1);
     for (int i = 0; i < r->n; i++) {
         struct modal_mode *m = &r->mode[i];
-        m->mode = 0;
-        for (int k = 0; k < n && !m->mode; k++) {
-            struct modal_mode *o = &r->mode[k];
-            double se = sqrt(m->frequency_se * m->frequency_se + o->frequency_se * o->frequency_se),
-                   ratio = m->decay / o->decay;
-            if (fabs(m->frequency - o->frequency) < 3.0 * se && (ratio > 1.5 || ratio < 1.0 / 1.5)) {
-                m->mode = o->mode;
-                m->slope = 2;
-                for (int l = k + 1; l < n; l++)
-                    m->slope += r->mode[l].mode == o->mode;
-            }
+        for (int k = 1; k <= r->modes && !m->mode; k++) {
+            bool all = true;
+            for (int j = 0; j < i; j++)
+                all = all && (r->mode[j].mode != k || are_slopes(m, &r->mode[j]));
+            if (all) m->mode = k;
         }
-        if (!m->mode) {
-            m->mode = ++r->modes;
-            m->slope = 1;
-        }
-        if (m->slope == 2)
-            for (int k = 0; k < n; k++)
-                if (r->mode[k].mode == m->mode && r->mode[k].slope == 1)
-                    note(r, a,
-                         arena_format(a, "%.6g Hz decays with two slopes: %.3g/s and %.3g/s", r->mode[k].frequency,
-                                      r->mode[k].decay, m->decay));
-        r->mode[n++] = *m;
+        if (!m->mode) first[m->mode = ++r->modes] = i;
+        m->slope = ++slopes[m->mode];
+        decays[m->mode] =
+            arena_format(a, m->slope == 1 ? "%s%.3g/s" : "%s, %.3g/s", m->slope == 1 ? "" : decays[m->mode], m->decay);
     }
+    for (int k = 1; k <= r->modes; k++)
+        if (slopes[k] > 1)
+            note(r, a,
+                 arena_format(a, "%.6g Hz decays with %s slopes: %s", r->mode[first[k]].frequency,
+                              slopes[k] == 2 ? "two" : arena_format(a, "%d", slopes[k]), decays[k]));
 }
 
 struct energies {               /* of a stretch's rest */
@@ -279,8 +280,10 @@ static void sounds(struct modal_fit *f, const struct energies *fit, struct modal
             re[b->first + k] = (b->yr[k] - b->rr[k]) / sqrt((double)st->n);
             im[b->first + k] = (b->yi[k] - b->ri[k]) / sqrt((double)st->n);
         }
-        r->noise[st->place] += 2.0 * fit[s].noise;
-        count[st->place] += (double)st->n;
+        if (st->fitted || st->strike < 0) {
+            r->noise[st->place] += 2.0 * fit[s].noise;
+            count[st->place] += (double)st->n;
+        }
         r->model[s] = ARENA_TAKE(a, double, st->n);
         struct fft *fft = fft_open((size_t)st->n);
         fft_inverse(fft, re, im, r->model[s]);
@@ -290,29 +293,20 @@ static void sounds(struct modal_fit *f, const struct energies *fit, struct modal
         r->noise[p] = count[p] > 0.0 ? sqrt(r->noise[p] / count[p]) : 0.0;
 }
 
-/* Gains of the stretches in only (NULL: of all that are fitted), poles as they are: by blocks of neighbours in turn. */
-static void fit_gains(struct modal_fit *f, const bool *only)
+/* Gains, poles as they are: by blocks of neighbours in turn. */
+static void fit_gains(struct modal_fit *f)
 {
     const struct modal_data *d = f->data;
     for (int i = 0; i < GAIN_ROUNDS * f->m; i++) {
         struct arena *a = arena_open();
         struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
         int of[MODAL_BLOCK], n = modal_converge_near(f, i % f->m, 12, of);
-        modal_block_open(b, f, n, of, NULL, 0, only, a);
+        modal_block_open(b, f, n, of, NULL, 0, a);
         modal_block_gains(b);
         for (int k = 0; k < n; k++)
-            modal_fit_replace(f, of[k], f->c[of[k]].s, b->part + k * d->groups);
+            modal_fit_replace(f, of[k], f->c[of[k]].s, b->part + k * d->stretches);
         arena_close(a);
     }
-}
-
-/* Gains in the strikes that are not fitted. */
-static void predict(struct modal_fit *f)
-{
-    bool *only = ARENA_TAKE(f->a, bool, f->data->stretches), any = false;
-    for (int s = 0; s < f->data->stretches; s++)
-        any = (only[s] = !f->data->stretch[s].fitted && f->data->stretch[s].strike >= 0) || any;
-    if (any) fit_gains(f, only);
 }
 
 /* What decays faster than is wanted goes, the fastest first. */
@@ -326,37 +320,45 @@ static bool drop_fastest(struct modal_fit *f)
     return any;
 }
 
-/* Is it as loud in all strikes, within 12 dB, as nothing is that they strike? */
-static bool lasts(const struct modal_fit *f, int i)
+/* Is it a hum? It is as loud in all strikes, within 12 dB, as nothing is that they strike; or before the first strike
+   at least half as loud as after most. */
+static bool hums(const struct modal_fit *f, int i, bool undamped)
 {
-    double size[MODAL_STRETCHES], least = HUGE_VAL, most = 0.0;
+    double size[MODAL_STRETCHES], of[MODAL_STRETCHES], lead = 0.0;
+    int n = 0;
     modal_fit_sizes(f, i, size);
-    for (int s = 0; s < f->data->stretches; s++)
-        if (f->data->stretch[s].fitted) {
-            least = fmin(least, size[s]);
-            most = fmax(most, size[s]);
-        }
-    return most < 4.0 * least;
+    for (int s = 0; s < f->data->stretches; s++) {
+        if (f->data->stretch[s].fitted) of[n++] = size[s];
+        if (f->data->stretch[s].strike < 0) lead = fmax(lead, modal_fit_lead(f, s, f->c[i].s));
+    }
+    gsl_sort(of, 1, (size_t)n);
+    return (undamped && of[n - 1] < 4.0 * of[0]) || lead > 0.5 * of[n / 2];
 }
 
-/* What does not decay by more than chance is no mode: a hum, which stays in the fit, or what a fit of noise needs. Of
- * those the weakest goes first, the others fitted anew: they may decay without it. Returns how many there were. */
-static int drop_undamped(struct modal_fit *f)
+/* What does not decay by more than chance, or has no gain of more, is no mode: a hum, which stays in the fit, or what a
+   fit of noise needs. Of those the weakest goes first, the others fitted anew: they may decay without it. Returns how
+   many there were. */
+static int drop_uncertain(struct modal_fit *f)
 {
     struct arena *a = arena_open();
-    struct modal_mode m = {.gain_se = ARENA_TAKE(a, double, f->data->groups),
-                           .gain_shared = ARENA_TAKE(a, double, f->data->groups)};
+    const int stretches = f->data->stretches;
+    struct modal_mode m = {.gain_se = ARENA_TAKE(a, double, stretches),
+                           .gain_shared = ARENA_TAKE(a, double, stretches)};
     int dropped = 0;
     for (;; dropped++) {
         double least = HUGE_VAL;
         int weakest = -1;
         for (int i = 0; i < f->m; i++) {
+            if (f->c[i].hum) continue;
             m.decay = -f->c[i].s.re;
-            if (f->c[i].hum || m.decay > 2.0 / f->longest) continue;
             errors(f, i, &m);
-            if (m.decay > fmax(2.0 * m.decay_se, 2.0 * f->slowest)) continue;
-            f->c[i].hum = lasts(f, i);
-            double share = f->c[i].hum ? HUGE_VAL : projected(f, i);
+            bool slow = m.decay < 2.0 / f->longest, gains = false,
+                 undamped = slow ? m.decay <= 2.0 * fmax(m.decay_se, f->slowest) : m.decay <= m.decay_se;
+            for (int g = 0; g < stretches; g++)
+                gains = gains || cplx_abs(f->part[i * stretches + g].gain) > m.gain_se[g];
+            f->c[i].hum = hums(f, i, slow && undamped);
+            if (f->c[i].hum || (!undamped && gains)) continue;
+            double share = projected(f, i);
             weakest = share < least ? i : weakest;
             least = fmin(least, share);
         }
@@ -392,7 +394,6 @@ static void report(struct modal_fit *f, struct arena *a, struct modal_result *r)
     double all = 0.0;
     r->noise = ARENA_TAKE(a, double, d->places);
     r->model = arena_take(a, (size_t)d->stretches, sizeof *r->model);
-    predict(f);
     r->mode = ARENA_TAKE(a, struct modal_mode, f->m + 1);
     for (int i = 0; i < f->m; i++) {
         struct modal_mode *m = &r->mode[r->n];
@@ -405,13 +406,13 @@ static void report(struct modal_fit *f, struct arena *a, struct modal_result *r)
                                  .frequency = f->c[i].s.im / (2.0 * REAL_PI),
                                  .decay = -f->c[i].s.re,
                                  .share = projected(f, i)};
-        m->re = ARENA_TAKE(a, double, d->groups);
-        m->im = ARENA_TAKE(a, double, d->groups);
-        m->gain_se = ARENA_TAKE(a, double, d->groups);
-        m->gain_shared = ARENA_TAKE(a, double, d->groups);
-        for (int g = 0; g < d->groups; g++) {
-            m->re[g] = -f->part[i * d->groups + g].gain.im;
-            m->im[g] = f->part[i * d->groups + g].gain.re;
+        m->re = ARENA_TAKE(a, double, d->stretches);
+        m->im = ARENA_TAKE(a, double, d->stretches);
+        m->gain_se = ARENA_TAKE(a, double, d->stretches);
+        m->gain_shared = ARENA_TAKE(a, double, d->stretches);
+        for (int g = 0; g < d->stretches; g++) {
+            m->re[g] = -f->part[i * d->stretches + g].gain.im;
+            m->im[g] = f->part[i * d->stretches + g].gain.re;
         }
         errors(f, i, m);
         all += m->share;
@@ -448,6 +449,7 @@ static struct modal_data loudest_of(const struct modal_data *d, struct arena *a)
         for (int k = 0; k < d->stretches; k++)
             louder += list[k].place == list[s].place && (energy[k] > energy[s] || (energy[k] == energy[s] && k < s));
         list[s].fitted = list[s].fitted && louder < SEARCHED;
+        list[s].idle = !list[s].fitted;
     }
     return to;
 }
@@ -474,7 +476,7 @@ bool modal_find(const struct modal_data *d, const struct modal_options *o, struc
     f.data = d;
     for (int i = 0; i < f.m; i++)
         f.c[i].moved = 1e9;
-    fit_gains(&f, NULL);
+    fit_gains(&f);
     modal_fit_noise(&f, 0.0);
     if (!o->spectrogram) {
         modal_converge_sweeps(&f, 8, 2);
@@ -486,7 +488,9 @@ bool modal_find(const struct modal_data *d, const struct modal_options *o, struc
     int fast = 0;
     while (drop_fastest(&f))
         fast++;
-    int undamped = drop_undamped(&f), weakest;
+    int uncertain = 0, weakest;
+    for (int n = 1; n; uncertain += n)
+        n = drop_uncertain(&f);
     r->explained = ARENA_TAKE(a, double, d->stretches);
     r->fitted = ARENA_TAKE(a, double, d->stretches);
     r->direct = ARENA_TAKE(a, double, d->stretches);
@@ -496,8 +500,8 @@ bool modal_find(const struct modal_data *d, const struct modal_options *o, struc
     note_number(r, a, fast,
                 arena_format(a, "component that decays faster than %.4g/s is left out (--fastest)", o->fastest),
                 arena_format(a, "components that decay faster than %.4g/s are left out (--fastest)", o->fastest));
-    note_number(r, a, undamped, "component that decays by no more than chance is left out",
-                "components that decay by no more than chance are left out");
+    note_number(r, a, uncertain, "component is left out, whose decay or gain may be chance",
+                "components are left out, whose decays or gains may be chance");
     note_number(r, a, weakest, arena_format(a, "more mode than the %d strongest was found", o->most),
                 arena_format(a, "more modes than the %d strongest were found", o->most));
     arena_close(inner);

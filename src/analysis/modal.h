@@ -15,15 +15,15 @@ struct modal_stretch {        /* part of a recording, after a strike, or before 
     const double *y;          /* [n] */
     long first, n;            /* samples of the recording; n even and of small factors (modal_length) */
     long ringing;             /* samples into the stretch from which on nothing pushes */
-    int group;                /* stretches of one group share gains, those of all poles */
     int place, strike;        /* strike -1: a lead */
-    bool fitted;              /* false: it is predicted only; a lead is neither */
+    bool fitted;              /* false: its poles are those of the fitted ones, its gains its own; a lead has neither */
+    bool idle;                /* not even gains */
     struct modal_pulse pulse; /* none: n 0 */
 };
 
 struct modal_data {
     double rate; /* Hz */
-    int places, groups, stretches;
+    int places, stretches;
     const struct modal_stretch *stretch;
     const double *rounding; /* [places] rms of the file's steps; no noise is less */
 };
@@ -39,9 +39,9 @@ struct modal_options {
 
 struct modal_mode {
     double frequency, decay; /* Hz, 1/s */
-    double *re, *im; /* [groups] A, h(t) = Im A e^(s t), t from the force's sample, or from the stretch's first */
+    double *re, *im; /* [stretches] A, h(t) = Im A e^(s t), t from the force's sample, or from the stretch's first */
     double frequency_se, decay_se; /* standard errors from noise */
-    double *gain_se, *gain_shared; /* [groups] of |A|: a strike's own, and by the poles, of all strikes alike */
+    double *gain_se, *gain_shared; /* [stretches] of |A|: a strike's own, and by the poles, of all strikes alike */
     double frequency_between, decay_between; /* standard deviations from strike to strike */
     double share;                            /* of the energy of all modes together */
     int component;                           /* of the fit */

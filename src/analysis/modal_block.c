@@ -11,7 +11,7 @@ enum { CHUNK = 64, ROWS = 2 * CHUNK, TRIES = 3 };
 static const double known = 20.0; /* degrees of freedom that the noise of the wider band counts as in a block's own */
 static const double rounded = 1e-10; /* of a column's squares: what the others leave of it is rounding */
 
-struct group {     /* columns: gains, smooth ones, gains times steps of poles if full, what is left */
+struct sums {      /* columns: gains, smooth ones, gains times steps of poles if full, what is left */
     int n, linear; /* columns; gains and smooth ones */
     double a[MODAL_COLUMNS * MODAL_COLUMNS], scale[MODAL_COLUMNS];
     bool swept[MODAL_COLUMNS];
@@ -133,19 +133,24 @@ static void smooth_columns(const struct modal_bins *bins, const struct modal_blo
     }
 }
 
-static void stretch_add(struct modal_block *b, int s, bool full, struct group *g)
+/* The stretch's sums over its bins; false: it has none. */
+static bool sums_make(struct modal_block *b, int s, bool full, struct sums *g)
 {
     static const long size = ROWS * (long)sizeof(double);
+    if (b->to[s] <= b->from[s]) return false;
+    g->linear = 2 * b->m + MODAL_SMOOTH;
+    g->n = g->linear + (full ? 2 * b->m : 0) + 1;
+    memset(g->a, 0, (size_t)(g->n * g->n) * sizeof *g->a);
     const struct modal_fit *f = b->fit;
     const struct modal_bins *bins = &f->bins[s];
-    int groups = f->data->groups, mine = f->data->stretch[s].group;
+    int stretches = f->data->stretches;
     double room[8][CHUNK], weight[CHUNK], *x[8], *columns = ARENA_TAKE(b->a, double, (MODAL_COLUMNS + 3) * ROWS),
                                                  *r = columns + (g->n - 1) * ROWS;
     struct modal_line line[MODAL_BLOCK];
     for (int c = 0; c < 8; c++)
         x[c] = room[c];
     for (int i = 0; i < b->m; i++)
-        line[i] = modal_fit_line(f, s, b->part[i * groups + mine].pole);
+        line[i] = modal_fit_line(f, s, b->part[i * stretches + s].pole);
     for (long from = b->from[s]; from < b->to[s]; from += CHUNK) {
         long n = from + CHUNK < b->to[s] ? CHUNK : b->to[s] - from, at = from - b->from[s], all = b->to[s] - b->from[s];
         if (n < CHUNK) memset(columns, 0, (size_t)(g->n * size));
@@ -156,45 +161,25 @@ static void stretch_add(struct modal_block *b, int s, bool full, struct group *g
         }
         for (int i = 0; i < b->m; i++) {
             modal_fit_basis(bins, &line[i], from, from + n, x);
-            modal_block_columns(b->part[i * groups + mine].gain, (const double *const *)x, weight, n,
+            modal_block_columns(b->part[i * stretches + s].gain, (const double *const *)x, weight, n,
                                 columns + 2 * i * ROWS, full ? columns + (g->linear + 2 * i) * ROWS : NULL, r);
         }
         smooth_columns(bins, b, weight, from, n, columns + 2 * b->m * ROWS);
         modal_block_products(columns, g->n, g->a);
     }
-}
-
-static bool counts(const struct modal_block *b, int s)
-{
-    const struct modal_stretch *st = &b->fit->data->stretch[s];
-    return b->stretches ? b->stretches[s] : st->fitted;
-}
-
-/* The group's sums, its linear columns swept out; false: none of its stretches counts. */
-static bool group_make(struct modal_block *b, int group, bool full, struct group *g)
-{
-    bool any = false;
-    g->linear = 2 * b->m + MODAL_SMOOTH;
-    g->n = g->linear + (full ? 2 * b->m : 0) + 1;
-    memset(g->a, 0, (size_t)(g->n * g->n) * sizeof *g->a);
-    for (int s = 0; s < b->fit->data->stretches; s++)
-        if (b->fit->data->stretch[s].group == group && b->to[s] > b->from[s]) {
-            stretch_add(b, s, full, g);
-            any = true;
-        }
     for (int i = 0; i < g->n; i++) {
         g->scale[i] = g->a[i * g->n + i];
         for (int j = 0; j < i; j++)
             g->a[j * g->n + i] = g->a[i * g->n + j];
     }
-    return any;
+    return true;
 }
 
 /* By how much gain times step (its two parts) of component i moves with omega and with log d: to[part][omega, log d].
  */
-static void steps_of(const struct modal_block *b, int i, int group, double to[2][2])
+static void steps_of(const struct modal_block *b, int i, int stretch, double to[2][2])
 {
-    const struct modal_part *part = &b->part[i * b->fit->data->groups + group];
+    const struct modal_part *part = &b->part[i * b->fit->data->stretches + stretch];
     cplx gain = part->gain;
     double decay = -part->pole.re;
     to[0][0] = -gain.im;
@@ -203,18 +188,18 @@ static void steps_of(const struct modal_block *b, int i, int group, double to[2]
     to[1][1] = -decay * gain.im;
 }
 
-/* The poles' normal equations of a group, its gains projected out. */
-static void normal_of(const struct modal_block *b, int group, const struct group *g, struct modal_normal *to)
+/* The poles' normal equations of a strike, its gains projected out. */
+static void normal_of(const struct modal_block *b, int stretch, const struct sums *g, struct modal_normal *to)
 {
     int poles = 2 * b->m, n = g->n;
-    double part = 1.0 / b->noise[group];
+    double part = 1.0 / b->noise[stretch];
     for (int i = 0; i < b->m; i++) {
         double u[2][2], v[2][2];
-        steps_of(b, i, group, u);
+        steps_of(b, i, stretch, u);
         const double *row[2] = {g->a + (g->linear + 2 * i) * n + g->linear,
                                 g->a + (g->linear + 2 * i + 1) * n + g->linear};
         for (int k = 0; k < b->m; k++) {
-            steps_of(b, k, group, v);
+            steps_of(b, k, stretch, v);
             for (int p = 0; p < 2; p++)
                 for (int q = 0; q < 2; q++)
                     to->a[(2 * i + p) * poles + 2 * k + q] =
@@ -230,12 +215,12 @@ static void normal_of(const struct modal_block *b, int group, const struct group
     to->used = true;
 }
 
-/* How far a group's own poles are from the shared ones (omega, log d), and what a square of that weighs in chi. */
-static void deviations_of(const struct modal_block *b, int group, double *deviation, double *weight)
+/* How far a strike's own poles are from the shared ones (omega, log d), and what a square of that weighs in chi. */
+static void deviations_of(const struct modal_block *b, int stretch, double *deviation, double *weight)
 {
     static const double least = 1e-11; /* no spread is less: 0 is one that nothing shows */
     for (int i = 0; i < b->m; i++) {
-        cplx own = b->part[i * b->fit->data->groups + group].pole;
+        cplx own = b->part[i * b->fit->data->stretches + stretch].pole;
         double sigma[2] = {fmax(b->spread[i][0], least) * b->s[i].im, fmax(b->spread[i][1], least)};
         deviation[2 * i] = own.im - b->s[i].im;
         deviation[2 * i + 1] = real_log(own.re / b->s[i].re);
@@ -246,7 +231,8 @@ static void deviations_of(const struct modal_block *b, int group, double *deviat
 
 enum { POLES = 2 * MODAL_BLOCK };
 
-/* to[p][p + 1]: (N + W)^-1 of a group and, last, times its gradient, N damped; returns what the step would take off. */
+/* to[p][p + 1]: (N + W)^-1 of a strike and, last, times its gradient, N damped; returns what the step would take
+   off. */
 static double own_inverse(const struct modal_block *b, const struct modal_normal *g, const double *deviation,
                           const double *weight, double damping, double *to)
 {
@@ -271,17 +257,17 @@ static double own_inverse(const struct modal_block *b, const struct modal_normal
     return fall;
 }
 
-/* The step of all poles, damped: of the shared ones, step[p], and own[groups][p]; returns what it would take off chi.
-   The shared ones' normal equations are sum N - N (N + W)^-1 N = sum W (N + W)^-1 N, where W holds the damping, too,
+/* The step of all poles, damped: of the shared ones, step[p], and own[stretches][p]; returns what it would take off
+   chi. The shared ones' normal equations are sum N - N (N + W)^-1 N = sum W (N + W)^-1 N, where W holds the damping, too,
    their right side sum r - N (N + W)^-1 (r - W apart). */
 static double solve(struct modal_block *b, double damping, double *step, double *own)
 {
-    int p = 2 * b->m, n = p + 1, groups = b->fit->data->groups;
+    int p = 2 * b->m, n = p + 1, stretches = b->fit->data->stretches;
     struct arena *arena = arena_open();
     double *inverse = ARENA_TAKE(arena, double, n *n), *a = ARENA_TAKE(arena, double, n *n), deviation[POLES],
            weight[POLES], scale[POLES] = {0}, fall = 0.0;
     bool swept[POLES];
-    for (int g = 0; g < groups; g++) {
+    for (int g = 0; g < stretches; g++) {
         const struct modal_normal *e = &b->each[g];
         if (!e->used) continue;
         deviations_of(b, g, deviation, weight);
@@ -313,7 +299,7 @@ static double solve(struct modal_block *b, double damping, double *step, double 
         step[i] = swept[i] ? a[i * n + p] : 0.0;
         fall += step[i] * right;
     }
-    for (int g = 0; g < groups; g++) {
+    for (int g = 0; g < stretches; g++) {
         if (!b->each[g].used) continue;
         deviations_of(b, g, deviation, weight);
         for (int i = 0; i < p; i++)
@@ -326,33 +312,34 @@ static double solve(struct modal_block *b, double damping, double *step, double 
     return fall;
 }
 
-/* All groups: gains += what their columns take of what is left, noise, chi, and with full the poles' normal equations.
- */
-static void pass(struct modal_block *b, bool full, struct group *to)
+/* All stretches: gains += what their columns take of what is left; of those that are fitted noise, chi, and with full
+   the poles' normal equations. */
+static void pass(struct modal_block *b, bool full, struct sums *to)
 {
     const struct modal_data *d = b->fit->data;
     struct arena *a = b->a, *inner = arena_open();
-    struct group *g = to ? to : ARENA_TAKE(inner, struct group, 1);
+    struct sums *g = to ? to : ARENA_TAKE(inner, struct sums, 1);
     double deviation[POLES], weight[POLES], sum = 0.0;
     b->a = inner;
-    for (int k = 0; k < d->groups; k++, g += to ? 1 : 0) {
+    for (int k = 0; k < d->stretches; k++, g += to ? 1 : 0) {
+        bool fitted = d->stretch[k].fitted;
         if (full) b->each[k].used = false;
-        if (!group_make(b, k, full, g)) {
+        if (!sums_make(b, k, full, g)) {
             g->n = 0;
             continue;
         }
         int n = g->n, last = n - 1;
         modal_block_sweep(g->a, n, 0, g->linear, g->scale, g->swept);
         b->noise[k] = (g->a[last * n + last] + known) / b->degrees[k];
-        sum += b->degrees[k] * real_log(b->noise[k]);
+        sum += fitted ? b->degrees[k] * real_log(b->noise[k]) : 0.0;
         for (int i = 0; i < 2 * b->m; i++)
             if (g->swept[i]) {
-                cplx *gain = &b->part[i / 2 * d->groups + k].gain;
+                cplx *gain = &b->part[i / 2 * d->stretches + k].gain;
                 *(i % 2 ? &gain->im : &gain->re) += g->a[i * n + last];
             }
-        if (full) normal_of(b, k, g, &b->each[k]);
+        if (full && fitted) normal_of(b, k, g, &b->each[k]);
     }
-    for (int k = 0; k < d->groups; k++) {
+    for (int k = 0; k < d->stretches; k++) {
         deviations_of(b, k, deviation, weight);
         for (int i = 0; i < 2 * b->m; i++)
             sum += deviation[i] * deviation[i] * weight[i];
@@ -370,28 +357,27 @@ static double reach(const struct modal_fit *f, cplx s)
 }
 
 void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, const int *of, const cplx *extra,
-                      int extras, const bool *stretches, struct arena *a)
+                      int extras, struct arena *a)
 {
     const struct modal_data *d = f->data;
     double low = HUGE_VAL, high = -HUGE_VAL;
     memset(b, 0, sizeof *b);
     b->fit = f;
     b->a = a;
-    b->stretches = stretches;
     b->fastest = f->fastest;
     b->m = m + extras;
-    b->part = ARENA_TAKE(a, struct modal_part, MODAL_BLOCK * d->groups);
-    b->each = ARENA_TAKE(a, struct modal_normal, d->groups);
-    b->noise = ARENA_TAKE(a, double, d->groups);
-    b->degrees = ARENA_TAKE(a, double, d->groups);
+    b->part = ARENA_TAKE(a, struct modal_part, MODAL_BLOCK * d->stretches);
+    b->each = ARENA_TAKE(a, struct modal_normal, d->stretches);
+    b->noise = ARENA_TAKE(a, double, d->stretches);
+    b->degrees = ARENA_TAKE(a, double, d->stretches);
     for (int i = 0; i < m + extras; i++) {
         b->of[i] = i < m ? of[i] : -1;
         b->s[i] = i < m ? f->c[of[i]].s : extra[i - m];
         for (int q = 0; q < 2; q++)
             b->spread[i][q] = f->strikes < 2 ? 0.0 : i < m ? f->c[of[i]].spread[q] : f->typical[q];
-        for (int g = 0; g < d->groups; g++)
-            b->part[i * d->groups + g].pole = b->s[i];
-        if (i < m) modal_fit_totals(f, of[i], b->part + i * d->groups);
+        for (int g = 0; g < d->stretches; g++)
+            b->part[i * d->stretches + g].pole = b->s[i];
+        if (i < m) modal_fit_totals(f, of[i], b->part + i * d->stretches);
         low = fmin(low, b->s[i].im - reach(f, b->s[i]));
         high = fmax(high, b->s[i].im + reach(f, b->s[i]));
     }
@@ -407,7 +393,7 @@ void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, c
         b->from[s] = from > 0.0 ? from < (double)bins->n ? (long)from : bins->n : 0;
         b->to[s] = to > 0.0 ? to < (double)bins->n ? (long)to : bins->n : 0;
         long n = b->to[s] - b->from[s];
-        if (!counts(b, s) || n <= 0) {
+        if (d->stretch[s].strike < 0 || d->stretch[s].idle || n <= 0) {
             b->to[s] = b->from[s];
             continue;
         }
@@ -415,15 +401,14 @@ void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, c
         memcpy(b->r[s], bins->rr + b->from[s], (size_t)n * sizeof(double));
         memcpy(b->r[s] + n, bins->ri + b->from[s], (size_t)n * sizeof(double));
         for (int i = 0; i < m; i++) {
-            const struct modal_part *mine = &b->part[i * d->groups + d->stretch[s].group];
+            const struct modal_part *mine = &b->part[i * d->stretches + s];
             struct modal_line line = modal_fit_line(f, s, mine->pole);
             modal_fit_add_line(bins, &line, mine->gain, b->from[s], b->to[s], b->r[s], b->r[s] + n);
         }
     }
-    for (int g = 0; g < d->groups; g++) {
-        b->degrees[g] = known - 2.0 * b->m - MODAL_SMOOTH - 2.0 * b->m / d->groups;
-        for (int s = 0; s < d->stretches; s++)
-            b->degrees[g] += d->stretch[s].group == g ? 2.0 * (double)(b->to[s] - b->from[s]) : 0.0;
+    for (int g = 0; g < d->stretches; g++) {
+        b->degrees[g] = known - 2.0 * b->m - MODAL_SMOOTH - 2.0 * b->m / d->stretches;
+        b->degrees[g] += 2.0 * (double)(b->to[g] - b->from[g]);
         b->degrees[g] = fmax(b->degrees[g], known);
     }
 }
@@ -432,28 +417,28 @@ void modal_block_gains(struct modal_block *b) { pass(b, false, NULL); }
 
 void modal_block_drop(struct modal_block *b, int i)
 {
-    int groups = b->fit->data->groups;
+    int stretches = b->fit->data->stretches;
     for (b->m--; i < b->m; i++) {
         b->of[i] = b->of[i + 1];
         b->s[i] = b->s[i + 1];
         memcpy(b->spread[i], b->spread[i + 1], sizeof b->spread[i]);
-        memcpy(b->part + i * groups, b->part + (i + 1) * groups, (size_t)groups * sizeof *b->part);
+        memcpy(b->part + i * stretches, b->part + (i + 1) * stretches, (size_t)stretches * sizeof *b->part);
     }
 }
 
 void modal_block_worth(struct modal_block *b, double *worth)
 {
-    int groups = b->fit->data->groups;
+    int stretches = b->fit->data->stretches;
     struct arena *inner = arena_open();
-    struct group *g = ARENA_TAKE(inner, struct group, groups);
+    struct sums *g = ARENA_TAKE(inner, struct sums, stretches);
     pass(b, false, g);
     for (int i = 0; i < b->m; i++)
         worth[i] = 0.0;
-    for (int k = 0; k < groups; k++)
-        for (int i = 0; i < b->m && g[k].n; i++) {
+    for (int k = 0; k < stretches; k++)
+        for (int i = 0; i < b->m && g[k].n && b->fit->data->stretch[k].fitted; i++) {
             const double *a = g[k].a + 2 * i * (g[k].n + 1), p = a[0], q = 0.5 * (a[1] + a[g[k].n]), r = a[g[k].n + 1],
                          det = p * r - q * q;
-            cplx at = b->part[i * groups + k].gain;
+            cplx at = b->part[i * stretches + k].gain;
             if (g[k].swept[2 * i] && g[k].swept[2 * i + 1] && det > 0.0)
                 worth[i] += (at.re * at.re * r - 2.0 * at.re * at.im * q + at.im * at.im * p) / (det * b->noise[k]);
         }
@@ -474,31 +459,31 @@ static cplx stepped(const struct modal_block *b, cplx s, const double *step)
 struct modal_block *modal_block_room(const struct modal_fit *f, struct arena *a)
 {
     struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
-    b->part = ARENA_TAKE(a, struct modal_part, MODAL_BLOCK * f->data->groups);
-    b->each = ARENA_TAKE(a, struct modal_normal, f->data->groups);
-    b->noise = ARENA_TAKE(a, double, f->data->groups);
+    b->part = ARENA_TAKE(a, struct modal_part, MODAL_BLOCK * f->data->stretches);
+    b->each = ARENA_TAKE(a, struct modal_normal, f->data->stretches);
+    b->noise = ARENA_TAKE(a, double, f->data->stretches);
     return b;
 }
 
 void modal_block_copy(struct modal_block *to, const struct modal_block *from)
 {
-    size_t groups = (size_t)from->fit->data->groups;
+    size_t stretches = (size_t)from->fit->data->stretches;
     struct modal_part *part = to->part;
     struct modal_normal *each = to->each;
     double *noise = to->noise;
     *to = *from;
-    to->part = memcpy(part, from->part, MODAL_BLOCK * groups * sizeof *part);
-    to->each = memcpy(each, from->each, groups * sizeof *each);
-    to->noise = memcpy(noise, from->noise, groups * sizeof *noise);
+    to->part = memcpy(part, from->part, MODAL_BLOCK * stretches * sizeof *part);
+    to->each = memcpy(each, from->each, stretches * sizeof *each);
+    to->noise = memcpy(noise, from->noise, stretches * sizeof *noise);
 }
 
 bool modal_block_polish(struct modal_block *b, int steps)
 {
-    int groups = b->fit->data->groups;
+    int stretches = b->fit->data->stretches;
     double damping = 1e-3, step[POLES];
     struct arena *inner = arena_open();
     struct modal_block *was = modal_block_room(b->fit, inner);
-    double *own = ARENA_TAKE(inner, double, groups * 2 * b->m);
+    double *own = ARENA_TAKE(inner, double, stretches * 2 * b->m);
     bool converged = false, better = true;
     pass(b, steps > 0, NULL);
     for (int k = 0; k < steps && better && !converged; k++) {
@@ -510,8 +495,8 @@ bool modal_block_polish(struct modal_block *b, int steps)
             solve(b, damping, step, own);
             for (int i = 0; i < b->m; i++) {
                 b->s[i] = stepped(b, b->s[i], step + 2 * i);
-                for (int g = 0; g < groups; g++) {
-                    struct modal_part *p = &b->part[i * groups + g];
+                for (int g = 0; g < stretches; g++) {
+                    struct modal_part *p = &b->part[i * stretches + g];
                     p->pole = b->each[g].used ? stepped(b, p->pole, own + (g * b->m + i) * 2) : b->s[i];
                 }
             }
@@ -535,33 +520,35 @@ int modal_block_deviations(struct modal_block *b, int i, int q, double *by, doub
     int n = 2 * b->m + 1, strikes = 0;
     struct arena *inner = arena_open();
     double *inverse = ARENA_TAKE(inner, double, n *n), deviation[POLES], weight[POLES], value = q ? 1.0 : b->s[i].im;
+    for (int j = 0; j < b->m; j++) /* not as they were found: what is 0 would stay it */
+        memcpy(b->spread[j], modal_spread_stated, sizeof b->spread[j]);
     pass(b, true, NULL);
-    for (int k = 0; k < b->fit->data->groups; k++) {
+    for (int k = 0; k < b->fit->data->stretches; k++) {
         if (!b->each[k].used) continue;
         deviations_of(b, k, deviation, weight);
         own_inverse(b, &b->each[k], deviation, weight, 0.0, inverse);
         double all = 1.0 / inverse[(2 * i + q) * (n + 1)], strike = all - weight[2 * i + q];
         if (!(strike > blind * all)) continue;
-        by[strikes] = deviation[2 * i + q] * all / (strike * value);
+        by[strikes] = (deviation[2 * i + q] + inverse[(2 * i + q) * n + n - 1]) * all / (strike * value);
         variance[strikes++] = 1.0 / (strike * value * value);
     }
     arena_close(inner);
     return strikes;
 }
 
-/* Of the poles as all strikes together tell them, were they one object at rest, and of each group's gain with what its
+/* Of the poles as all strikes together tell them, were they one object at rest, and of each strike's gain with what its
  * own poles are uncertain by. */
 void modal_block_errors(struct modal_block *b, int i, double se[2], double *gain_se, double *gain_shared)
 {
-    int p = 2 * b->m, n = p + 1, groups = b->fit->data->groups;
+    int p = 2 * b->m, n = p + 1, stretches = b->fit->data->stretches;
     struct arena *inner = arena_open();
-    struct group *g = ARENA_TAKE(inner, struct group, groups);
+    struct sums *g = ARENA_TAKE(inner, struct sums, stretches);
     double *all = ARENA_TAKE(inner, double, p *p), *inverse = ARENA_TAKE(inner, double, n *n), scale[POLES] = {0},
-           step[POLES], *own = ARENA_TAKE(inner, double, groups *p), deviation[POLES], weight[POLES];
+           step[POLES], *own = ARENA_TAKE(inner, double, stretches *p), deviation[POLES], weight[POLES];
     bool swept[POLES], shared[POLES];
     pass(b, true, g);
     solve(b, 0.0, step, own);
-    for (int k = 0; k < groups; k++)
+    for (int k = 0; k < stretches; k++)
         for (int j = 0; j < p && b->each[k].used; j++) {
             for (int l = 0; l < p; l++)
                 all[j * p + l] += b->each[k].a[j * p + l];
@@ -571,8 +558,8 @@ void modal_block_errors(struct modal_block *b, int i, double se[2], double *gain
     modal_block_sweep(b->normal, p, 0, p, scale, shared);
     for (int q = 0; q < 2; q++)
         se[q] = swept[2 * i + q] ? sqrt(fmax(all[(2 * i + q) * (p + 1)], 0.0)) : HUGE_VAL;
-    for (int k = 0; k < groups; k++) {
-        cplx at = b->part[i * groups + k].gain;
+    for (int k = 0; k < stretches; k++) {
+        cplx at = b->part[i * stretches + k].gain;
         double size = fmax(cplx_abs(at), 1e-300), u[2] = {at.re / size, at.im / size}, sum = 0.0, row[POLES],
                through[POLES] = {0};
         int wide = g[k].n;

@@ -46,7 +46,7 @@ int modal_converge_near(const struct modal_fit *f, int i, int most, int *of)
 int modal_converge_open(struct modal_block *b, const struct modal_fit *f, int i, int most, struct arena *a)
 {
     int of[MODAL_BLOCK], n = modal_converge_near(f, i, most, of), at = 0;
-    modal_block_open(b, f, n, of, NULL, 0, NULL, a);
+    modal_block_open(b, f, n, of, NULL, 0, a);
     while (b->of[at] != i)
         at++;
     return at;
@@ -57,8 +57,8 @@ double modal_converge_refine(struct modal_fit *f, int n, const int *of, int step
     struct arena *a = arena_open();
     struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
     double most = 0.0, moved[MODAL_BLOCK];
-    int groups = f->data->groups;
-    modal_block_open(b, f, n, of, NULL, 0, NULL, a);
+    int stretches = f->data->stretches;
+    modal_block_open(b, f, n, of, NULL, 0, a);
     bool converged = modal_block_polish(b, steps);
     for (int i = 0; i < n; i++) {
         double by[2] = {b->s[i].im - f->c[of[i]].s.im, real_log(b->s[i].re / f->c[of[i]].s.re)};
@@ -66,7 +66,7 @@ double modal_converge_refine(struct modal_fit *f, int n, const int *of, int step
             by[0] * by[0] * b->normal[2 * i * (2 * n + 1)] + by[1] * by[1] * b->normal[(2 * i + 1) * (2 * n + 1)];
         moved[i] = sqrt(square);
         most = fmax(most, moved[i]);
-        modal_fit_replace(f, of[i], b->s[i], b->part + i * groups);
+        modal_fit_replace(f, of[i], b->s[i], b->part + i * stretches);
         f->c[of[i]].moved = converged ? 0.0 : fmin(moved[i], 1.0);
     }
     for (int k = 0; k < f->m; k++) {
@@ -85,16 +85,16 @@ double modal_converge_refine(struct modal_fit *f, int n, const int *of, int step
 /* By frequency, so that nothing depends on the order in which components came. */
 static void order(struct modal_fit *f)
 {
-    size_t groups = (size_t)f->data->groups;
+    size_t stretches = (size_t)f->data->stretches;
     for (int i = 1; i < f->m; i++)
         for (int k = i; k > 0 && f->c[k].s.im < f->c[k - 1].s.im; k--) {
             struct modal_component c = f->c[k];
             f->c[k] = f->c[k - 1];
             f->c[k - 1] = c;
-            for (size_t g = 0; g < groups; g++) {
-                struct modal_part *at = f->part + (size_t)k * groups + g, mine = *at;
-                *at = at[-(ptrdiff_t)groups];
-                at[-(ptrdiff_t)groups] = mine;
+            for (size_t g = 0; g < stretches; g++) {
+                struct modal_part *at = f->part + (size_t)k * stretches + g, mine = *at;
+                *at = at[-(ptrdiff_t)stretches];
+                at[-(ptrdiff_t)stretches] = mine;
             }
         }
 }
@@ -117,7 +117,7 @@ void modal_converge_sweeps(struct modal_fit *f, int most, int rounds)
 
 double modal_converge_limit(const struct modal_fit *f, double chi4)
 {
-    return gsl_cdf_chisq_Qinv(real_exp(-0.5 * chi4) * (1.0 + 0.5 * chi4), 2.0 + 2.0 * f->data->groups);
+    return gsl_cdf_chisq_Qinv(real_exp(-0.5 * chi4) * (1.0 + 0.5 * chi4), 2.0 + 2.0 * f->data->stretches);
 }
 
 double modal_converge_rise(struct modal_fit *f, int i)
@@ -172,7 +172,7 @@ static double loudness(const struct modal_fit *f, int i)
     struct arena *a = arena_open();
     struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
     double mine = 0.0, all = 0.0;
-    modal_block_open(b, f, 1, &i, NULL, 0, NULL, a);
+    modal_block_open(b, f, 1, &i, NULL, 0, a);
     for (int s = 0; s < f->data->stretches; s++) {
         const struct modal_bins *bins = &f->bins[s];
         long n = b->to[s] - b->from[s];

@@ -47,6 +47,8 @@ static void open_bins(const struct modal_fit *f, const struct modal_stretch *s, 
     for (long i = 0; i < s->pulse.n; i++)
         if (s->pulse.at + i >= s->first && s->pulse.at + i < s->first + s->n)
             force[s->pulse.at + i - s->first] = s->pulse.f[i];
+    b->free = s->pulse.at + s->pulse.n <= s->first;
+    if (b->free) force[0] = 1.0; /* far skirts are smooth but for an impulse where the stretch begins */
     spectrum(force, s->n, b, b->fr, b->fi);
     spectrum(s->y, s->n, b, b->yr, b->yi);
     for (long i = 0; i < s->n; i++)
@@ -225,8 +227,14 @@ struct modal_line modal_fit_line(const struct modal_fit *f, int stretch, cplx s)
     double rate = f->data->rate, size = 1.0 / sqrt((double)st->n);
     cplx value, slope, p = cplx_exp(s, 1.0 / rate);
     carried(st, rate, s, &value, &slope);
-    return (struct modal_line){p.re,       p.im, size * value.re, size * value.im, size * slope.re, size * slope.im,
-                               1.0 / rate, 1.0};
+    return (struct modal_line){p.re,
+                               p.im,
+                               size * value.re,
+                               size * value.im,
+                               size * slope.re,
+                               size * slope.im,
+                               1.0 / rate,
+                               f->bins[stretch].free ? 0.0 : 1.0};
 }
 
 LANES_CLONES
@@ -322,7 +330,7 @@ static void states(const struct modal_fit *f, int i, cplx *state)
     const struct modal_data *d = f->data;
     state[0] = (cplx){0};
     for (int s = 0; s + 1 < d->stretches; s++) {
-        const struct modal_part *p = &f->part[i * d->groups + d->stretch[s].group];
+        const struct modal_part *p = &f->part[i * d->stretches + s];
         cplx grown, force = forced(f, &d->stretch[s], p->pole, &grown);
         state[s + 1] = rings_on(f, s, p->pole, cplx_add(cplx_mul(state[s], grown), cplx_mul(p->gain, force)));
     }
@@ -334,7 +342,7 @@ void modal_fit_put(struct modal_fit *f, int i, double sign)
     cplx state[MODAL_STRETCHES];
     states(f, i, state);
     for (int s = 0; s < d->stretches; s++) {
-        const struct modal_part *p = &f->part[i * d->groups + d->stretch[s].group];
+        const struct modal_part *p = &f->part[i * d->stretches + s];
         struct modal_line line = modal_fit_line(f, s, p->pole);
         if (cplx_square(p->gain) > 0.0) add_to_rest(&f->bins[s], &line, cplx_scale(sign, p->gain));
         if (d->stretch[s].strike >= 0 && cplx_square(state[s]) > 1e-24 * cplx_square(p->gain))
@@ -361,10 +369,20 @@ void modal_fit_sizes(const struct modal_fit *f, int i, double *size)
     cplx state[MODAL_STRETCHES];
     states(f, i, state);
     for (int s = 0; s < d->stretches; s++) {
-        const struct modal_part *p = &f->part[i * d->groups + d->stretch[s].group];
+        const struct modal_part *p = &f->part[i * d->stretches + s];
         cplx grown, force = forced(f, &d->stretch[s], p->pole, &grown);
         size[s] = cplx_abs(cplx_add(cplx_mul(state[s], grown), cplx_mul(p->gain, force)));
     }
+}
+
+double modal_fit_lead(const struct modal_fit *f, int stretch, cplx s)
+{
+    const struct modal_bins *b = &f->bins[stretch];
+    double wide = 2.0 * b->width - s.re, sum = 0.0;
+    long from = (long)ceil((s.im - wide) / b->width) - b->first, to = (long)floor((s.im + wide) / b->width) - b->first;
+    for (long k = from > 0 ? from : 0; k <= to && k < b->n; k++)
+        sum += b->yr[k] * b->yr[k] + b->yi[k] * b->yi[k] - b->variance[k];
+    return 2.0 * sqrt(fmax(sum, 0.0) / (double)f->data->stretch[stretch].n);
 }
 
 void modal_fit_totals(const struct modal_fit *f, int i, struct modal_part *total)
@@ -372,9 +390,9 @@ void modal_fit_totals(const struct modal_fit *f, int i, struct modal_part *total
     const struct modal_data *d = f->data;
     cplx state[MODAL_STRETCHES];
     states(f, i, state);
-    memcpy(total, f->part + i * d->groups, (size_t)d->groups * sizeof *total);
+    memcpy(total, f->part + i * d->stretches, (size_t)d->stretches * sizeof *total);
     for (int s = 0; s < d->stretches; s++) {
-        struct modal_part *p = &total[d->stretch[s].group];
+        struct modal_part *p = &total[s];
         p->gain = cplx_add(p->gain, ringing_gain(f, s, p->pole, state[s]));
     }
 }
@@ -382,13 +400,13 @@ void modal_fit_totals(const struct modal_fit *f, int i, struct modal_part *total
 void modal_fit_replace(struct modal_fit *f, int i, cplx pole, const struct modal_part *total)
 {
     const struct modal_data *d = f->data;
-    struct modal_part *mine = f->part + i * d->groups;
+    struct modal_part *mine = f->part + i * d->stretches;
     cplx state = {0};
     modal_fit_put(f, i, 1.0);
     f->c[i].s = pole;
-    memcpy(mine, total, (size_t)d->groups * sizeof *total);
+    memcpy(mine, total, (size_t)d->stretches * sizeof *total);
     for (int s = 0; s < d->stretches; s++) {
-        struct modal_part *p = &mine[d->stretch[s].group];
+        struct modal_part *p = &mine[s];
         cplx grown, force = forced(f, &d->stretch[s], p->pole, &grown);
         p->gain = cplx_sub(p->gain, ringing_gain(f, s, p->pole, state));
         state = rings_on(f, s, p->pole, cplx_add(cplx_mul(state, grown), cplx_mul(p->gain, force)));
@@ -408,26 +426,26 @@ void modal_fit_rest(struct modal_fit *f)
 
 void modal_fit_add(struct modal_fit *f, cplx s, const struct modal_part *part)
 {
-    int groups = f->data->groups, i = f->m++;
+    int stretches = f->data->stretches, i = f->m++;
     if (i == f->room) {
         const struct modal_component *c = f->c;
         const struct modal_part *parts = f->part;
         f->room = i ? 2 * i : 64;
         f->c = ARENA_TAKE(f->a, struct modal_component, f->room);
-        f->part = ARENA_TAKE(f->a, struct modal_part, f->room * groups);
+        f->part = ARENA_TAKE(f->a, struct modal_part, f->room * stretches);
         if (i) memcpy(f->c, c, (size_t)i * sizeof *c);
-        if (i) memcpy(f->part, parts, (size_t)(i * groups) * sizeof *parts);
+        if (i) memcpy(f->part, parts, (size_t)(i * stretches) * sizeof *parts);
     }
     f->c[i] = (struct modal_component){s, false, {f->typical[0], f->typical[1]}, 1e9};
-    for (int g = 0; g < groups; g++)
-        f->part[i * groups + g] = (struct modal_part){{0}, s};
+    for (int g = 0; g < stretches; g++)
+        f->part[i * stretches + g] = (struct modal_part){{0}, s};
     if (part) modal_fit_replace(f, i, s, part);
 }
 
 void modal_fit_drop(struct modal_fit *f, int i)
 {
-    int groups = f->data->groups, after = --f->m - i;
+    int stretches = f->data->stretches, after = --f->m - i;
     modal_fit_put(f, i, 1.0);
     memmove(f->c + i, f->c + i + 1, (size_t)after * sizeof *f->c);
-    memmove(f->part + i * groups, f->part + (i + 1) * groups, (size_t)(after * groups) * sizeof *f->part);
+    memmove(f->part + i * stretches, f->part + (i + 1) * stretches, (size_t)(after * stretches) * sizeof *f->part);
 }

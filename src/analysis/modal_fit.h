@@ -11,7 +11,8 @@
    what strikes differ by, as an object rests anew each time: a random effect, normal in omega/omega and log d, of a
    spread that all modes share and that is 0 unless the strikes show one. What rings on from earlier strikes of a place
    is a state at the stretch's first sample, of their gains. Where no force is known
-   a stretch begins after its strike and f is a unit impulse at its first sample.
+   a stretch begins after its strike and f is a unit impulse at its first sample. A pulse may lie before its stretch,
+   too: then H brings all in, and where the smooth columns (below) have F there is an impulse at the first sample.
 
    In a window of bins what modes outside it leave there, and what goes straight from the force to the sound, is smooth
    in frequency but for F: F(w) (c0 + c1 u + c2 u^2), u from -1 to 1 over the window (a local polynomial, as of the
@@ -40,6 +41,7 @@ struct modal_normal { /* normal equations of the poles (omega, log d), gains and
 
 struct modal_bins { /* of one stretch: its DFT over sqrt(n), bins first ... first + n - 1 */
     long first, n;
+    bool free;        /* its pulse is over when it begins */
     double width;     /* rad/s from bin to bin */
     double *er, *ei;  /* e^(-jw) */
     double *fr, *fi;  /* the force */
@@ -62,7 +64,7 @@ struct modal_component {
     double moved;     /* how far the pole went since its neighbours were last fitted, in its standard errors */
 };
 
-struct modal_part { /* of a component in the stretches of one group */
+struct modal_part { /* of a component in a stretch */
     cplx gain, pole;
 };
 
@@ -78,7 +80,7 @@ struct modal_fit {
     struct modal_bins *bins; /* [stretches] */
     int m, room;
     struct modal_component *c; /* [room] */
-    struct modal_part *part;   /* [room][groups] */
+    struct modal_part *part;   /* [room][stretches] */
     double typical[2];         /* spread of a component that is new */
     double tolerance; /* squared standard errors of all poles of a block together that a polish may stop within: 1e-2
                          while modes are looked for, 1e-4 at the end */
@@ -92,17 +94,16 @@ struct modal_block {
     int of[MODAL_BLOCK]; /* components of the fit; -1: new */
     cplx s[MODAL_BLOCK];
     double spread[MODAL_BLOCK][2];
-    struct modal_part *part; /* [MODAL_BLOCK][groups] */
+    struct modal_part *part; /* [MODAL_BLOCK][stretches] */
     double centre, half;     /* rad/s of the window */
     long *from, *to;         /* [stretches] bins of it, counted from bins.first */
     double **r;              /* [stretches][2 (to - from)]: real parts, then imaginary ones */
-    const bool *stretches;   /* [stretches] those that count; NULL: all that are fitted */
     double fastest;          /* 1/s */
     double chi; /* -2 log likelihood: sum of degrees log noise, and the squares of strikes' poles off the shared ones */
-    double *noise;   /* [groups] what a strike's window leaves, over the variance: its noise, and what is no mode */
-    double *degrees; /* [groups] of freedom, of the block as it was opened */
+    double *noise;   /* [stretches] what a strike's window leaves, over the variance: its noise, and what is no mode */
+    double *degrees; /* [stretches] of freedom, of the block as it was opened */
     double normal[2 * MODAL_BLOCK * 2 * MODAL_BLOCK]; /* of the shared poles (omega, log d), all others projected out */
-    struct modal_normal *each;                        /* [groups] of the strikes' own poles */
+    struct modal_normal *each;                        /* [stretches] of the strikes' own poles */
     struct arena *a;
 };
 
@@ -118,8 +119,11 @@ void modal_fit_drop(struct modal_fit *f, int i);
 void modal_fit_totals(const struct modal_fit *f, int i, struct modal_part *total);
 void modal_fit_replace(struct modal_fit *f, int i, cplx pole, const struct modal_part *total);
 void modal_fit_sizes(const struct modal_fit *f, int i, double *size); /* [stretches] |x B| at their pulses' ends */
-void modal_fit_put(struct modal_fit *f, int i, double sign);          /* rest += sign (component i) */
-void modal_fit_rest(struct modal_fit *f);                             /* rest anew */
+double modal_fit_lead(const struct modal_fit *f, int stretch,
+                      cplx s);                               /* amplitude of what a lead holds within the pole's
+                                                                          half-width and 2 bins, noise off */
+void modal_fit_put(struct modal_fit *f, int i, double sign); /* rest += sign (component i) */
+void modal_fit_rest(struct modal_fit *f);                    /* rest anew */
 /* What X of a pole needs on a stretch's bins: p, H - G and its derivative over sqrt(n). */
 struct modal_line modal_fit_line(const struct modal_fit *f, int stretch, cplx s);
 /* X, dX/ds and the same of the mirror pole at bins [from, to): x[0 ... 7][to - from], re and im each. */
@@ -130,7 +134,7 @@ void modal_fit_add_line(const struct modal_bins *b, const struct modal_line *lin
 
 /* modal_block.c */
 void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, const int *of, const cplx *extra,
-                      int extras, const bool *stretches, struct arena *a);
+                      int extras, struct arena *a);
 /* A block that modal_block_copy can make like another; both of one fit. */
 struct modal_block *modal_block_room(const struct modal_fit *f, struct arena *a);
 void modal_block_copy(struct modal_block *to, const struct modal_block *from);
@@ -141,7 +145,7 @@ void modal_block_worth(
 void modal_block_drop(struct modal_block *b, int i);
 bool modal_block_polish(struct modal_block *b,
                         int steps); /* poles and gains; true: converged to 0.01 standard errors */
-/* Standard errors of omega and log d, and of each group's |gain|: of its own, and by the poles that strikes share. */
+/* Standard errors of omega and log d, and of each strike's |gain|: of its own, and by the poles that strikes share. */
 void modal_block_errors(struct modal_block *b, int i, double se[2], double *gain_se, double *gain_shared);
 /* How far pole i of each strike is from the shared one by the strike alone (q 0: omega/omega, 1: log d), and the
  * variance of that; returns how many strikes there are. */
@@ -162,7 +166,7 @@ void modal_converge_eliminate(struct modal_fit *f, double limit);
 void modal_converge(struct modal_fit *f);
 int modal_converge_runaways(struct modal_fit *f); /* components at the bound of decays, or far louder than there is */
 double modal_converge_limit(const struct modal_fit *f,
-                            double chi4); /* of chi squared of 2 + 2 groups degrees, as likely
+                            double chi4); /* of chi squared of 2 + 2 strikes degrees, as likely
                                                                       as chi4 of four */
 
 /* modal_spread.c */

@@ -206,8 +206,7 @@ static double power_of(const struct modal_fit *f, cplx s, const struct modal_par
         if (!f->data->stretch[k].fitted || at < 0 || at >= b->n) continue;
         struct modal_line line = modal_fit_line(f, k, s);
         modal_fit_basis(b, &line, at, at + 1, x);
-        most = fmax(most, 0.25 * cplx_square(part[f->data->stretch[k].group].gain) *
-                              (x[0][0] * x[0][0] + x[1][0] * x[1][0]) / b->scale[at]);
+        most = fmax(most, 0.25 * cplx_square(part[k].gain) * (x[0][0] * x[0][0] + x[1][0] * x[1][0]) / b->scale[at]);
     }
     return most;
 }
@@ -239,7 +238,7 @@ static void rough_only(struct modal_block *b, double limit, double least)
         int weakest = -1, m = b->m;
         modal_block_worth(b, worth);
         for (int i = b->m - 1; i >= 0; i--)
-            if (b->of[i] < 0 && power_of(b->fit, b->s[i], b->part + i * b->fit->data->groups) < 0.25 * least) {
+            if (b->of[i] < 0 && power_of(b->fit, b->s[i], b->part + i * b->fit->data->stretches) < 0.25 * least) {
                 modal_block_drop(b, i);
                 memmove(worth + i, worth + i + 1, (size_t)(b->m - i) * sizeof *worth);
             }
@@ -293,7 +292,7 @@ static bool accepted(const struct modal_block *b, int i, double low, double high
     const struct modal_fit *f = b->fit;
     return b->of[i] < 0 && b->s[i].im >= low && b->s[i].im < high && b->s[i].im > f->low && b->s[i].im < f->high &&
            -b->s[i].re < 0.99 * fmin(f->fastest, high - low) &&
-           power_of(f, b->s[i], b->part + i * f->data->groups) >= least;
+           power_of(f, b->s[i], b->part + i * f->data->stretches) >= least;
 }
 
 /* Poles of one band: polished together and with the modes that are there already, tested, added where they lie in its
@@ -302,7 +301,7 @@ static int take(struct modal_fit *f, cplx *pole, int n, double low, double high,
 {
     struct arena *a = arena_open();
     struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
-    int came = 0, there = 0, of[NEIGHBOURS + 1], groups = f->data->groups;
+    int came = 0, there = 0, of[NEIGHBOURS + 1], stretches = f->data->stretches;
     double quarter = 0.25 * (high - low), at = 0.5 * (low + high);
     for (int i = 0; i < f->m; i++) { /* the nearest to the band's middle */
         int k = there;
@@ -312,7 +311,7 @@ static int take(struct modal_fit *f, cplx *pole, int n, double low, double high,
         of[k] = i;
         there += there < NEIGHBOURS;
     }
-    modal_block_open(b, f, there, of, pole, n, NULL, a);
+    modal_block_open(b, f, there, of, pole, n, a);
     b->fastest = fmin(f->fastest, high - low);
     for (int i = 0; i < there; i++) /* those that are there may be faster than the band lets new ones be */
         b->fastest = fmax(b->fastest, -f->c[of[i]].s.re);
@@ -324,10 +323,10 @@ static int take(struct modal_fit *f, cplx *pole, int n, double low, double high,
         came += accepted(b, i, low, high, least);
     for (int i = 0; i < b->m && came; i++) {
         if (b->of[i] >= 0) {
-            modal_fit_replace(f, b->of[i], b->s[i], b->part + i * groups);
+            modal_fit_replace(f, b->of[i], b->s[i], b->part + i * stretches);
             f->c[b->of[i]].moved = 1.0;
         } else if (accepted(b, i, low, high, least)) {
-            modal_fit_add(f, b->s[i], b->part + i * groups);
+            modal_fit_add(f, b->s[i], b->part + i * stretches);
         }
     }
     arena_close(a);

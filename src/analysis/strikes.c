@@ -195,13 +195,14 @@ static void prepare(struct strikes_channel *c, const struct strikes_recording *r
     find_clip(c, r->n);
 }
 
-static bool clips(const struct strikes_channel *c, long from, long to)
+/* The sample after the last that clips; `from`: none does. */
+static long clips(const struct strikes_channel *c, long from, long to)
 {
-    for (long i = from; i < to; i++)
-        if (fabs(c->x[i] + c->offset) >= clip_share * c->full || (c->clip[0] < 0.0 && c->x[i] <= c->clip[0]) ||
-            (c->clip[1] > 0.0 && c->x[i] >= c->clip[1]))
-            return true;
-    return false;
+    while (to > from &&
+           !(fabs(c->x[to - 1] + c->offset) >= clip_share * c->full ||
+             (c->clip[0] < 0.0 && c->x[to - 1] <= c->clip[0]) || (c->clip[1] > 0.0 && c->x[to - 1] >= c->clip[1])))
+        to--;
+    return to;
 }
 
 /* ------------------------------------------------------------------ by the force */
@@ -246,7 +247,7 @@ static void by_force(const struct strikes_recording *r, double threshold, struct
     for (struct strikes_one *v = s->strike; v < s->strike + s->n; v++) {
         for (long i = v->onset; i < v->over; i++)
             v->momentum += (x[i] - v->base) / r->rate;
-        v->clipped = clips(&r->force, v->onset, v->over);
+        v->clipped = clips(&r->force, v->onset, v->over) > v->onset;
     }
 }
 
@@ -279,9 +280,10 @@ static void by_sound(const struct strikes_recording *r, double threshold, struct
         long at = k * fine.frame, to = lesser(at + 3 * ms, r->n), onset = departs(r, at - ms > 0 ? at - ms : 0, to),
              late = lesser(onset + 20 * ms, r->n);
         struct strikes_one *last = s->n ? &s->strike[s->n - 1] : NULL;
-        if (last && (double)(onset - last->onset) <= doubled_time * r->rate)
+        if (last && (double)(onset - last->onset) <= doubled_time * r->rate) {
             last->doubled = last->doubled || (double)(onset - last->onset) > 0.005 * r->rate;
-        else
+            last->over = last->doubled ? onset : last->over;
+        } else
             s->strike[s->n++] = (struct strikes_one){
                 .onset = onset, .over = onset, .peak = greatest(r->sound.x, onset, late), .momentum = NAN};
     }
@@ -289,27 +291,21 @@ static void by_sound(const struct strikes_recording *r, double threshold, struct
 
 /* ------------------------------------------------------------------ which of them */
 
-/* Of doubled strikes without force and of those that are much quieter than what else the recording holds the rest of
- * the table would be about something else. */
+/* Of a strike that is much quieter than what else the recording holds the rest of the table would be about something
+   else. */
 static bool choose(const struct strikes_recording *r, struct strikes *s, struct arena *a, struct err *e)
 {
-    enum { USED, CLIPPED, QUIET, DOUBLED, REASONS };
-    static const char *const reasons[REASONS] = {NULL, "clipped", "too quiet", "doubled"};
+    enum { USED, CLIPPED, QUIET, REASONS };
+    static const char *const reasons[REASONS] = {NULL, "clipped", "too quiet"};
     int count[REASONS] = {0};
     double least = quiet_share * greatest(r->sound.x, 0, r->n);
     for (struct strikes_one *v = s->strike; v < s->strike + s->n; v++) {
         long soon = lesser(v->onset + (long)(0.05 * r->rate), v->end);
-        int why = v->clipped                                     ? CLIPPED
-                  : greatest(r->sound.x, v->onset, soon) < least ? QUIET
-                  : v->doubled && !r->force.x                    ? DOUBLED
-                                                                 : USED;
+        int why = v->clipped ? CLIPPED : greatest(r->sound.x, v->onset, soon) < least ? QUIET : USED;
         v->left_out = reasons[why];
         count[why]++;
     }
-    if (!count[USED]) /* of doubled ones alone all */
-        for (int k = 0; k < s->n; k++)
-            if (s->strike[k].left_out == reasons[DOUBLED]) s->strike[k].left_out = NULL;
-    s->used = count[USED] ? count[USED] : count[DOUBLED];
+    s->used = count[USED];
     if (count[CLIPPED] == s->n)
         return err_set(e, ERR_SCENE,
                        "%s: %s clipped: no strike keeps below what the file can hold; record it again at a lower level",
@@ -392,7 +388,8 @@ bool strikes_find(struct strikes_recording *r, double threshold, struct arena *a
                        r->name, force ? "force" : "sound", threshold);
     for (struct strikes_one *v = s->strike; v < s->strike + s->n; v++) {
         v->end = v + 1 < s->strike + s->n ? v[1].onset - (long)(0.0005 * r->rate) : r->n;
-        v->clipped = v->clipped || clips(&r->sound, v->onset, v->end);
+        v->clear = clips(&r->sound, v->onset, v->end);
+        v->clipped = v->clipped || v->clear > v->onset;
     }
     bool ok = choose(r, s, a, e) && high_enough(r, s, e);
     for (int k = 0; k < s->n && ok; k++)
@@ -420,6 +417,11 @@ static long begins(const double *h, long n)
 bool strikes_response(struct strikes_recording *r, double delay, struct arena *a, struct strikes *s, struct err *e)
 {
     const double *x = r->sound.x;
+    double length = (double)r->n / r->rate, behind = length - (isnan(delay) ? 0.0 : delay);
+    if (behind < shortest)
+        return err_set(e, ERR_SCENE, "%s lasts %.3g ms%s; a response takes at least 10 ms", r->name, 1e3 * length,
+                       isnan(delay) ? ""
+                                    : arena_format(a, ", of which --delay leaves %.3g ms", 1e3 * fmax(behind, 0.0)));
     long shift = isnan(delay) ? begins(x, r->n) : (long)rint(delay * r->rate);
     double most = greatest(x, shift, r->n);
     *s = (struct strikes){.n = 1, .used = 1, .strike = ARENA_TAKE(a, struct strikes_one, 1)};
@@ -428,12 +430,12 @@ bool strikes_response(struct strikes_recording *r, double delay, struct arena *a
         NOTE(s, a, "the response begins %.4g ms into the file: that is taken off (--delay 0 ms keeps it)",
              1e3 * (double)shift / r->rate);
     if ((double)(r->n - shift) < shortest * r->rate)
-        return err_set(e, ERR_SCENE, "%s lasts %.3g ms%s; a response takes at least 10 ms", r->name,
-                       1e3 * (double)(r->n - shift) / r->rate, shift ? " behind --delay" : "");
+        return err_set(e, ERR_SCENE, "%s begins %.3g ms before its end; a response takes at least 10 ms", r->name,
+                       1e3 * (double)(r->n - shift) / r->rate);
     if (most == 0.0)
         return err_set(e, ERR_SCENE, "%s: the response is silent (all samples are 0): is --channel right?", r->name);
     find_clip(&r->sound, r->n);
-    if (clips(&r->sound, 0, r->n)) /* also before the delay: what is clipped at its onset rings wrongly */
+    if (clips(&r->sound, 0, r->n) > 0) /* also before the delay: what is clipped at its onset rings wrongly */
         NOTE(s, a, "its greatest sample is as large as the file can hold, or stands in a row: it may be clipped");
     return true;
 }

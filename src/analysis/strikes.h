@@ -23,10 +23,12 @@ struct strikes_recording {
 };
 
 struct strikes_one {
-    long onset;  /* sample, of the force's or, without, the sound's beginning */
-    long over;   /* sample: the force has ended (of a doubled strike its second pulse too); without force the onset */
-    long end;    /* sample: next strike's onset less a margin, or the end of the recording */
-    double base; /* N: the force channel's offset just before */
+    long onset; /* sample, of the force's or, without, the sound's beginning */
+    long over; /* sample: the force has ended, of a doubled strike that of its second pulse; without force the onset, of
+                    a doubled strike the second */
+    long clear;            /* sample: the sound does not clip any more */
+    long end;              /* sample: next strike's onset less a margin, or the end of the recording */
+    double base;           /* N: the force channel's offset just before */
     double peak, momentum; /* of the force: N, N s; else of the sound and NAN */
     bool clipped, doubled;
     const char *left_out; /* why it is not fitted; NULL: it is */

@@ -73,8 +73,7 @@ struct modes_extract {
     const char *note[MODES_EXTRACT_NOTES];
     int notes;
     double median_decay;     /* 1/s, of all components alike */
-    double median_by_energy; /* 1/s, that half of the energy of all components is slower than; of decays up to
-                                300/s */
+    double median_by_energy; /* 1/s, that half of the energy of all components is slower than */
 };
 
 /* Strikes, responses, modes, gains, what they explain. */

@@ -1,7 +1,9 @@
 /* From recordings to modes: strikes, the stretches that are fitted, the fit, what it explains, and each mode's gains.
 
    With a force a stretch begins just before its strike, and what rings on from earlier strikes is carried into it
-   (analysis/modal_fit.h). Without one it begins a millisecond after the strike, when a hard hammer has left, and has
+   (analysis/modal_fit.h), from those too that are left out. What is wrong with a strike is not fitted: of a doubled one
+   it begins after the second pulse, of one that clips where that has ended.
+   Without one it begins a millisecond after the strike, when a hard hammer has left, and has
    gains of its own, which are taken back to the strike by e^(-s t).
 
    A microphone's pressure is, without the sizes of a radiator, taken as proportional to the acceleration of the
@@ -32,7 +34,6 @@ static const double single = 0.7;      /* of a mode's energy in all strikes: les
 static const double much = 0.2;        /* of the energy: what follows the force at once is reported */
 static const double fastest[2] = {600.0, 0.05}; /* 1/s, and of the rate: what decays faster than the less of the two is
                                                    no mode unless one asks for it */
-static const double slow = 300.0;               /* 1/s, of decays that the median by energy is about */
 static const double air_density = 1.204, air_speed = 343.2; /* kg/m^3, m/s: as output.listen has them by default */
 
 /* The lines of a text, each once, of a place (NULL: of none). */
@@ -63,7 +64,8 @@ static bool only(const struct modes_extract *x, struct strikes *s, struct err *e
         bool whole = end != text && (!*end || *end == ',');
         if (!whole || from < 1 || to < from)
             return err_set(e, ERR_USAGE, "--strikes: '%s' is not of the form 1,3,5-7", x->given.only);
-        if (to > s->n) return err_set(e, ERR_USAGE, "--strikes: '%s': there are %d strikes", x->given.only, s->n);
+        if (to > s->n)
+            return err_set(e, ERR_USAGE, "--strikes: '%s': the last strike is number %d", x->given.only, s->n);
         for (long k = from; k <= to; k++)
             chosen[k - 1] = true;
         text = *end ? end + 1 : end;
@@ -91,7 +93,20 @@ static bool strikes(struct modes_extract *x, struct modes_extract_place *p, stru
         p->delay = (double)s->strike[0].onset / x->rate;
     else if (g->force_channel)
         p->delay = isnan(g->delay) ? strikes_delay(&p->recording, s) : g->delay;
-    return true;
+    return p->delay < (double)p->recording.n / x->rate ||
+           err_set(e, ERR_USAGE, "--delay %g s is longer than %s", p->delay, p->shown);
+}
+
+/* The way from force to sound is the same for all places, of which none is struck later than another: the median of
+   what their recordings show. */
+static void same_delay(struct modes_extract *x)
+{
+    double *delay = ARENA_TAKE(x->arena, double, x->n);
+    for (int k = 0; k < x->n; k++)
+        delay[k] = x->place[k].delay;
+    double median = gsl_stats_median(delay, 1, (size_t)x->n);
+    for (int k = 0; k < x->n; k++)
+        x->place[k].delay = median;
 }
 
 /* ------------------------------------------------------------------ stretches */
@@ -113,23 +128,31 @@ static void add_stretches(struct modes_extract *x, struct modal_stretch *list, s
         if (k < 0 && (response || end <= (long)(lead_least * x->rate))) continue;
         if (k >= 0) {
             const struct strikes_one *v = &s->strike[k];
-            st.first = v->onset + (response ? 1 : force ? late - early : (long)(past * x->rate));
-            end = end < st.first + longest ? end : st.first + longest;
+            st.first = response     ? v->onset + 1
+                       : !force     ? v->over + (long)(past * x->rate)
+                       : v->doubled ? v->over + late
+                                    : v->onset + late - early;
             st.first = st.first > 0 ? st.first : 0;
+            end = end < st.first + longest ? end : st.first + longest;
             st.fitted = !v->left_out;
+            if (v->clipped && !response) st.first = v->clear > st.first ? v->clear : st.first;
             st.pulse = (struct modal_pulse){response ? v->onset : st.first, 1, unit};
-            if (force) {
+            if (force && !v->clipped) {
                 double *f = ARENA_TAKE(x->arena, double, v->over - v->onset);
                 st.pulse = (struct modal_pulse){v->onset + late, v->over - v->onset, f};
-                st.ringing = v->over + late - st.first;
+                st.ringing = v->over + late > st.first ? v->over + late - st.first : 0;
                 for (long i = 0; i < st.pulse.n; i++)
                     f[i] = r->force.x[v->onset + i] - v->base;
             }
         }
-        st.group = x->data.groups++;
         st.y = r->sound.x + st.first;
         st.n = modal_length((end < r->n ? end : r->n) - st.first);
-        if ((double)(st.n - st.ringing) >= shortest * r->rate) list[x->data.stretches++] = st;
+        if ((double)(st.n - st.ringing) >= shortest * r->rate) {
+            list[x->data.stretches++] = st;
+        } else if (st.fitted) {
+            p->strikes.strike[k].left_out = "too short";
+            p->strikes.used--;
+        }
     }
     p->stretches = x->data.stretches - p->first;
 }
@@ -169,7 +192,7 @@ static double reach_of_force(const struct modes_extract *x, const struct modes_e
 static bool stretches(struct modes_extract *x, struct err *e)
 {
     const struct modes_extract_given *g = &x->given;
-    int room = 0, fitted = 0;
+    int room = 0;
     for (int k = 0; k < x->n; k++)
         room += x->place[k].strikes.n + 1;
     struct modal_stretch *list = ARENA_TAKE(x->arena, struct modal_stretch, room);
@@ -179,17 +202,15 @@ static bool stretches(struct modes_extract *x, struct err *e)
     for (int k = 0; k < x->n; k++) {
         struct modes_extract_place *p = &x->place[k];
         add_stretches(x, list, p);
+        if (!p->strikes.used)
+            return err_set(e, ERR_SCENE, "%s: no strike has %.3g ms of sound behind it", p->shown, 1e3 * shortest);
         p->high = g->force_channel ? reach_of_force(x, p) : 0.49 * x->rate;
         rounding[k] = p->recording.rounding;
         x->high = fmin(x->high, p->high);
     }
-    for (int s = 0; s < x->data.stretches; s++)
-        fitted += list[s].fitted;
     if (x->data.stretches > STRIKES)
         return err_set(e, ERR_SCENE, "%s: %d strikes are more than the %d that are fitted together; cut the recording",
                        x->place[0].shown, x->data.stretches, STRIKES);
-    if (!fitted)
-        return err_set(e, ERR_SCENE, "%s: no strike has %.3g ms of sound behind it", x->place[0].shown, 1e3 * shortest);
     if (g->high > x->high) NOTE(x, "--high %g Hz lies beyond what the strikes hold, %.6g Hz", g->high, x->high);
     x->low = isnan(g->low) ? 20.0 : fmax(g->low, 1.0);
     x->high = isnan(g->high) ? x->high : fmin(g->high, x->high);
@@ -244,7 +265,7 @@ static bool alone(const struct modes_extract *x)
     for (const struct modal_mode *m = x->found.mode; m < x->found.mode + x->found.n; m++) {
         double most = 0.0, sum = 0.0;
         for (int s = 0; s < x->data.stretches; s++) {
-            int q = x->data.stretch[s].group;
+            int q = s;
             if (!x->data.stretch[s].fitted) continue;
             most = fmax(most, m->re[q] * m->re[q] + m->im[q] * m->im[q]);
             sum += m->re[q] * m->re[q] + m->im[q] * m->im[q];
@@ -314,19 +335,18 @@ static struct modes_extract_gain place_gain(const struct modes_extract *x, const
     int n = 0, best = 0;
     for (int k = p->first; k < p->first + p->stretches; k++) {
         const struct modal_stretch *st = &x->data.stretch[k];
-        double se = m->gain_se[st->group], back = 0.0, unit = x->given.impulse ? 1.0 : x->rate;
+        double se = m->gain_se[k], back = 0.0, unit = x->given.impulse ? 1.0 : x->rate;
         if (!st->fitted || !isfinite(se) || se <= 0.0) continue;
         if (!x->given.impulse && !x->given.force_channel) {
             back = (double)(st->pulse.at - p->strikes.strike[st->strike].onset) / x->rate;
             unit = 1.0 / p->strikes.strike[st->strike].peak;
         }
-        cplx a = cplx_mul((cplx){m->re[st->group], m->im[st->group]},
-                          cplx_exp((cplx){-m->decay, 2.0 * REAL_PI * m->frequency}, -back));
+        cplx a = cplx_mul((cplx){m->re[k], m->im[k]}, cplx_exp((cplx){-m->decay, 2.0 * REAL_PI * m->frequency}, -back));
         double scale = unit * real_exp(m->decay * back);
         a = cplx_scale(unit, a);
         g[n].size = cplx_abs(a);
         g[n].se = scale * se;
-        g[n].shared = scale * m->gain_shared[st->group];
+        g[n].shared = scale * m->gain_shared[k];
         g[n++].phase = real_atan2(a.im, a.re);
     }
     double mean = 0.0, between = 0.0, noise = 0.0, weights = 0.0, size = 0.0, shared = 0.0;
@@ -405,12 +425,12 @@ static void medians(struct modes_extract *x)
     for (size_t i = 0; i < n; i++) {
         decay[i] = x->found.mode[i].decay;
         part[i] = x->found.mode[i].share;
-        all += decay[i] <= slow ? part[i] : 0.0;
+        all += part[i];
     }
     gsl_sort2(decay, 1, part, 1, n);
     x->median_decay = gsl_stats_median_from_sorted_data(decay, 1, n);
     x->median_by_energy = NAN;
-    for (size_t i = 0; i < n && decay[i] <= slow && (i == 0 || at < 0.5 * all); i++) {
+    for (size_t i = 0; i < n && (i == 0 || at < 0.5 * all); i++) {
         double last = at;
         at = below + 0.5 * part[i];
         below += part[i];
@@ -427,6 +447,7 @@ bool modes_extract_find(struct modes_extract *x, struct err *e)
     const struct modes_extract_given *g = &x->given;
     for (int k = 0; k < x->n; k++)
         if (!strikes(x, &x->place[k], e)) return false;
+    if (g->force_channel) same_delay(x);
     if (!stretches(x, e)) return false;
     struct modal_options o = {.most = (int)g->modes,
                               .low = x->low,

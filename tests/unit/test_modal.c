@@ -39,7 +39,7 @@ static void find(const struct known *m, int modes, double rms, unsigned seed, in
     for (int k = 0; k < flips; k++)
         y[97 + 331 * k % N] *= 1.0 + 0x1p-24;
     struct modal_stretch s = {.y = y + 1, .first = 1, .n = modal_length(N), .fitted = true, .pulse = {0, 1, &one}};
-    struct modal_data d = {.rate = RATE, .places = 1, .groups = 1, .stretches = 1, .stretch = &s};
+    struct modal_data d = {.rate = RATE, .places = 1, .stretches = 1, .stretch = &s};
     struct modal_options o = {.most = 50, .low = 20, .high = 7800, .fastest = 0.02 * RATE, .threshold = 0.1};
     ck_assert_msg(modal_find(&d, &o, a, r, &e), "%s", e.text);
 }
@@ -68,7 +68,7 @@ START_TEST(basis)
     for (long at = 40; at <= 540; at += 250) {
         double *y = ARENA_TAKE(a, double, 2000), room[3][8][8], *x[8];
         struct modal_stretch s = {.y = y, .first = 300, .n = 960, .fitted = true, .pulse = {at, 3, force}};
-        struct modal_data d = {.rate = RATE, .places = 1, .groups = 1, .stretches = 1, .stretch = &s};
+        struct modal_data d = {.rate = RATE, .places = 1, .stretches = 1, .stretch = &s};
         struct modal_options o = {.low = 900, .high = 1100, .fastest = 300};
         struct modal_fit f;
         const cplx pole = {-35.0, 2.0 * REAL_PI * 987.6};
@@ -198,18 +198,16 @@ START_TEST(strikes_and_hum)
                                   .first = LEAD - 8,
                                   .n = modal_length(GAP),
                                   .ringing = 8 + PULSE,
-                                  .group = 1,
                                   .fitted = true,
                                   .pulse = {LEAD, PULSE, force}},
                                  {.y = y + LEAD + GAP - 8,
                                   .first = LEAD + GAP - 8,
                                   .n = modal_length(ALL - LEAD - GAP),
                                   .ringing = 8 + PULSE,
-                                  .group = 2,
                                   .strike = 1,
                                   .fitted = true,
                                   .pulse = {LEAD + GAP, PULSE, force}}};
-    struct modal_data d = {.rate = RATE, .places = 1, .groups = 3, .stretches = 3, .stretch = s};
+    struct modal_data d = {.rate = RATE, .places = 1, .stretches = 3, .stretch = s};
     struct modal_options o = {.most = 50, .low = 20, .high = 7800, .fastest = 0.02 * RATE};
     ck_assert_msg(modal_find(&d, &o, a, &r, &e), "%s", e.text);
     ck_assert_int_eq(r.n, 3);
@@ -251,14 +249,13 @@ START_TEST(strikes_in_time)
                                           .first = k * GAP,
                                           .n = modal_length(GAP),
                                           .ringing = 8 + PULSE,
-                                          .group = k,
                                           .strike = k,
                                           .fitted = true,
                                           .pulse = {k * GAP + 8, PULSE, force[k]}};
         }
         for (long i = 0; i < ALL; i++)
             y[i] += 1e-4 * noise[i];
-        struct modal_data d = {.rate = RATE, .places = 1, .groups = STRIKES, .stretches = STRIKES, .stretch = s};
+        struct modal_data d = {.rate = RATE, .places = 1, .stretches = STRIKES, .stretch = s};
         struct modal_options o = {.most = 50, .low = 20, .high = 7800, .fastest = 0.02 * RATE};
         ck_assert_msg(modal_find(&d, &o, a, &r, &e), "%s", e.text);
         ck_assert_int_eq(r.n, 3);
@@ -308,14 +305,13 @@ START_TEST(strikes_apart)
                                           .first = k * GAP,
                                           .n = modal_length(GAP),
                                           .ringing = 9,
-                                          .group = k,
                                           .strike = k,
                                           .fitted = true,
                                           .pulse = {k * GAP + 8, 1, &one}};
         }
         for (long i = 0; i < ALL; i++)
             y[i] += 1e-4 * noise[i];
-        struct modal_data d = {.rate = RATE, .places = 1, .groups = STRIKES, .stretches = STRIKES, .stretch = s};
+        struct modal_data d = {.rate = RATE, .places = 1, .stretches = STRIKES, .stretch = s};
         struct modal_options o = {.most = 50, .low = 20, .high = 7800, .fastest = 0.02 * RATE};
         ck_assert_msg(modal_find(&d, &o, a, &r, &e), "%s", e.text);
         ck_assert_int_eq(r.n, 4);
@@ -364,14 +360,13 @@ START_TEST(strikes_alike)
                                           .first = first,
                                           .n = modal_length((k ? ALL : at[1] - 8) - first),
                                           .ringing = 8 + PULSE,
-                                          .group = k,
                                           .strike = k,
                                           .fitted = true,
                                           .pulse = {at[k], PULSE, force}};
         }
         for (long i = 0; i < ALL; i++)
             y[i] += (seed % 4 < 2 ? 1e-3 : 1e-4) * noise[i];
-        struct modal_data d = {.rate = RATE, .places = 1, .groups = 2, .stretches = 2, .stretch = s};
+        struct modal_data d = {.rate = RATE, .places = 1, .stretches = 2, .stretch = s};
         struct modal_options o = {.most = 50, .low = 20, .high = 7800, .fastest = 0.02 * RATE};
         ck_assert_msg(modal_find(&d, &o, a, &r, &e), "%s", e.text);
         ck_assert_int_eq(r.n, MODES);
