@@ -258,8 +258,8 @@ static double own_inverse(const struct modal_block *b, const struct modal_normal
 }
 
 /* The step of all poles, damped: of the shared ones, step[p], and own[stretches][p]; returns what it would take off
-   chi. The shared ones' normal equations are sum N - N (N + W)^-1 N = sum W (N + W)^-1 N, where W holds the damping, too,
-   their right side sum r - N (N + W)^-1 (r - W apart). */
+   chi. The shared ones' normal equations are sum N - N (N + W)^-1 N = sum W (N + W)^-1 N, where W holds the damping,
+   too, their right side sum r - N (N + W)^-1 (r - W apart). */
 static double solve(struct modal_block *b, double damping, double *step, double *own)
 {
     int p = 2 * b->m, n = p + 1, stretches = b->fit->data->stretches;
