@@ -26,7 +26,6 @@
 
 #include "num/real.h"
 #include "num/vecmath.h"
-#include "scene/scene.h"
 
 static void hertz_series(double term[PULSE_TERMS])
 {

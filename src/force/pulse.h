@@ -2,6 +2,8 @@
 #ifndef FORCE_PULSE_H
 #define FORCE_PULSE_H
 
+enum pulse { PULSE_HALF_SINE, PULSE_HERTZ };
+
 enum { PULSE_TERMS = 24 };
 
 struct pulse_shape {

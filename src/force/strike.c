@@ -18,34 +18,121 @@
 
 #include "force/approach.h"
 #include "force/hertz.h"
+#include "scene/rows.h"
+#include "scene/scene_check.h"
+#include "scene/scene_sense_parts.h"
 #include "stage.h"
 #include "trajectory/trajectory.h"
 
+/* ------------------------------------------------------------------ parameters */
+
+#define STRIKE "contact.model=strike"
+
+static const struct choice pulses[] = {
+    [PULSE_HALF_SINE] = {"half_sine", "a linear spring: f = k x, which gives half a sine"},
+    [PULSE_HERTZ] = {"hertz", "a sphere on a flat: f = k x^1.5"},
+    {NULL, NULL}};
+
+static const struct key keys[] = {
+    {ROW_CHOICE(strike, pulse, "contact.strike.pulse"), KEY_NONE, 0, 0, "hertz", STRIKE,
+     "what springs back in an impact", pulses},
+    {ROW_NUMBER(strike, speed, "contact.strike.speed"), KEY_SPEED, 1e-6, 100, NULL, STRIKE,
+     "speed at which the first impact arrives"},
+    {ROW_NUMBER(strike, stiffness, "contact.strike.stiffness"), KEY_STIFFNESS, 1e-3, 1e15, "", STRIKE,
+     "stiffness of the contact, N/m of half_sine and N/m^1.5 of hertz; left out: hertz takes it from scraper.radius "
+     "and both materials"},
+    {ROW_NUMBER(strike, first, "contact.strike.first"), KEY_TIME, 0, 3600, "20 ms", STRIKE,
+     "when the first impact begins, after the contact's start; 20 ms is clear of output.ramp"},
+    {ROW_COUNT(strike, count, "contact.strike.count"), KEY_NONE, 0, 1000000, "0", STRIKE,
+     "how many impacts, at most; 0: one, or with interval or restitution as many as the motion has time for"},
+    {ROW_NUMBER(strike, interval, "contact.strike.interval"), KEY_TIME, 1e-5, 3600, "", STRIKE,
+     "time from impact to impact, all alike"},
+    {ROW_NUMBER(strike, restitution, "contact.strike.restitution"), KEY_NONE, 0.01, 1, "", STRIKE,
+     "speed after over speed before an impact: the impacts are a bounce train under contact.gravity"},
+    {.path = NULL}};
+
+static bool is_given(const struct scene_part *p, const char *path) { return yaml_find(p->map, path) != NULL; }
+
+/* The unit, where one is written, says which pulse the figure is meant for. */
+static void unit_check(const struct scene_part *p, const struct strike *s)
+{
+    static const char *const units[] = {[PULSE_HALF_SINE] = "N/m", [PULSE_HERTZ] = "N/m^1.5"};
+    const char *path = "contact.strike.stiffness";
+    const struct yaml_node *node = yaml_find(p->map, path);
+    int other = s->pulse == PULSE_HERTZ ? PULSE_HALF_SINE : PULSE_HERTZ;
+    if (!isnan(s->stiffness) && scene_sense_model_unit(node, s->pulse != PULSE_HERTZ))
+        diag_add(p->yaml->diag, node->at,
+                 arena_format(p->yaml->arena, "give it in %s, or set contact.strike.pulse to %s", units[s->pulse],
+                              pulses[other].word),
+                 "%s of a %s pulse is in %s, not '%s'", scene_part_label(p, path), pulses[s->pulse].word,
+                 units[s->pulse], diag_shown(p->yaml->diag, node->text));
+}
+
+static void stiffness_check(const struct scene_part *p, const struct contact *c, const struct strike *s)
+{
+    if (is_given(p, "contact.strike.stiffness")) return;
+    if (s->pulse == PULSE_HALF_SINE) {
+        scene_check_missing(p, "contact.strike.stiffness", "2 MN/m", ": a half_sine pulse needs it");
+        return;
+    }
+    scene_check_missing(p, "scraper.radius", "5 mm",
+                        ": the stiffness of the impact follows from it, unless contact.strike.stiffness is given");
+    scene_sense_model_moduli(p, c,
+                             "the stiffness of the impact follows from it, unless contact.strike.stiffness is given");
+}
+
+static void train_check(const struct scene_part *p, const struct contact *c, const struct strike *s)
+{
+    const char *count = "contact.strike.count", *first = "contact.strike.first", *gravity = "contact.gravity",
+               *bounce = "contact.strike.restitution";
+    double lasts = scene_sense_lasts(&c->motion);
+    if (s->count > 1 && !is_given(p, "contact.strike.interval") && !is_given(p, bounce))
+        diag_add(p->yaml->diag, scene_part_later(p, count, count),
+                 "add for instance: interval: 0.5 s; or restitution: 0.7 for a bounce train",
+                 "%s is %d, and nothing says when the second impact comes", scene_part_label(p, count), s->count);
+    if (!isnan(s->restitution) && s->count != 1 && c->contact.gravity == 0)
+        diag_add(p->yaml->diag, scene_part_later(p, gravity, bounce),
+                 "raise contact.gravity, or give contact.strike.interval in place of restitution",
+                 "%s is 0: what bounces never comes back", scene_part_label(p, gravity));
+    if (s->first >= lasts)
+        diag_add(p->yaml->diag, scene_part_later(p, first, "motion.duration"),
+                 "lower contact.strike.first, or let the motion last longer",
+                 "%s: the first impact comes at %.4g s, and the motion lasts %.4g s", scene_part_label(p, first),
+                 s->first, lasts);
+}
+
+static void check(const struct scene_part *p, const struct contact *c, const void *own)
+{
+    if (!scene_part_known(p, "contact.strike.pulse")) return;
+    unit_check(p, own);
+    stiffness_check(p, c, own);
+    train_check(p, c, own);
+}
+
+static bool strikes(const struct contact *c) { return c->contact.model == CONTACT_STRIKE; }
+
+static const struct params strike_params = {
+    .section = "contact.strike",
+    .size = sizeof(struct strike),
+    .keys = keys,
+    .check = check,
+    .given = strikes,
+    .shown = true,
+};
+
+static const struct strike *strike_of(const struct contact *c) { return params_of(c, &strike_params); }
+
+/* ------------------------------------------------------------------ the impacts */
+
 bool strike_stiffness(const struct contact *c, double *stiffness, struct err *e)
 {
-    *stiffness = c->contact.strike.stiffness;
-    if (!isnan(*stiffness)) return true;
-    if (c->contact.strike.pulse != PULSE_HERTZ)
-        return err_set(e, ERR_SCENE,
-                       "contact '%s': contact.strike.stiffness must be given where contact.strike.pulse is half_sine",
-                       c->name);
-    return hertz_stiffness(c, stiffness, e);
+    *stiffness = strike_of(c)->stiffness;
+    return !isnan(*stiffness) || hertz_stiffness(c, stiffness, e);
 }
 
 static bool strike_can(const struct contact *c, const struct strike_train *s, struct err *e)
 {
     double lasts = pulse_lasts(&s->shape, s->mass, s->stiffness, s->speed);
-    if (s->most > 1 && isnan(s->interval) && !s->bounces)
-        return err_set(e, ERR_SCENE,
-                       "contact '%s': contact.strike.count is %ld, and nothing says when the second impact comes: give "
-                       "contact.strike.interval, or "
-                       "contact.strike.restitution for a bounce train",
-                       c->name, s->most);
-    if (s->most != 1 && s->bounces && !(s->gravity > 0))
-        return err_set(e, ERR_SCENE,
-                       "contact '%s': contact.gravity is 0: what bounces never comes back; give "
-                       "contact.strike.interval, or gravity",
-                       c->name);
     if (s->most != 1 && s->interval < lasts)
         return err_set(e, ERR_SCENE,
                        "contact '%s': contact.strike.interval, %.4g s, is shorter than an impact, %.4g s: give a "
@@ -62,7 +149,7 @@ static bool strike_can(const struct contact *c, const struct strike_train *s, st
 
 bool strike_make(const struct contact *c, double duration, struct strike_train *s, struct err *e)
 {
-    const struct strike *given = &c->contact.strike;
+    const struct strike *given = strike_of(c);
     bool several = !isnan(given->interval) || !isnan(given->restitution);
     *s = (struct strike_train){.shape = pulse_make(given->pulse),
                                .mass = c->scraper.mass,
@@ -129,12 +216,6 @@ static void striking_next(struct striking *s, double per_second)
     s->share = 0;
 }
 
-static bool stage_wanted(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return c->contact.model == CONTACT_STRIKE;
-}
-
 static double stage_work(const struct contact *c, const struct scene *s)
 {
     (void)c;
@@ -198,10 +279,10 @@ const struct stage strike_stage = {
     .does = "contact force of impacts",
     .paper = "",
     .idle = "contact.model is not strike",
+    .params = &strike_params,
     .needs = ITEM_BIT(ITEM_MOTION), /* its duration */
     .gives = ITEM_BIT(ITEM_SUBFORCE),
     .knobs = KNOB_BIT(oversampling),
-    .wanted = stage_wanted,
     .work = stage_work,
     .open = stage_open,
     .run = stage_fill,

@@ -7,6 +7,16 @@
 #include "force/pulse.h"
 #include "scene/scene.h"
 
+struct strike {         /* keys contact.strike.* */
+    int pulse;          /* enum pulse                                                               */
+    double speed;       /* m/s, of the first impact                                                 */
+    double stiffness;   /* N/m of half_sine, N/m^1.5 of hertz; NAN: hertz from radius and materials */
+    double first;       /* s after the contact's start                                              */
+    int count;          /* 0: one, or as many as there is time for                                  */
+    double interval;    /* s; NAN: a bounce train by restitution                                    */
+    double restitution; /* of a bounce train; NAN: repeated impacts                                 */
+};
+
 struct strike_impact {
     double start;    /* s after the contact's start       */
     double speed;    /* m/s, of arrival                   */
@@ -31,8 +41,7 @@ struct strike_train {
 };
 
 /* The impacts of a contact whose motion lasts `duration` (s). ERR_SCENE, with the contact's name: impacts that overlap,
-   a train without gravity, several impacts without an interval, no room for the first one, a stiffness that nothing
-   gives. */
+   no room for the first one, a stiffness that nothing gives. */
 bool strike_make(const struct contact *c, double duration, struct strike_train *s, struct err *e);
 
 /* The next impact; false (see s->over) after the last one. */

@@ -19,6 +19,7 @@
 #include "base/arena.h"
 #include "base/err.h"
 #include "convolution/ring_choice.h"
+#include "force/strike.h"
 #include "num/fft.h"
 #include "num/real.h"
 #include "pipeline/run.h"
@@ -48,19 +49,20 @@ enum { AUDIBLE_FRAMES = 16384 };
 #define SHORT 1e-7   /* s, of the strike */
 enum { FIRST = 64 }; /* frames before it: the decimator's reach and more */
 
-static void strike(struct contact *c, const double place[2], double rate)
+static void strike(struct contact *c, const double place[2], double rate, struct arena *a)
 {
     double mass = 0.01;
     if (c->surface.response.choice && c->surface.response.choice->moves) c->surface.response.choice = NULL;
     c->start = 0;
     c->contact.model = CONTACT_STRIKE;
-    c->contact.strike = (struct strike){.pulse = PULSE_HALF_SINE,
-                                        .speed = 1,
-                                        .stiffness = mass * REAL_PI * REAL_PI / (SHORT * SHORT),
-                                        .first = FIRST / rate,
-                                        .count = 1,
-                                        .interval = NAN,
-                                        .restitution = NAN};
+    *(struct strike *)params_edit(c, strike_stage.params, a) =
+        (struct strike){.pulse = PULSE_HALF_SINE,
+                        .speed = 1,
+                        .stiffness = mass * REAL_PI * REAL_PI / (SHORT * SHORT),
+                        .first = FIRST / rate,
+                        .count = 1,
+                        .interval = NAN,
+                        .restitution = NAN};
     c->scraper.mass = mass;
     c->motion = (struct motion){
         .path = PATH_STILL, .at = {place[0], place[1]}, .duration = AUDIBLE_FRAMES / rate, .speed = NAN};
@@ -117,13 +119,13 @@ static bool audible_power(const struct scene *s, const struct contact *c, const 
     for (int k = 0; k < AUDIBLE_BINS; k++)
         power[k] = 1;
     if (s->output.quantity == QUANTITY_FORCE || !rules_rings(c) || c->gain == 0) return true;
-    strike(&struck, place, s->output.sample_rate);
+    struct arena *a = arena_open();
+    strike(&struck, place, s->output.sample_rate, a);
     own.contacts = &struck;
     own.n_contacts = 1;
     own.output.stems = NULL;
     own.output.diagnostics.given = false;
     own.output.impacts = LISTING_NONE;
-    struct arena *a = arena_open();
     bool ok = plan_make(stages_table, &struck, &own, a, &p, e) && run_open(&r, &p, &own, NULL, e);
     if (ok) {
         ok = measure(&r, a, power, e);

@@ -45,7 +45,6 @@ enum ball_body { BODY_SOLID, BODY_HOLLOW, BODY_HOOP, BODY_WHEEL };
 enum penetration { PENETRATION_DEVIATION, PENETRATION_PAPER };
 enum integrator { INTEGRATOR_DISCRETE_GRADIENT, INTEGRATOR_RK4, INTEGRATOR_EXACT_IMPACT };
 enum ground { GROUND_AUTO, GROUND_ELASTIC, GROUND_RIGID };
-enum pulse { PULSE_HALF_SINE, PULSE_HERTZ };
 enum force_kind { FORCE_DIRECTIONAL, FORCE_PAPER };
 enum limiter_curve { LIMITER_TANH, LIMITER_NONE };
 enum engine { ENGINE_AUTO, ENGINE_RESONATORS, ENGINE_OVERLAP_ADD };
@@ -210,16 +209,6 @@ struct limiter {                 /* eq. 4 to 7                                  
     double force_range[2]; /* N, N_min and N_max of eq. 7; NAN: the scene's own                 */
 };
 
-struct strike {       /* impacts: force/strike.h                                           */
-    int pulse;        /* enum pulse                                                        */
-    double speed;     /* m/s, of the first impact                                          */
-    double stiffness; /* N/m of half_sine, N/m^1.5 of hertz; NAN: hertz from radius and materials */
-    double first;     /* s after the contact's start                                       */
-    int count;
-    double interval;    /* s; NAN: a bounce train by restitution                             */
-    double restitution; /* of a bounce train; NAN: repeated impacts                          */
-};
-
 struct given_force {    /* force/given.h                                                     */
     const char *file;   /* WAV, NPY or CSV                                                   */
     int channel;        /* of a WAV, from 1                                                  */
@@ -244,7 +233,6 @@ struct roll {         /* force/roll.h, convolution/coupled.h                    
 
 struct contact_model {
     int model; /* enum contact_kind                                                 */
-    struct strike strike;
     struct given_force given;
     struct roll roll;
     struct impacts impacts;

@@ -48,27 +48,12 @@ static void idle_check(const struct scene_part *p, const struct contact *c)
         if (own->ground) idle_refuse(p, c, own->section, false);
 }
 
-/* ------------------------------------------------------------------ strike */
+/* ------------------------------------------------------------------ stiffness */
 
 bool scene_sense_model_unit(const struct yaml_node *node, bool linear)
 {
     const char *slash = node && node->kind == YAML_SCALAR ? strchr(node->text, '/') : NULL;
     return slash && (strchr(slash, '.') || strchr(slash, '(')) != !linear;
-}
-
-/* The unit, where one is written, says which pulse the figure is meant for. */
-static void stiffness_unit_check(const struct scene_part *p, const struct strike *s)
-{
-    static const char *const per_metre[2] = {"N/m", "N/m^1.5"};
-    const char *path = "contact.strike.stiffness";
-    const struct yaml_node *node = yaml_find(p->map, path);
-    if (!isnan(s->stiffness) && scene_sense_model_unit(node, s->pulse != PULSE_HERTZ))
-        diag_add(p->yaml->diag, node->at,
-                 arena_format(p->yaml->arena, "give it in %s, or set contact.strike.pulse to %s",
-                              per_metre[s->pulse == PULSE_HERTZ], s->pulse == PULSE_HERTZ ? "half_sine" : "hertz"),
-                 "%s of a %s pulse is in %s, not '%s'", scene_part_label(p, path),
-                 s->pulse == PULSE_HERTZ ? "hertz" : "half_sine", per_metre[s->pulse == PULSE_HERTZ],
-                 diag_shown(p->yaml->diag, node->text));
 }
 
 /* Are the moduli of a body known: from its material, or its object's own keys? */
@@ -100,48 +85,6 @@ void scene_sense_model_moduli(const struct scene_part *p, const struct contact *
     const char *const bodies[2] = {"surface", ball_tool(c)};
     for (int i = 0; i < 2; i++)
         if (!is_elastic(p, bodies[i], objects[i])) moduli_missing(p, bodies[i], because);
-}
-
-static void stiffness_check(const struct scene_part *p, const struct contact *c)
-{
-    if (is_given(p, "contact.strike.stiffness")) return;
-    if (c->contact.strike.pulse == PULSE_HALF_SINE) {
-        scene_check_missing(p, "contact.strike.stiffness", "2 MN/m", ": a half_sine pulse needs it");
-        return;
-    }
-    scene_check_missing(p, "scraper.radius", "5 mm",
-                        ": the stiffness of the impact follows from it, unless contact.strike.stiffness is given");
-    scene_sense_model_moduli(p, c,
-                             "the stiffness of the impact follows from it, unless contact.strike.stiffness is given");
-}
-
-static void train_check(const struct scene_part *p, const struct contact *c)
-{
-    const struct strike *s = &c->contact.strike;
-    const char *count = "contact.strike.count", *first = "contact.strike.first", *gravity = "contact.gravity",
-               *bounce = "contact.strike.restitution";
-    double lasts = scene_sense_lasts(&c->motion);
-    if (s->count > 1 && !is_given(p, "contact.strike.interval") && !is_given(p, bounce))
-        diag_add(p->yaml->diag, scene_part_later(p, count, count),
-                 "add for instance: interval: 0.5 s; or restitution: 0.7 for a bounce train",
-                 "%s is %d, and nothing says when the second impact comes", scene_part_label(p, count), s->count);
-    if (!isnan(s->restitution) && s->count != 1 && c->contact.gravity == 0)
-        diag_add(p->yaml->diag, scene_part_later(p, gravity, bounce),
-                 "raise contact.gravity, or give contact.strike.interval in place of restitution",
-                 "%s is 0: what bounces never comes back", scene_part_label(p, gravity));
-    if (s->first >= lasts)
-        diag_add(p->yaml->diag, scene_part_later(p, first, "motion.duration"),
-                 "lower contact.strike.first, or let the motion last longer",
-                 "%s: the first impact comes at %.4g s, and the motion lasts %.4g s", scene_part_label(p, first),
-                 s->first, lasts);
-}
-
-static void strike_check(const struct scene_part *p, const struct contact *c)
-{
-    if (!scene_part_known(p, "contact.strike.pulse")) return;
-    stiffness_unit_check(p, &c->contact.strike);
-    stiffness_check(p, c);
-    train_check(p, c);
 }
 
 /* ------------------------------------------------------------------ given */
@@ -179,7 +122,6 @@ void scene_sense_model(const struct scene_part *p, const struct contact *c)
     if (!scene_part_known(p, "contact.model")) return;
     still_check(p, c);
     if (c->contact.model != CONTACT_SCRAPE) idle_check(p, c);
-    if (c->contact.model == CONTACT_STRIKE) strike_check(p, c);
     if (c->contact.model == CONTACT_GIVEN) given_check(p, &c->contact.given);
     scene_sense_impacts(p, c);
     if (ball_rolls(c)) scene_sense_ball(p, c);

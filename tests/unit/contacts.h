@@ -2,6 +2,8 @@
  * hand; and the decimator after it. */
 #ifndef TESTS_UNIT_CONTACTS_H
 #define TESTS_UNIT_CONTACTS_H
+#include "force/strike.h"
+#include "scene/params.h"
 #include "stage.h"
 #include "trajectory/trajectory.h"
 #include "unit.h"
@@ -22,6 +24,18 @@ struct shot {
 
 static double shot_ramp; /* s: output.ramp */
 
+/* Of parameters that a contact is given by hand. */
+static inline struct arena *shot_arena(void)
+{
+    static struct arena *a;
+    return a ? a : (a = arena_open());
+}
+
+static inline struct strike *shot_strike(struct contact *c)
+{
+    return params_edit(c, strike_stage.params, shot_arena());
+}
+
 static inline struct contact shot_contact(int model, double duration)
 {
     struct contact c = {.name = "tap",
@@ -30,7 +44,7 @@ static inline struct contact shot_contact(int model, double duration)
                         .contact = {.model = model, .gravity = 9.80665}};
     c.scraper.response.object = c.surface.response.object =
         (struct object_given){.youngs_modulus = NAN, .youngs_modulus_across = NAN, .poisson = NAN};
-    c.contact.strike =
+    *shot_strike(&c) =
         (struct strike){.pulse = PULSE_HERTZ, .speed = 1, .stiffness = 1e8, .interval = NAN, .restitution = NAN};
     c.contact.given = (struct given_force){.channel = 1, .scale = NAN, .rate = NAN, .column = "force_n"};
     return c;

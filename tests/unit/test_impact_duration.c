@@ -132,10 +132,10 @@ START_TEST(bounces)
         struct err e = {0};
         struct impact_found f;
         struct impact_duration d = {.theta = NAN};
-        c.contact.strike.restitution = 0.8;
-        c.contact.strike.speed = 3;
-        c.contact.strike.stiffness = stiffness;
-        c.contact.strike.first = 0.01;
+        shot_strike(&c)->restitution = 0.8;
+        shot_strike(&c)->speed = 3;
+        shot_strike(&c)->stiffness = stiffness;
+        shot_strike(&c)->first = 0.01;
         ck_assert_msg(shot_open(&s, &strike_stage, &c, rate, 4), "%s", s.e.text);
         long n = (long)(1.9 * rate);
         struct impact_signal signal = {shot_decimated(&s, n), n, rate, 0};

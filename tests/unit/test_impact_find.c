@@ -206,10 +206,10 @@ START_TEST(decimated)
         struct shot s;
         struct err e = {0};
         struct impact_found f;
-        c.contact.strike.restitution = 0.9;
-        c.contact.strike.first = 0.0123456;
-        c.contact.strike.speed = 1;
-        c.contact.strike.stiffness = 1.25 * c.scraper.mass / pow(lasts[k] / 48000 / 2.9432751843247045, 2.5);
+        shot_strike(&c)->restitution = 0.9;
+        shot_strike(&c)->first = 0.0123456;
+        shot_strike(&c)->speed = 1;
+        shot_strike(&c)->stiffness = 1.25 * c.scraper.mass / pow(lasts[k] / 48000 / 2.9432751843247045, 2.5);
         ck_assert(shot_open(&s, &strike_stage, &c, 48000, 4) && strike_make(&c, 1, &train, &e));
         const double *force = shot_decimated(&s, 40000);
         struct impact_signal signal = {force, 40000, 48000, 0};

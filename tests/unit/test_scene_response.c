@@ -6,6 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "force/strike.h"
+#include "pipeline/stages.h"
+#include "scene/params.h"
 #include "scene/rules.h"
 #include "scenes.h"
 
@@ -427,10 +430,10 @@ START_TEST(test_values)
               o->origin[1] == 0.02);
     ck_assert(s->given && s->shape == OBJECT_STRING && s->material == MATERIAL_CUSTOM && isnan(s->thickness) &&
               s->at[0] == 0);
-    ck_assert(c->motion.path == PATH_STILL && c->motion.at[0] == 0 && isnan(c->motion.to[0]) &&
-              c->contact.strike.count == 0 && c->contact.strike.pulse == PULSE_HERTZ);
-    ck_assert(c->contact.strike.stiffness == 3e8 && isnan(c->contact.strike.interval) && !c->contact.given.file &&
-              isnan(c->contact.limiter.alpha));
+    const struct strike *k = params_of(c, strike_stage.params);
+    ck_assert(c->motion.path == PATH_STILL && c->motion.at[0] == 0 && isnan(c->motion.to[0]) && k->count == 0 &&
+              k->pulse == PULSE_HERTZ);
+    ck_assert(k->stiffness == 3e8 && isnan(k->interval) && !c->contact.given.file && isnan(c->contact.limiter.alpha));
     ck_assert(isnan(c->contact.smoothing) && isnan(c->load.constant) && c->contact.gravity == 9.80665 &&
               c->surface.response.pairing == 0.03);
     ck_assert(r.scene.output.listen.n_places == 2 && memcmp(r.scene.output.listen.places, places, sizeof places) == 0);

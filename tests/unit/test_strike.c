@@ -14,18 +14,20 @@ enum { RATES = sizeof rates / sizeof rates[0] };
 static struct contact striker(int pulse, double stiffness, double speed)
 {
     struct contact c = shot_contact(CONTACT_STRIKE, 1);
-    c.contact.strike.pulse = pulse;
-    c.contact.strike.stiffness = stiffness;
-    c.contact.strike.speed = speed;
+    shot_strike(&c)->pulse = pulse;
+    shot_strike(&c)->stiffness = stiffness;
+    shot_strike(&c)->speed = speed;
     return c;
 }
+
+static const struct strike *of(const struct contact *c) { return params_of(c, strike_stage.params); }
 
 /* The stiffness that gives this contact time to c's mass and speed. */
 static double stiffness_for(const struct contact *c, double lasts)
 {
-    double m = c->scraper.mass, v = c->contact.strike.speed;
-    return c->contact.strike.pulse == PULSE_HALF_SINE ? m * (M_PI / lasts) * (M_PI / lasts)
-                                                      : 1.25 * m * v * v / pow(lasts * v / 2.9432751843247045, 2.5);
+    double m = c->scraper.mass, v = of(c)->speed;
+    return of(c)->pulse == PULSE_HALF_SINE ? m * (M_PI / lasts) * (M_PI / lasts)
+                                           : 1.25 * m * v * v / pow(lasts * v / 2.9432751843247045, 2.5);
 }
 
 /* ------------------------------------------------------------------ means */
@@ -40,10 +42,10 @@ struct pulse_force {
 static double force_at(double t, void *self)
 {
     const struct pulse_force *p = self;
-    double q = (t - p->start) / p->lasts, m = p->c->scraper.mass, v = p->c->contact.strike.speed,
-           k = p->c->contact.strike.stiffness, low = 0, high = 1;
+    double q = (t - p->start) / p->lasts, m = p->c->scraper.mass, v = of(p->c)->speed, k = of(p->c)->stiffness, low = 0,
+           high = 1;
     if (q <= 0 || q >= 1) return 0;
-    if (p->c->contact.strike.pulse == PULSE_HALF_SINE) return v * sqrt(k * m) * sin(M_PI * q);
+    if (of(p->c)->pulse == PULSE_HALF_SINE) return v * sqrt(k * m) * sin(M_PI * q);
     q = q > 0.5 ? 1 - q : q;
     for (int i = 0; i < 60; i++) {
         double u = 0.5 * (low + high);
@@ -64,8 +66,8 @@ START_TEST(means_are_those_of_the_force)
     for (int pulse = PULSE_HALF_SINE; pulse <= PULSE_HERTZ; pulse++) {
         struct contact c = striker(pulse, 0, 1.3);
         struct shot s;
-        c.contact.strike.first = 1.2345e-3;
-        c.contact.strike.stiffness = stiffness_for(&c, 3.3e-4);
+        shot_strike(&c)->first = 1.2345e-3;
+        shot_strike(&c)->stiffness = stiffness_for(&c, 3.3e-4);
         struct pulse_force p = {&c, 1.2345e-3, 3.3e-4};
         gsl_function f = {force_at, &p};
         ck_assert(shot_open(&s, &strike_stage, &c, 48000, 3));
@@ -89,7 +91,7 @@ START_TEST(peak_force)
     for (int pulse = PULSE_HALF_SINE; pulse <= PULSE_HERTZ; pulse++) {
         struct contact c = striker(pulse, 0, 0.8);
         struct shot s;
-        double k = c.contact.strike.stiffness = stiffness_for(&c, 2e-3), m = 0.02, v = 0.8, peak = 0;
+        double k = shot_strike(&c)->stiffness = stiffness_for(&c, 2e-3), m = 0.02, v = 0.8, peak = 0;
         ck_assert(shot_open(&s, &strike_stage, &c, 48000, 21));
         const double *force = shot_force(&s, 400);
         for (int i = 0; i < 400 * 21; i++)
@@ -115,8 +117,8 @@ START_TEST(momentum_is_kept)
                     struct contact c = striker(pulse, 0, 2);
                     struct shot s;
                     double sum = 0, all = 0, want = 2 * 0.02 * 2;
-                    c.contact.strike.first = 1.7e-3;
-                    c.contact.strike.stiffness = stiffness_for(&c, samples / rates[r]);
+                    shot_strike(&c)->first = 1.7e-3;
+                    shot_strike(&c)->stiffness = stiffness_for(&c, samples / rates[r]);
                     ck_assert(shot_open(&s, &strike_stage, &c, rates[r], over));
                     const double *force = shot_decimated(&s, 3500), *means = board_at(&s.board, ITEM_SUBFORCE, 0);
                     for (long i = 0; i < 3500L * over; i++)
@@ -144,9 +146,9 @@ START_TEST(momentum_from_the_start)
         struct contact c = striker(drand48() < 0.5 ? PULSE_HALF_SINE : PULSE_HERTZ, pow(10, 5 + 8 * drand48()), v);
         struct shot s;
         double first = 6 * drand48() - 1;
-        c.contact.strike.first = (first < 0 ? 0 : drand48() < 0.2 ? floor(first) : first) / rate;
-        c.contact.strike.count = 1;
-        c.contact.strike.restitution = lost;
+        shot_strike(&c)->first = (first < 0 ? 0 : drand48() < 0.2 ? floor(first) : first) / rate;
+        shot_strike(&c)->count = 1;
+        shot_strike(&c)->restitution = lost;
         ck_assert_msg(shot_open(&s, &strike_stage, &c, rate, over), "%s", s.e.text);
         long n = (long)(0.02 * rate) + 100; /* 1.4 ms of contact at most */
         const double *force = shot_decimated(&s, n), *means = board_at(&s.board, ITEM_SUBFORCE, 0);
@@ -183,8 +185,8 @@ START_TEST(spectrum_is_that_of_a_half_sine)
     for (int r = 1; r < RATES; r++) {
         struct contact c = striker(PULSE_HALF_SINE, 0, 1.5);
         struct shot s;
-        c.contact.strike.first = 2e-3;
-        c.contact.strike.stiffness = stiffness_for(&c, lasts);
+        shot_strike(&c)->first = 2e-3;
+        shot_strike(&c)->stiffness = stiffness_for(&c, lasts);
         ck_assert(shot_open(&s, &strike_stage, &c, rates[r], 8));
         long n = (long)(0.006 * rates[r]);
         const double *force = shot_decimated(&s, n);
@@ -205,8 +207,8 @@ START_TEST(hertz_has_one_spectrum)
     for (int r = RATES - 1; r > 0; r--) {
         struct contact c = striker(PULSE_HERTZ, 0, 1.5);
         struct shot s;
-        c.contact.strike.first = 2e-3;
-        c.contact.strike.stiffness = stiffness_for(&c, 0.7e-3);
+        shot_strike(&c)->first = 2e-3;
+        shot_strike(&c)->stiffness = stiffness_for(&c, 0.7e-3);
         ck_assert(shot_open(&s, &strike_stage, &c, rates[r], 8));
         long n = (long)(0.006 * rates[r]);
         const double *force = shot_decimated(&s, n);
@@ -231,8 +233,8 @@ START_TEST(bounces_follow_the_sum)
     struct err err = {0};
     long n = 0;
     double contacts = 0;
-    c.contact.strike.first = first;
-    c.contact.strike.restitution = e;
+    shot_strike(&c)->first = first;
+    shot_strike(&c)->restitution = e;
     ck_assert(strike_make(&c, 100, &s, &err));
     for (; strike_next(&s, &i); n++) {
         double speed = v * pow(e, (double)n),
@@ -260,8 +262,8 @@ START_TEST(bounces_hand_over_their_momentum)
     for (int over = 1; over <= 8; over *= 8) {
         struct contact c = striker(PULSE_HERTZ, 1e9, v);
         struct shot s;
-        c.contact.strike.restitution = e;
-        c.contact.strike.count = 4;
+        shot_strike(&c)->restitution = e;
+        shot_strike(&c)->count = 4;
         ck_assert(shot_open(&s, &strike_stage, &c, 44100, over));
         const double *force = shot_force(&s, 40000);
         sum = 0;
@@ -284,8 +286,8 @@ START_TEST(repeated_impacts)
 {
     struct contact c = striker(PULSE_HALF_SINE, 0, 1);
     struct shot s;
-    c.contact.strike.interval = 1e-5;
-    c.contact.strike.stiffness = stiffness_for(&c, 0.9e-5);
+    shot_strike(&c)->interval = 1e-5;
+    shot_strike(&c)->stiffness = stiffness_for(&c, 0.9e-5);
     ck_assert(shot_open(&s, &strike_stage, &c, 8000, 1));
     const double *force = shot_force(&s, 8000);
     for (int i = 0; i < 7990; i++) {
@@ -313,11 +315,11 @@ START_TEST(an_hour_later_the_same)
 {
     struct contact c = striker(PULSE_HERTZ, 1e8, 1);
     struct shot now, later;
-    c.contact.strike.first = 1.0 / 1024;
+    shot_strike(&c)->first = 1.0 / 1024;
     ck_assert(shot_open(&now, &strike_stage, &c, 48000, 4));
     const double *force = shot_force(&now, 100);
     c.motion.duration = 4000;
-    c.contact.strike.first = 3600 + 1.0 / 1024;
+    shot_strike(&c)->first = 3600 + 1.0 / 1024;
     ck_assert(shot_open(&later, &strike_stage, &c, 48000, 4));
     shot_room(&later, ITEM_SUBFORCE, 4, 100);
     later.board.signals[ITEM_SUBFORCE].first = 3600L * 48000;
@@ -344,18 +346,18 @@ START_TEST(left_out_impacts_are_told)
 {
     struct contact c = striker(PULSE_HERTZ, 1e8, 1);
     ck_assert_str_eq(warning(&c), "");
-    c.contact.strike.interval = 0.3;
+    shot_strike(&c)->interval = 0.3;
     ck_assert_str_eq(warning(&c), "");
-    c.contact.strike.count = 4;
+    shot_strike(&c)->count = 4;
     ck_assert_str_eq(warning(&c), "");
-    c.contact.strike.count = 5;
+    shot_strike(&c)->count = 5;
     ck_assert_str_eq(warning(&c),
                      "contact 'tap': 4 of 5 impacts take place: the next one would not be over by the motion's end");
-    c.contact.strike.interval = NAN;
-    c.contact.strike.restitution = 0.5;
-    c.contact.strike.count = 0;
+    shot_strike(&c)->interval = NAN;
+    shot_strike(&c)->restitution = 0.5;
+    shot_strike(&c)->count = 0;
     ck_assert_str_eq(warning(&c), "");
-    c.contact.strike.count = 1000;
+    shot_strike(&c)->count = 1000;
     ck_assert(strstr(warning(&c), "of 1000 impacts take place: what bounces has then come to rest"));
 }
 END_TEST
@@ -365,7 +367,7 @@ START_TEST(faded_impacts_are_told)
 {
     for (int k = 0; k < 4; k++) {
         struct contact c = striker(PULSE_HERTZ, 1e8, 1);
-        c.contact.strike.first = k == 1 ? 0.011 : 0.005;
+        shot_strike(&c)->first = k == 1 ? 0.011 : 0.005;
         c.start = k == 2 ? 0.006 : 0;
         struct shot s;
         shot_ramp = k == 3 ? 0 : 0.01;
@@ -392,24 +394,17 @@ static void refused(const struct contact *c, const char *says)
 START_TEST(what_cannot_be_is_refused)
 {
     struct contact good = striker(PULSE_HERTZ, 1e8, 1), c = good;
-    c.contact.strike.count = 2;
-    refused(&c, "nothing says when the second impact comes");
-    c.contact.strike.interval = 1e-5;
+    shot_strike(&c)->count = 2;
+    shot_strike(&c)->interval = 1e-5;
     refused(&c, "is shorter than an impact");
     c = good;
-    c.contact.strike.restitution = 0.9;
-    c.contact.gravity = 0;
-    refused(&c, "gravity");
-    c = good;
-    c.contact.strike.first = 1;
+    shot_strike(&c)->first = 1;
     refused(&c, "raise motion.duration");
     c = good;
-    c.contact.strike.stiffness = NAN;
+    shot_strike(&c)->stiffness = NAN;
     refused(&c, "scraper.radius");
     c.scraper.radius = 0.01;
     refused(&c, "give scraper.material");
-    c.contact.strike.pulse = PULSE_HALF_SINE;
-    refused(&c, "contact.strike.stiffness must be given");
 }
 END_TEST
 
