@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/file_cache.h"
 #include "file/bytes.h"
@@ -10,25 +11,83 @@
 #include "file/wav.h"
 #include "force/approach.h"
 #include "num/resample.h"
+#include "scene/rows.h"
 #include "scene/rules.h"
+#include "scene/scene_check.h"
+#include "scene/scene_part.h"
 #include "stage.h"
 #include "trajectory/series.h"
 #include "trajectory/trajectory.h"
 
-bool given_is_table(const struct contact *c)
+/* ------------------------------------------------------------------ parameters */
+
+#define GIVEN "contact.model=given"
+
+static const struct key keys[] = {
+    {ROW_FILE(given_force, file, "contact.given.file"), KEY_NONE, 0, 0, NULL, GIVEN,
+     "the force over time: a WAV, a one-dimensional NPY, or a CSV with the columns time_s and force_n"},
+    {ROW_COUNT(given_force, channel, "contact.given.channel"), KEY_NONE, 1, 1000, "1", GIVEN, "which channel of a WAV"},
+    {ROW_NUMBER(given_force, scale, "contact.given.scale"), KEY_FORCE, -1e12, 1e12, "", GIVEN,
+     "newtons per stored unit; left out: 1 N for NPY and CSV, and a WAV must say"},
+    {ROW_NUMBER(given_force, rate, "contact.given.rate"), KEY_FREQUENCY, 1, 1e8, "", GIVEN,
+     "samples per second of an NPY, which does not hold it"},
+    {ROW_TEXT(given_force, column, "contact.given.column"), KEY_NONE, 0, 0, "force_n", GIVEN,
+     "the column of a CSV that is the force"},
+    {.path = NULL}};
+
+/* The file's name tells what it is; of other names the file itself does, when it is read. One that is not there is what
+ * is wrong first (pipeline/inputs.h). */
+static void check(const struct scene_part *p, const struct contact *c, const void *own)
 {
-    return c->contact.given.file && rules_ends_in(c->contact.given.file, ".csv");
+    const struct given_force *g = own;
+    static const char *const kinds[] = {"a WAV", "an NPY", "a CSV"}, *const endings[] = {".wav", ".npy", ".csv"};
+    static const char *const paths[] = {"contact.given.channel", "contact.given.rate",
+                                        "contact.given.column"}; /* each is of one kind */
+    int kind = 0;
+    (void)c;
+    if (g->scale == 0)
+        diag_add(p->yaml->diag, scene_part_later(p, "contact.given.scale", "contact.given.scale"),
+                 "write for instance: 10 N", "%s is 0: there would be no force",
+                 scene_part_label(p, "contact.given.scale"));
+    while (g->file && kind < 3 && !rules_ends_in(g->file, endings[kind]))
+        kind++;
+    if (!g->file || kind == 3) return;
+    if (kind == 0 && access(g->file, F_OK) == 0)
+        scene_check_missing(p, "contact.given.scale", "10 N",
+                            ": a WAV does not say how many newtons its full scale stands for");
+    if (kind == 1 && access(g->file, F_OK) == 0)
+        scene_check_missing(p, "contact.given.rate", "48 kHz", ": an NPY does not say how many samples a second has");
+    const bool given[] = {g->channel > 1, !isnan(g->rate),
+                          g->column && strcmp(g->column, "force_n") != 0}; /* defaults stand in every effective scene */
+    for (int i = 0; i < 3; i++)
+        if (i != kind && given[i])
+            diag_add(p->yaml->diag, yaml_find(p->map, paths[i])->key->at, "remove it", "%s is of %s, and %s is %s",
+                     scene_part_label(p, paths[i]), kinds[i], diag_shown(p->yaml->diag, g->file), kinds[kind]);
 }
 
-static double given_scale(const struct contact *c)
-{
-    return isnan(c->contact.given.scale) ? 1 : c->contact.given.scale;
-}
+static bool is_given(const struct contact *c) { return c->contact.model == CONTACT_GIVEN; }
+
+static const struct params given_params = {
+    .section = "contact.given",
+    .size = sizeof(struct given_force),
+    .keys = keys,
+    .check = check,
+    .given = is_given,
+    .shown = true,
+};
+
+static const struct given_force *given_of(const struct contact *c) { return params_of(c, &given_params); }
+
+/* ------------------------------------------------------------------ both kinds of files */
+
+bool given_is_table(const struct contact *c) { return given_of(c)->file && rules_ends_in(given_of(c)->file, ".csv"); }
+
+static double given_scale(const struct contact *c) { return isnan(given_of(c)->scale) ? 1 : given_of(c)->scale; }
 
 /* Keys that a file of this kind has no use for: ERR_SCENE. channel: a WAV; rate: an NPY; column: a CSV. */
 static bool given_fits(const struct contact *c, const char *kind, struct err *e)
 {
-    const struct given_force *g = &c->contact.given;
+    const struct given_force *g = given_of(c);
     const char *key = strcmp(kind, "WAV") != 0 && g->channel != 1                     ? "channel"
                       : strcmp(kind, "NPY") != 0 && !isnan(g->rate)                   ? "rate"
                       : strcmp(kind, "CSV") != 0 && strcmp(g->column, "force_n") != 0 ? "column"
@@ -45,7 +104,7 @@ static bool given_ends(const struct contact *c, double last, double duration, st
                                               "contact '%s': contact.given.file: the force of %s lasts %.9g s, but the "
                                               "motion lasts %.9g s: raise motion.duration, or cut "
                                               "the file",
-                                              c->name, c->contact.given.file, last, duration);
+                                              c->name, given_of(c)->file, last, duration);
 }
 
 /* Index of the largest magnitude; n >= 1. */
@@ -107,7 +166,7 @@ static bool given_make(const char *path, const void *how, struct arena *a, void 
 
 static bool wav_take(const struct stage_run *r, const struct wav *w, struct given_samples *g, struct err *e)
 {
-    const struct given_force *given = &r->contact->contact.given;
+    const struct given_force *given = given_of(r->contact);
     if (given->channel > w->channels)
         return err_set(e, ERR_SCENE,
                        "contact '%s': contact.given.channel is %d, but %s has %d channel%s: give one of those",
@@ -125,7 +184,7 @@ static bool wav_take(const struct stage_run *r, const struct wav *w, struct give
 
 static bool npy_take(const struct stage_run *r, const struct heightfile *h, struct given_samples *g, struct err *e)
 {
-    const struct given_force *given = &r->contact->contact.given;
+    const struct given_force *given = given_of(r->contact);
     if (h->rows > 1)
         return err_set(e, ERR_SCENE, "%s: an array of %zu x %zu; a force has one dimension: save one row of it",
                        given->file, h->rows, h->columns);
@@ -149,7 +208,7 @@ static bool samples_take(const struct stage_run *r, struct given_samples *g, str
     static const struct file_cache_kind forces = {"samples of a force", sizeof(struct given_file), given_make, false};
     const struct given_file *f =
         file_cache_take(r->scene->file_cache,
-                        &(struct file_cache_ask){.kind = &forces, .file = r->contact->contact.given.file}, r->arena, e);
+                        &(struct file_cache_ask){.kind = &forces, .file = given_of(r->contact)->file}, r->arena, e);
     if (!f || !given_fits(r->contact, f->is_npy ? "NPY" : "WAV", e)) return false;
     return f->is_npy ? npy_take(r, &f->npy, g, e) : wav_take(r, &f->wav, g, e);
 }
@@ -173,7 +232,7 @@ static bool samples_open(struct stage_run *r, struct err *e)
         return false;
     if (r->contact->start < r->scene->output.ramp)
         approach_warn(r, "the largest force", (double)given_largest(g->n, g->force) / g->rate);
-    return g->rate == r->board->rate || samples_resample(r, g, e) || err_at(e, "%s", r->contact->contact.given.file);
+    return g->rate == r->board->rate || samples_resample(r, g, e) || err_at(e, "%s", given_of(r->contact)->file);
 }
 
 static bool samples_fill(struct stage_run *r, long from, long to, struct err *e)
@@ -229,7 +288,7 @@ static double table_work(const struct contact *c, const struct scene *s)
 
 static bool table_open(struct stage_run *r, struct err *e)
 {
-    const struct given_force *given = &r->contact->contact.given;
+    const struct given_force *given = given_of(r->contact);
     const struct trajectory *tr = r->board->trajectory;
     const char *const columns[2] = {given->column, NULL};
     struct given_table *g = ARENA_TAKE(r->arena, struct given_table, 1);
@@ -283,6 +342,7 @@ const struct stage given_table_stage = {
     .does = "contact force from a table over time",
     .paper = "",
     .idle = "contact.model is not given, or contact.given.file holds samples",
+    .params = &given_params,
     .needs = ITEM_BIT(ITEM_MOTION), /* its duration */
     .gives = ITEM_BIT(ITEM_SUBFORCE),
     .knobs = KNOB_BIT(oversampling),

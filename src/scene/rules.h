@@ -140,13 +140,6 @@ static inline bool rules_ends_in(const char *file, const char *ending)
     return n > m && strcasecmp(file + n - m, ending) == 0;
 }
 
-/* Is there something of that name now? */
-static inline bool rules_is_there(const char *path)
-{
-    struct stat status;
-    return stat(path, &status) == 0;
-}
-
 /* Is a response given at all? */
 static inline bool rules_responds(const struct response *r) { return r->file || r->object.given || r->space.given; }
 

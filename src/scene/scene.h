@@ -209,14 +209,6 @@ struct limiter {                 /* eq. 4 to 7                                  
     double force_range[2]; /* N, N_min and N_max of eq. 7; NAN: the scene's own                 */
 };
 
-struct given_force {    /* force/given.h                                                     */
-    const char *file;   /* WAV, NPY or CSV                                                   */
-    int channel;        /* of a WAV, from 1                                                  */
-    double scale;       /* N per stored unit; NAN: 1, and a WAV must say                     */
-    double rate;        /* Hz, of an NPY                                                     */
-    const char *column; /* of a CSV, beside time_s                                           */
-};
-
 struct roll {         /* force/roll.h, convolution/coupled.h                               */
     double stiffness; /* N/m^1.5, k; NAN: kappa, or static_penetration, or force/roll_stiffness.h, or Hertz's */
     double kappa;     /* N/(m^1.5 kg), k over the ball's mass                              */
@@ -233,7 +225,6 @@ struct roll {         /* force/roll.h, convolution/coupled.h                    
 
 struct contact_model {
     int model; /* enum contact_kind                                                 */
-    struct given_force given;
     struct roll roll;
     struct impacts impacts;
     double playback;     /* N/m: force for a metre of the surface's height (playback)         */

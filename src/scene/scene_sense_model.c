@@ -87,42 +87,11 @@ void scene_sense_model_moduli(const struct scene_part *p, const struct contact *
         if (!is_elastic(p, bodies[i], objects[i])) moduli_missing(p, bodies[i], because);
 }
 
-/* ------------------------------------------------------------------ given */
-
-/* The file's name tells what it is; of other names the file itself does, when it is read. One that is not there is what
- * is wrong first (pipeline/inputs.h). */
-static void given_check(const struct scene_part *p, const struct given_force *g)
-{
-    static const char *const kinds[] = {"a WAV", "an NPY", "a CSV"}, *const endings[] = {".wav", ".npy", ".csv"};
-    static const char *const keys[] = {"contact.given.channel", "contact.given.rate",
-                                       "contact.given.column"}; /* each is of one kind */
-    int kind = 0;
-    if (g->scale == 0)
-        diag_add(p->yaml->diag, scene_part_later(p, "contact.given.scale", "contact.given.scale"),
-                 "write for instance: 10 N", "%s is 0: there would be no force",
-                 scene_part_label(p, "contact.given.scale"));
-    while (g->file && kind < 3 && !rules_ends_in(g->file, endings[kind]))
-        kind++;
-    if (!g->file || kind == 3) return;
-    if (kind == 0 && rules_is_there(g->file))
-        scene_check_missing(p, "contact.given.scale", "10 N",
-                            ": a WAV does not say how many newtons its full scale stands for");
-    if (kind == 1 && rules_is_there(g->file))
-        scene_check_missing(p, "contact.given.rate", "48 kHz", ": an NPY does not say how many samples a second has");
-    const bool given[] = {g->channel > 1, !isnan(g->rate),
-                          g->column && strcmp(g->column, "force_n") != 0}; /* defaults stand in every effective scene */
-    for (int i = 0; i < 3; i++)
-        if (i != kind && given[i])
-            diag_add(p->yaml->diag, yaml_find(p->map, keys[i])->key->at, "remove it", "%s is of %s, and %s is %s",
-                     scene_part_label(p, keys[i]), kinds[i], diag_shown(p->yaml->diag, g->file), kinds[kind]);
-}
-
 void scene_sense_model(const struct scene_part *p, const struct contact *c)
 {
     if (!scene_part_known(p, "contact.model")) return;
     still_check(p, c);
     if (c->contact.model != CONTACT_SCRAPE) idle_check(p, c);
-    if (c->contact.model == CONTACT_GIVEN) given_check(p, &c->contact.given);
     scene_sense_impacts(p, c);
     if (ball_rolls(c)) scene_sense_ball(p, c);
 }

@@ -2,6 +2,7 @@
  * hand; and the decimator after it. */
 #ifndef TESTS_UNIT_CONTACTS_H
 #define TESTS_UNIT_CONTACTS_H
+#include "force/given.h"
 #include "force/strike.h"
 #include "scene/params.h"
 #include "stage.h"
@@ -36,6 +37,11 @@ static inline struct strike *shot_strike(struct contact *c)
     return params_edit(c, strike_stage.params, shot_arena());
 }
 
+static inline struct given_force *shot_given(struct contact *c)
+{
+    return params_edit(c, given_table_stage.params, shot_arena());
+}
+
 static inline struct contact shot_contact(int model, double duration)
 {
     struct contact c = {.name = "tap",
@@ -46,7 +52,7 @@ static inline struct contact shot_contact(int model, double duration)
         (struct object_given){.youngs_modulus = NAN, .youngs_modulus_across = NAN, .poisson = NAN};
     *shot_strike(&c) =
         (struct strike){.pulse = PULSE_HERTZ, .speed = 1, .stiffness = 1e8, .interval = NAN, .restitution = NAN};
-    c.contact.given = (struct given_force){.channel = 1, .scale = NAN, .rate = NAN, .column = "force_n"};
+    *shot_given(&c) = (struct given_force){.channel = 1, .scale = NAN, .rate = NAN, .column = "force_n"};
     return c;
 }
 

@@ -53,7 +53,7 @@ static void write_npy(const char *name, const char *shape, const double *x, size
 static struct contact giver(const char *file, double duration)
 {
     struct contact c = shot_contact(CONTACT_GIVEN, duration);
-    c.contact.given.file = file;
+    shot_given(&c)->file = file;
     return c;
 }
 
@@ -72,8 +72,8 @@ START_TEST(wav_at_its_own_rate)
             write_wav("a.wav", 44100, 3, bits, x[0], N);
             struct contact c = giver(path("a.wav"), 1);
             struct shot s;
-            c.contact.given.channel = 2;
-            c.contact.given.scale = scale;
+            shot_given(&c)->channel = 2;
+            shot_given(&c)->scale = scale;
             ck_assert_msg(shot_open(&s, &given_samples_stage, &c, 44100, 4), "%s", s.e.text);
             const double *force = shot_force(&s, N + 100);
             for (int i = 0; i < N; i++)
@@ -95,7 +95,7 @@ START_TEST(npy_at_its_own_rate)
     write_npy("a.npy", "1000,", x, N);
     struct contact c = giver(path("a.npy"), 1);
     struct shot s;
-    c.contact.given.rate = 48000;
+    shot_given(&c)->rate = 48000;
     ck_assert_msg(shot_open(&s, &given_samples_stage, &c, 48000, 4), "%s", s.e.text);
     ck_assert_int_eq(s.board.n_warnings, 0);
     ck_assert_mem_eq(shot_force(&s, N), x, sizeof x);
@@ -117,7 +117,7 @@ START_TEST(resampled_is_the_same_signal)
     for (int r = 0; r < 4; r++) {
         struct contact c = giver(path("a.wav"), 1);
         struct shot s;
-        c.contact.given.scale = 3;
+        shot_given(&c)->scale = 3;
         ck_assert_msg(shot_open(&s, &given_samples_stage, &c, rates[r], 4), "%s", s.e.text);
         long n = (long)(0.1 * rates[r]);
         const double *force = shot_force(&s, n + 10);
@@ -189,8 +189,8 @@ START_TEST(ramp_means)
     write_text("a.csv", text, strlen(text));
     struct contact c = giver(path("a.csv"), 0.25);
     struct shot s;
-    c.contact.given.column = "push";
-    c.contact.given.scale = 2;
+    shot_given(&c)->column = "push";
+    shot_given(&c)->scale = 2;
     shot_ramp = 0.26; /* the ramp's largest force is its last */
     ck_assert_msg(shot_open(&s, &given_table_stage, &c, 8192, 4), "%s", s.e.text);
     ck_assert(s.board.n_warnings == 1 &&
@@ -270,7 +270,7 @@ START_TEST(samples_momentum_from_the_start)
         struct contact c = giver(path("a.wav"), 1);
         struct shot s;
         double sum = 0;
-        c.contact.given.scale = 1;
+        shot_given(&c)->scale = 1;
         ck_assert_msg(shot_open(&s, &given_samples_stage, &c, rates[r], 4), "%s", s.e.text);
         long n = (long)(0.03 * rates[r]);
         const double *force = shot_force(&s, n);
@@ -299,16 +299,16 @@ START_TEST(wavs_refused)
     write_wav("a.wav", 48000, 2, 24, x, 48000);
     struct contact c = giver(path("a.wav"), 0.5);
     refused(&given_samples_stage, &c, "contact.given.scale must be given");
-    c.contact.given.scale = 100;
+    shot_given(&c)->scale = 100;
     refused(&given_samples_stage, &c, "lasts 0.999979167 s, but the motion lasts 0.5 s");
     c.motion.duration = 1;
     struct shot s;
     ck_assert(shot_open(&s, &given_samples_stage, &c, 48000, 4)); /* a second fits into a second */
     arena_close(s.arena);
-    c.contact.given.channel = 3;
+    shot_given(&c)->channel = 3;
     refused(&given_samples_stage, &c, "is 3, but");
-    c.contact.given.channel = 1;
-    c.contact.given.rate = 48000;
+    shot_given(&c)->channel = 1;
+    shot_given(&c)->rate = 48000;
     refused(&given_samples_stage, &c, "contact.given.rate means nothing");
     gone("a.wav");
 }
@@ -320,11 +320,11 @@ START_TEST(npys_refused)
     write_npy("a.npy", "6,", x, 6);
     struct contact c = giver(path("a.npy"), 1);
     refused(&given_samples_stage, &c, "contact.given.rate must be given");
-    c.contact.given.rate = 1000;
+    shot_given(&c)->rate = 1000;
     refused(&given_samples_stage, &c, "element 3 is not a finite number");
     write_npy("a.npy", "2, 3", x, 6);
     refused(&given_samples_stage, &c, "2 x 3; a force has one dimension");
-    c.contact.given.channel = 2;
+    shot_given(&c)->channel = 2;
     refused(&given_samples_stage, &c, "contact.given.channel means nothing");
     gone("a.npy");
 }
@@ -345,7 +345,7 @@ START_TEST(tables_refused)
         write_text("a.csv", bad[i].text, strlen(bad[i].text));
         refused(&given_table_stage, &c, bad[i].says);
     }
-    c.contact.given.rate = 10;
+    shot_given(&c)->rate = 10;
     refused(&given_table_stage, &c, "contact.given.rate means nothing");
     gone("a.csv");
 }

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "force/given.h"
 #include "force/strike.h"
 #include "pipeline/stages.h"
 #include "scene/params.h"
@@ -433,7 +434,9 @@ START_TEST(test_values)
     const struct strike *k = params_of(c, strike_stage.params);
     ck_assert(c->motion.path == PATH_STILL && c->motion.at[0] == 0 && isnan(c->motion.to[0]) && k->count == 0 &&
               k->pulse == PULSE_HERTZ);
-    ck_assert(k->stiffness == 3e8 && isnan(k->interval) && !c->contact.given.file && isnan(c->contact.limiter.alpha));
+    ck_assert(k->stiffness == 3e8 && isnan(k->interval) &&
+              !((const struct given_force *)params_of(c, given_table_stage.params))->file &&
+              isnan(c->contact.limiter.alpha));
     ck_assert(isnan(c->contact.smoothing) && isnan(c->load.constant) && c->contact.gravity == 9.80665 &&
               c->surface.response.pairing == 0.03);
     ck_assert(r.scene.output.listen.n_places == 2 && memcmp(r.scene.output.listen.places, places, sizeof places) == 0);
