@@ -23,56 +23,13 @@
 
 #define OFFSET_SCENE(field) offsetof(struct scene, field)
 #define OFFSET_CONTACT(field) offsetof(struct contact, field)
-#define TYPE_NUMBER .type = KEY_NUMBER
-#define TYPE_WHOLE .type = KEY_WHOLE
-#define TYPE_TIME_OR_AUTO .type = KEY_TIME_OR_AUTO
-#define TYPE_COUNT .type = KEY_COUNT
-#define TYPE_SEED .type = KEY_SEED
-#define TYPE_TEXT .type = KEY_TEXT
-#define TYPE_FILE .type = KEY_FILE
-#define TYPE_POINT .type = KEY_POINT
-#define TYPE_POINTS .type = KEY_POINTS
-#define TYPE_PLACES .type = KEY_PLACES
-#define TYPE_RANGE .type = KEY_RANGE
-#define TYPE_LIST .type = KEY_LIST
-#define TYPE_CHOICE(name) .type = KEY_CHOICE, .choices = words_##name
-#define TYPE_CHOICE_MOTION_PATH TYPE_CHOICE(MOTION_PATH)
-#define TYPE_CHOICE_SPEED_LAW TYPE_CHOICE(SPEED_LAW)
-#define TYPE_CHOICE_ALONG TYPE_CHOICE(ALONG)
-#define TYPE_CHOICE_CONTACT_KIND TYPE_CHOICE(CONTACT_KIND)
-#define TYPE_CHOICE_FORCE_KIND TYPE_CHOICE(FORCE_KIND)
-#define TYPE_CHOICE_LIMITER_CURVE TYPE_CHOICE(LIMITER_CURVE)
-#define TYPE_CHOICE_ENGINE TYPE_CHOICE(ENGINE)
-#define TYPE_CHOICE_EXTRAPOLATE TYPE_CHOICE(EXTRAPOLATE)
-#define TYPE_CHOICE_ENCODING TYPE_CHOICE(ENCODING)
-#define TYPE_CHOICE_BALL_BODY TYPE_CHOICE(BALL_BODY)
-#define TYPE_CHOICE_PENETRATION TYPE_CHOICE(PENETRATION)
-#define TYPE_CHOICE_INTEGRATOR TYPE_CHOICE(INTEGRATOR)
-#define TYPE_CHOICE_GROUND TYPE_CHOICE(GROUND)
-#define TYPE_CHOICE_MOVING TYPE_CHOICE(MOVING)
-#define TYPE_CHOICE_OBJECT_SHAPE TYPE_CHOICE(OBJECT_SHAPE)
-#define TYPE_CHOICE_OBJECT_EDGES TYPE_CHOICE(OBJECT_EDGES)
-#define TYPE_CHOICE_OBJECT_WAVES TYPE_CHOICE(OBJECT_WAVES)
-#define TYPE_CHOICE_MATERIAL_NAME TYPE_CHOICE(MATERIAL_NAME)
-#define TYPE_CHOICE_NORMAL_FORCE TYPE_CHOICE(NORMAL_FORCE)
-#define TYPE_CHOICE_NONLINEARITY TYPE_CHOICE(NONLINEARITY)
-#define TYPE_CHOICE_RESPONSE_VARIES TYPE_CHOICE(RESPONSE_VARIES)
-#define TYPE_CHOICE_BODIES TYPE_CHOICE(BODIES)
-#define TYPE_CHOICE_QUANTITY TYPE_CHOICE(QUANTITY)
-#define TYPE_CHOICE_SOUND_ENVELOPE TYPE_CHOICE(SOUND_ENVELOPE)
-#define TYPE_CHOICE_RADIATOR TYPE_CHOICE(RADIATOR)
-#define TYPE_CHOICE_IMPACT_PROTOTYPE TYPE_CHOICE(IMPACT_PROTOTYPE)
-#define TYPE_CHOICE_IMPACT_DISTRIBUTION TYPE_CHOICE(IMPACT_DISTRIBUTION)
-#define TYPE_CHOICE_IMPACT_MARGINAL TYPE_CHOICE(IMPACT_MARGINAL)
-#define TYPE_CHOICE_IMPACT_PROCESSES TYPE_CHOICE(IMPACT_PROCESSES)
-#define TYPE_CHOICE_IMPACT_LISTING TYPE_CHOICE(IMPACT_LISTING)
-#define TYPE_CHOICE_TABLE_FORMAT TYPE_CHOICE(TABLE_FORMAT)
+#define KEY_CHOICE(name) KEY_CHOICE, .choices = words_##name
 
 #define KEY(owner, field, where, kind, unit, lowest, highest, preset, when, text)                                      \
     {.of = KEY_##owner,                                                                                                \
      .offset = OFFSET_##owner(field),                                                                                  \
      .path = where,                                                                                                    \
-     TYPE_##kind,                                                                                                      \
+     .type = KEY_##kind,                                                                                               \
      .dimension = KEY_##unit,                                                                                          \
      .low = lowest,                                                                                                    \
      .high = highest,                                                                                                  \
