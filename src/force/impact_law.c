@@ -23,7 +23,269 @@
 
 #include "force/impact_density.h"
 #include "num/real.h"
+#include "scene/rows.h"
+#include "scene/scene_check.h"
+#include "scene/scene_part.h"
 #include "trajectory/series.h"
+
+/* ------------------------------------------------------------------ parameters */
+
+static const struct choice prototypes[] = {
+    [PROTOTYPE_ROLL] = {"roll", "papers/002's rolling, from size, velocity and roughness (equations 16, 17, table I)"},
+    [PROTOTYPE_RUB] = {"rub", "papers/004's rubbing: white signed force, an impact every 1/44100 s"},
+    [PROTOTYPE_SCRATCH] = {"scratch",
+                           "papers/004's scratching: like rub, but the impacts come seldom, at exponential intervals"},
+    [PROTOTYPE_SPACE] = {"space", "a place on papers/004's disk of actions, or a way over it: angle and radius"},
+    [PROTOTYPE_CUSTOM] = {"custom", "what amplitude, interval, duration and modulation say"},
+    {NULL, NULL}};
+
+static const struct choice distributions[] = {
+    [DISTRIBUTION_GAUSSIAN] = {"gaussian", "a normal one about 0"},
+    [DISTRIBUTION_EXPONENTIAL] = {"exponential", "an exponential one from 0 up; its mean, which is its deviation, adds "
+                                                 "to the series' mean"},
+    [DISTRIBUTION_TABLE] = {"table", "the density in a CSV, straight between its rows"},
+    {NULL, NULL}};
+
+static const struct choice marginals[] = {
+    [MARGINAL_AS_DRAWN] = {"as_drawn", "what the filter makes of the white process; draws below the floors are limited "
+                                       "and counted"},
+    [MARGINAL_LOGNORMAL] = {"lognormal", "log-normal with the same mean and variance, always above 0"},
+    {NULL, NULL}};
+
+static const struct choice processes[] = {
+    [PROCESSES_ONE] = {"one", "one uniform process drives amplitudes and intervals, as papers/002 found in its model"},
+    [PROCESSES_TWO] = {"two", "each has its own"},
+    {NULL, NULL}};
+
+#define IMPACTS "contact.model=impacts"
+#define ROLLING "contact.impacts.prototype=roll|space|custom"
+#define ROLL_SPACE "contact.impacts.prototype=roll|space"
+#define RUB "contact.impacts.prototype=rub|space"
+#define SCRATCH "contact.impacts.prototype=scratch|space"
+#define STILL "!contact.impacts.space.walk"
+
+/* Meanings of rows of both series, of both kinds of grains. */
+#define ADDED ", to which what the filter makes of the white process is added; left out: the prototype's"
+#define DEVIATION "standard deviation of the white process; left out: the prototype's"
+#define A1 "a1 of the filter (1 + b1/z)/(1 + a1/z) (equation 13); left out: the prototype's, of custom 0"
+#define B1 "b1 of the filter; left out: the prototype's, of custom 0"
+#define TABLE "CSV with the columns value (in the unit of the mean) and density, of the white process"
+#define NORMAL "standard deviation of the amplitudes, which are Gaussian about 0"
+#define DULLER ": longer ones, of a duller force, evoke a bigger object"
+
+static const struct key keys[] = {
+    {ROW_CHOICE(impacts, prototype, "contact.impacts.prototype"), KEY_NONE, 0, 0, NULL, IMPACTS,
+     "which statistics the impacts have", prototypes},
+    {ROW_NUMBER(impacts, size, "contact.impacts.size"), KEY_NONE, 0.1, 1, "0.5", ROLL_SPACE,
+     "S of papers/002, the size of what rolls: durations 0.788 ms S A^-0.29 (equation 16)"},
+    {ROW_NUMBER(impacts, velocity, "contact.impacts.velocity"), KEY_NONE, 0.1, 1, "0.5", ROLL_SPACE,
+     "V of papers/002: the amplitudes are modulated at 3 V/S Hz (equation 17)"},
+    {ROW_NUMBER(impacts, roughness, "contact.impacts.roughness"), KEY_NONE, 0, 1, "0.5", ROLL_SPACE,
+     "rho of papers/002: the series' statistics between the two columns of its table I"},
+    {ROW_NUMBER(impacts, unit_force, "contact.impacts.unit_force"), KEY_FORCE, 1e-12, 1e12, "1 N", IMPACTS,
+     "force of an amplitude of 1"},
+    {ROW_NUMBER(impacts, amplitude.mean, "contact.impacts.amplitude.mean"), KEY_NONE, -1e6, 1e6, "", ROLLING,
+     "mean of the amplitudes" ADDED},
+    {ROW_NUMBER(impacts, amplitude.deviation, "contact.impacts.amplitude.deviation"), KEY_NONE, 0, 1e6, "",
+     "contact.impacts.amplitude.distribution=gaussian|exponential", DEVIATION},
+    {ROW_NUMBER(impacts, amplitude.a1, "contact.impacts.amplitude.a1"), KEY_NONE, -0.9999, 0.9999, "", ROLLING, A1},
+    {ROW_NUMBER(impacts, amplitude.b1, "contact.impacts.amplitude.b1"), KEY_NONE, -10, 10, "", ROLLING, B1},
+    {ROW_CHOICE(impacts, amplitude.distribution, "contact.impacts.amplitude.distribution"), KEY_NONE, 0, 0, "gaussian",
+     ROLLING, "distribution of the white process", distributions},
+    {ROW_FILE(impacts, amplitude.table, "contact.impacts.amplitude.table"), KEY_NONE, 0, 0, NULL,
+     "contact.impacts.amplitude.distribution=table", TABLE},
+    {ROW_NUMBER(impacts, interval.mean, "contact.impacts.interval.mean"), KEY_TIME, -1e6, 1e6, "", ROLLING,
+     "mean of the times from impact to impact" ADDED},
+    {ROW_NUMBER(impacts, interval.deviation, "contact.impacts.interval.deviation"), KEY_TIME, 0, 1e6, "",
+     "contact.impacts.interval.distribution=gaussian|exponential", DEVIATION},
+    {ROW_NUMBER(impacts, interval.a1, "contact.impacts.interval.a1"), KEY_NONE, -0.9999, 0.9999, "", ROLLING, A1},
+    {ROW_NUMBER(impacts, interval.b1, "contact.impacts.interval.b1"), KEY_NONE, -10, 10, "", ROLLING, B1},
+    {ROW_CHOICE(impacts, interval.distribution, "contact.impacts.interval.distribution"), KEY_NONE, 0, 0, "gaussian",
+     ROLLING, "distribution of the white process", distributions},
+    {ROW_FILE(impacts, interval.table, "contact.impacts.interval.table"), KEY_NONE, 0, 0, NULL,
+     "contact.impacts.interval.distribution=table", TABLE},
+    {ROW_NUMBER(impacts, zeta, "contact.impacts.duration.zeta"), KEY_TIME, 1e-7, 10, "", ROLLING,
+     "zeta: an impact of amplitude A lasts zeta |A|^-theta (equation 12); left out: the prototype's"},
+    {ROW_NUMBER(impacts, theta, "contact.impacts.duration.theta"), KEY_NONE, 0, 2, "", ROLLING,
+     "theta; 0: all last equally long; left out: the prototype's, of custom 0"},
+    {ROW_NUMBER(impacts, depth, "contact.impacts.modulation.depth"), KEY_NONE, 0, 1, "", ROLLING,
+     "m of 1 + m sin(2 pi nu t), which multiplies the amplitudes before durations are taken from them; left out: the "
+     "prototype's, 0.3 of roll and 0 of custom"},
+    {ROW_NUMBER(impacts, rate, "contact.impacts.modulation.rate"), KEY_FREQUENCY, 0, 1000, "", ROLLING,
+     "nu; left out: the prototype's, 3 V/S Hz of roll"},
+    {ROW_NUMBER(impacts, least_amplitude, "contact.impacts.floor.amplitude"), KEY_NONE, 0, 1, "", ROLLING,
+     "least amplitude, as a share of the mean: draws below it are limited, counted and reported; left out: 0.01 of "
+     "roll; of custom, and of space but at roll's own place, amplitudes keep their sign, and only durations are taken "
+     "from at least 0.01 of the rms amplitude"},
+    {ROW_NUMBER(impacts, least_interval, "contact.impacts.floor.interval"), KEY_TIME, 1e-6, 1, "22.6757 us", IMPACTS,
+     "least time from impact to impact (a sample at 44.1 kHz unless given): shorter draws are limited, counted and "
+     "reported"},
+    {ROW_CHOICE(impacts, marginal, "contact.impacts.marginal"), KEY_NONE, 0, 0, "as_drawn",
+     "contact.impacts.prototype=roll|custom", "distribution of amplitudes and intervals themselves", marginals},
+    {ROW_CHOICE(impacts, processes, "contact.impacts.processes"), KEY_NONE, 0, 0, "one", IMPACTS,
+     "what drives amplitudes and intervals", processes},
+    {ROW_NUMBER(impacts, rub.deviation, "contact.impacts.rub.deviation"), KEY_NONE, 0, 1e6, "0.15", RUB, NORMAL},
+    {ROW_NUMBER(impacts, rub.interval, "contact.impacts.rub.interval"), KEY_TIME, 1e-6, 10, "22.6757 us", RUB,
+     "time from impact to impact: a sample at 44.1 kHz unless given, at any sample rate"},
+    {ROW_NUMBER(impacts, rub.duration, "contact.impacts.rub.duration"), KEY_TIME, 1e-6, 0.1, "22.6757 us", RUB,
+     "how long an impact lasts (papers/004: one sample; in seconds ours)" DULLER},
+    {ROW_NUMBER(impacts, scratch.deviation, "contact.impacts.scratch.deviation"), KEY_NONE, 0, 1e6, "0.15", SCRATCH,
+     NORMAL},
+    {ROW_NUMBER(impacts, scratch.interval, "contact.impacts.scratch.interval"), KEY_TIME, 1e-6, 10, "10 ms", SCRATCH,
+     "mean time from impact to impact, exponentially distributed (ours: seldom enough to hear single impacts, yet near "
+     "roll's 3.1 to 6.4 ms)"},
+    {ROW_NUMBER(impacts, scratch.duration, "contact.impacts.scratch.duration"), KEY_TIME, 1e-6, 0.1, "22.6757 us",
+     SCRATCH, "how long an impact lasts (ours: as rub's)" DULLER},
+    {ROW_NUMBER(impacts, angle, "contact.impacts.space.angle"), KEY_ANGLE, -1000, 1000, "0 deg", STILL,
+     "place on the disk of actions: rub at 0, scratch at 120, roll at 240 degrees on its rim"},
+    {ROW_NUMBER(impacts, radius, "contact.impacts.space.radius"), KEY_NONE, -1, 1, "1", STILL,
+     "1: on the rim; 0: the mean of all three; below 0: on the other side"},
+    {ROW_NUMBER(impacts, angle_to, "contact.impacts.space.angle_to"), KEY_ANGLE, -1000, 1000, "", STILL,
+     "angle at the motion's end, reached evenly; left out: it stays"},
+    {ROW_NUMBER(impacts, radius_to, "contact.impacts.space.radius_to"), KEY_NONE, -1, 1, "", STILL,
+     "radius at the motion's end; left out: it stays"},
+    {ROW_FILE(impacts, walk, "contact.impacts.space.walk"), KEY_NONE, 0, 0, "", "contact.impacts.prototype=space",
+     "the way over the disk: CSV with the columns time_s, angle_deg, radius, straight between its rows"},
+    {.path = NULL}};
+
+static bool is_given(const struct scene_part *p, const char *path) { return yaml_find(p->map, path) != NULL; }
+
+/* Told at a value that is there. */
+static void refuse(const struct scene_part *p, const char *path, const char *cure, const char *says)
+{
+    diag_add(p->yaml->diag, scene_part_later(p, path, path), cure, "%s %s", scene_part_label(p, path), says);
+}
+
+static void draws_missing(const struct scene_part *p, const struct impact_draws *d, const char *series,
+                          const char *mean, const char *deviation)
+{
+    struct arena *a = p->yaml->arena;
+    static const char because[] = ": of custom nothing is known that is not given";
+    scene_check_missing(p, arena_format(a, "contact.impacts.%s.mean", series), mean, because);
+    if (d->distribution != DISTRIBUTION_TABLE &&
+        scene_part_known(p, arena_format(a, "contact.impacts.%s.distribution", series)))
+        scene_check_missing(p, arena_format(a, "contact.impacts.%s.deviation", series), deviation, because);
+}
+
+static void modulation_check(const struct scene_part *p, const struct impacts *m)
+{
+    const char *rate = "contact.impacts.modulation.rate";
+    if (m->depth > 0)
+        scene_check_missing(p, rate, "5 Hz", ": contact.impacts.modulation.depth is above 0");
+    else if (is_given(p, rate) && !isnan(m->rate))
+        refuse(p, rate, "remove it, or give contact.impacts.modulation.depth",
+               "has no effect where contact.impacts.modulation.depth is 0, as it is of custom unless given");
+}
+
+static void custom_check(const struct scene_part *p, const struct impacts *m)
+{
+    draws_missing(p, &m->amplitude, "amplitude", "0.3", "0.05");
+    draws_missing(p, &m->interval, "interval", "5 ms", "1 ms");
+    scene_check_missing(p, "contact.impacts.duration.zeta", "0.4 ms", ": of custom nothing is known that is not given");
+    modulation_check(p, m);
+}
+
+/* What the series adds up to on average: its mean, and what the filter makes of the white process'; NAN: the prototype
+ * or a file tells. */
+static double mean_of(const struct impact_draws *d)
+{
+    double a1 = isnan(d->a1) ? 0 : d->a1, b1 = isnan(d->b1) ? 0 : d->b1;
+    if (d->distribution == DISTRIBUTION_GAUSSIAN) return d->mean;
+    return d->distribution == DISTRIBUTION_EXPONENTIAL ? d->mean + d->deviation * (1 + b1) / (1 + a1) : NAN;
+}
+
+static void interval_check(const struct scene_part *p, const struct impacts *m)
+{
+    const char *mean = "contact.impacts.interval.mean", *floor = "contact.impacts.floor.interval";
+    double every = mean_of(&m->interval);
+    if (every <= 0)
+        diag_add(p->yaml->diag, scene_part_later(p, mean, mean),
+                 "raise it; write for instance: interval: {mean: 5 ms, deviation: 1 ms}",
+                 "%s: impacts would come every %.4g s on average, and must come at times that rise",
+                 scene_part_label(p, mean), every);
+    else if (every < m->least_interval)
+        diag_add(p->yaml->diag, scene_part_later(p, mean, floor), "raise it, or lower contact.impacts.floor.interval",
+                 "%s: impacts would come every %.4g s on average, and the least interval, %s, is %.4g s",
+                 scene_part_label(p, mean), every, scene_part_label(p, floor), m->least_interval);
+}
+
+/* Of a rub or a scratch, alone or on the disk. */
+static void grain_check(const struct scene_part *p, const struct impacts *m, const char *interval, double every)
+{
+    const char *floor = "contact.impacts.floor.interval";
+    if (every < m->least_interval)
+        diag_add(p->yaml->diag, scene_part_later(p, interval, floor),
+                 arena_format(p->yaml->arena, "raise %s, or lower %s", interval, floor),
+                 "%s, %.4g s, is below the least interval, %s, %.4g s", scene_part_label(p, interval), every,
+                 scene_part_label(p, floor), m->least_interval);
+}
+
+static void amplitude_check(const struct scene_part *p, const struct impacts *m)
+{
+    const char *mean = "contact.impacts.amplitude.mean", *floor = "contact.impacts.floor.amplitude";
+    double height = mean_of(&m->amplitude);
+    if (!(height <= 0)) return;
+    if (m->least_amplitude > 0)
+        diag_add(p->yaml->diag, scene_part_later(p, floor, mean),
+                 "remove floor.amplitude: amplitudes then keep their sign",
+                 "%s is a share of the mean, and that is %.4g", scene_part_label(p, floor), height);
+    else if (m->prototype == PROTOTYPE_ROLL)
+        refuse(p, mean, "raise it, or set contact.impacts.prototype to custom, whose amplitudes may have any sign",
+               "must be such that amplitudes are above 0 on average where contact.impacts.prototype is roll");
+}
+
+static void lognormal_check(const struct scene_part *p, const struct impact_draws *d, const char *series)
+{
+    const char *marginal = "contact.impacts.marginal",
+               *distribution = arena_format(p->yaml->arena, "contact.impacts.%s.distribution", series);
+    const char *mean = arena_format(p->yaml->arena, "contact.impacts.%s.mean", series);
+    if (d->distribution != DISTRIBUTION_GAUSSIAN && scene_part_known(p, distribution))
+        diag_add(p->yaml->diag, scene_part_later(p, distribution, marginal),
+                 "leave the distribution out, or set contact.impacts.marginal to as_drawn",
+                 "%s must be gaussian where %s is lognormal: a log-normal series is the exponential of a Gaussian one",
+                 scene_part_label(p, distribution), scene_part_label(p, marginal));
+    else if (d->mean <= 0)
+        diag_add(p->yaml->diag, scene_part_later(p, mean, marginal),
+                 "raise it, or set contact.impacts.marginal to as_drawn", "%s must be above 0 where %s is lognormal",
+                 scene_part_label(p, mean), scene_part_label(p, marginal));
+}
+
+static void series_check(const struct scene_part *p, const struct impacts *m)
+{
+    bool custom = m->prototype == PROTOTYPE_CUSTOM, space = m->prototype == PROTOTYPE_SPACE;
+    if (custom) custom_check(p, m);
+    if (custom || space || m->prototype == PROTOTYPE_ROLL) {
+        interval_check(p, m);
+        amplitude_check(p, m);
+    }
+    if (space || m->prototype == PROTOTYPE_RUB) grain_check(p, m, "contact.impacts.rub.interval", m->rub.interval);
+    if (space || m->prototype == PROTOTYPE_SCRATCH)
+        grain_check(p, m, "contact.impacts.scratch.interval", m->scratch.interval);
+    if (m->marginal == MARGINAL_LOGNORMAL && scene_part_known(p, "contact.impacts.marginal")) {
+        lognormal_check(p, &m->amplitude, "amplitude");
+        lognormal_check(p, &m->interval, "interval");
+    }
+}
+
+static void check(const struct scene_part *p, const struct contact *c, const void *own)
+{
+    const char *prototype = "contact.impacts.prototype";
+    (void)c;
+    if (is_given(p, prototype) && scene_part_known(p, prototype)) series_check(p, own);
+}
+
+static bool draws_impacts(const struct contact *c) { return c->contact.model == CONTACT_IMPACTS; }
+
+const struct params impact_law_params = {
+    .section = "contact.impacts",
+    .size = sizeof(struct impacts),
+    .keys = keys,
+    .check = check,
+    .given = draws_impacts,
+    .shown = true,
+};
+
+const struct impacts *impact_law_given(const struct contact *c) { return params_of(c, &impact_law_params); }
 
 /* ------------------------------------------------------------------ the prototypes */
 
@@ -58,23 +320,6 @@ static const double table_1[2][IMPACT_SERIES][4] = {
 
 static double given_or(double given, double otherwise) { return isnan(given) ? otherwise : given; }
 
-static bool anchors_needs(double value, const char *key, struct err *e)
-{
-    return !isnan(value) ||
-           err_set(e, ERR_SCENE,
-                   "contact.impacts.%s is missing: prototype custom takes nothing from elsewhere; give it", key);
-}
-
-static bool anchors_complete(const struct impacts *m, struct err *e)
-{
-    return anchors_needs(m->amplitude.mean, "amplitude.mean", e) &&
-           anchors_needs(m->interval.mean, "interval.mean", e) && anchors_needs(m->zeta, "duration.zeta", e) &&
-           (m->amplitude.distribution == DISTRIBUTION_TABLE ||
-            anchors_needs(m->amplitude.deviation, "amplitude.deviation", e)) &&
-           (m->interval.distribution == DISTRIBUTION_TABLE ||
-            anchors_needs(m->interval.deviation, "interval.deviation", e));
-}
-
 static struct impact_density *anchors_density(const struct impact_draws *d, double deviation, struct arena *a,
                                               struct err *e)
 {
@@ -88,7 +333,6 @@ static bool anchors_roll(const struct impacts *m, struct arena *a, struct impact
 {
     struct impact_parameters *p = &l->anchor[IMPACT_ROLL];
     bool custom = m->prototype == PROTOTYPE_CUSTOM;
-    if (custom && !anchors_complete(m, e)) return false;
     for (int s = 0; s < IMPACT_SERIES; s++) {
         const struct impact_draws *d = s == IMPACT_AMPLITUDE ? &m->amplitude : &m->interval;
         double row[4] = {0};
@@ -122,7 +366,7 @@ static bool anchors_make(const struct contact *c, struct arena *a, struct impact
                                 [PROTOTYPE_ROLL] = IMPACT_ROLL,
                                 [PROTOTYPE_CUSTOM] = IMPACT_ROLL,
                                 [PROTOTYPE_SPACE] = -1};
-    const struct impacts *m = &c->contact.impacts;
+    const struct impacts *m = impact_law_given(c);
     l->alone = alone[m->prototype];
     for (int k = 0; k < IMPACT_ANCHORS; k++)
         l->anchor[k].share[k] = 1;
@@ -158,7 +402,7 @@ static bool walk_read(const char *file, struct arena *a, struct impact_law *l, s
 
 static bool walk_make(const struct contact *c, double duration, struct arena *a, struct impact_law *l, struct err *e)
 {
-    const struct impacts *m = &c->contact.impacts;
+    const struct impacts *m = impact_law_given(c);
     if (m->walk) return walk_read(m->walk, a, l, e);
     l->steps = duration > 0 && (!isnan(m->angle_to) || !isnan(m->radius_to)) ? 2 : 1;
     l->walk = ARENA_TAKE(a, double, 6);
@@ -297,7 +541,7 @@ void impact_law_at(const struct impact_law *l, double t, struct impact_parameter
 /* least_amplitude and shortest of anchor k. */
 static bool law_floor(const struct contact *c, int k, struct impact_law *l, struct err *e)
 {
-    const struct impacts *m = &c->contact.impacts;
+    const struct impacts *m = impact_law_given(c);
     struct impact_parameters *p = &l->anchor[k];
     double share = isnan(m->least_amplitude) && m->prototype != PROTOTYPE_CUSTOM ? 0.01 : m->least_amplitude, mean,
            variance, rms = law_rms(l, p);
@@ -313,22 +557,6 @@ static bool law_floor(const struct contact *c, int k, struct impact_law *l, stru
                        c->name, mean);
     p->least_amplitude = share * mean;
     if (share > 0) p->shortest = fmax(fmin(p->least_amplitude * (1 - p->depth), 0.01 * rms), 0.001 * rms);
-    return true;
-}
-
-static bool law_marginal(const struct contact *c, const struct impact_law *l, struct err *e)
-{
-    static const char *const words[IMPACT_SERIES] = {"amplitude", "interval"};
-    for (int s = 0; s < IMPACT_SERIES && l->lognormal; s++) {
-        double mean, variance;
-        int kind = l->density[l->alone][s]->kind;
-        impact_law_stationary(l, s, &l->anchor[l->alone], &mean, &variance);
-        if (!(mean > 0) || kind == IMPACT_DENSITY_EXPONENTIAL || kind == IMPACT_DENSITY_TABLE)
-            return err_set(e, ERR_SCENE,
-                           "%s: contact.impacts.marginal: lognormal needs contact.impacts.%s.mean above 0 and "
-                           "distribution: gaussian",
-                           c->name, words[s]);
-    }
     return true;
 }
 
@@ -352,14 +580,13 @@ static double law_longest(const struct impact_law *l)
 
 bool impact_law_make(const struct contact *c, double duration, struct arena *a, struct impact_law *l, struct err *e)
 {
-    const struct impacts *m = &c->contact.impacts;
+    const struct impacts *m = impact_law_given(c);
     *l = (struct impact_law){
         .unit_force = m->unit_force, .least_interval = m->least_interval, .two = m->processes == PROCESSES_TWO};
     if (!anchors_make(c, a, l, e)) return false;
     l->lognormal = l->alone == IMPACT_ROLL && m->marginal == MARGINAL_LOGNORMAL;
     for (int k = 0; k < IMPACT_ANCHORS; k++)
         if (l->density[k][IMPACT_AMPLITUDE] && !law_floor(c, k, l, e)) return false;
-    if (!law_marginal(c, l, e)) return false;
     for (int k = 0; k < IMPACT_ANCHORS && l->alone < 0; k++)
         l->anchor[k].rate = l->anchor[IMPACT_ROLL].rate; /* its phase goes on where its depth is 0 */
     if (l->alone < 0 && !walk_make(c, duration, a, l, e)) return false;

@@ -7,7 +7,48 @@
 
 #include "base/arena.h"
 #include "base/err.h"
+#include "scene/params.h"
 #include "scene/scene.h"
+
+enum impact_prototype { PROTOTYPE_ROLL, PROTOTYPE_RUB, PROTOTYPE_SCRATCH, PROTOTYPE_SPACE, PROTOTYPE_CUSTOM };
+enum impact_distribution { DISTRIBUTION_GAUSSIAN, DISTRIBUTION_EXPONENTIAL, DISTRIBUTION_TABLE };
+enum impact_marginal { MARGINAL_AS_DRAWN, MARGINAL_LOGNORMAL };
+enum impact_processes { PROCESSES_ONE, PROCESSES_TWO };
+
+struct impact_draws {  /* one series, of amplitudes (no unit) or intervals (s); NAN: the prototype's   */
+    double mean;       /* added to what the filter makes of the white process               */
+    double deviation;  /* standard deviation of the white process; of an exponential one its mean too */
+    double a1, b1;     /* of the filter (1 + b1/z) / (1 + a1/z)                             */
+    int distribution;  /* enum impact_distribution, of the white process                    */
+    const char *table; /* CSV of value, density                                             */
+};
+
+struct impact_grain { /* rub and scratch: impacts that know nothing of each other          */
+    double deviation; /* of the amplitudes, whose mean is 0                                */
+    double interval;  /* s, of rub from impact to impact; of scratch the mean              */
+    double duration;  /* s, of an impact                                                   */
+};
+
+struct impacts {                      /* keys contact.impacts.* */
+    int prototype;                    /* enum impact_prototype                                             */
+    double size, velocity, roughness; /* papers/002's controls S, V and rho                      */
+    double unit_force;                /* N of an amplitude of 1                                            */
+    struct impact_draws amplitude, interval;
+    double zeta, theta;     /* duration zeta |A|^-theta, s; NAN: the prototype's                 */
+    double depth, rate;     /* m and nu (Hz) of the amplitudes' modulation; NAN: the prototype's */
+    double least_amplitude; /* share of the mean; NAN: the prototype's                           */
+    double least_interval;  /* s                                                                 */
+    int marginal;           /* enum impact_marginal                                              */
+    int processes;          /* enum impact_processes                                             */
+    struct impact_grain rub, scratch;
+    double angle, radius;       /* rad, 1: place on the disk of actions                              */
+    double angle_to, radius_to; /* at the motion's end; NAN: it stays                            */
+    const char *walk;           /* CSV of time_s, angle_deg, radius; NULL: none                      */
+};
+
+/* Keys, rules: of the stage impacts. */
+extern const struct params impact_law_params;
+const struct impacts *impact_law_given(const struct contact *c);
 
 enum impact_anchor { IMPACT_RUB, IMPACT_SCRATCH, IMPACT_ROLL, IMPACT_ANCHORS }; /* IMPACT_ROLL: also what is custom */
 enum impact_series_of { IMPACT_AMPLITUDE, IMPACT_INTERVAL, IMPACT_SERIES };

@@ -36,12 +36,6 @@ struct impact_block { /* the sub-intervals being filled */
     double *force;
 };
 
-static bool stage_wanted(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return c->contact.model == CONTACT_IMPACTS;
-}
-
 /* About how many impacts a second, from the keys alone: of papers/002 table I, and of the middle of the disk, some 200.
  */
 static double stage_density(const struct impacts *m)
@@ -53,7 +47,7 @@ static double stage_density(const struct impacts *m)
 
 static double stage_work(const struct contact *c, const struct scene *s)
 {
-    const struct impacts *m = &c->contact.impacts;
+    const struct impacts *m = impact_law_given(c);
     double rate = s->output.sample_rate, lasts = m->prototype == PROTOTYPE_RUB       ? m->rub.duration
                                                  : m->prototype == PROTOTYPE_SCRATCH ? m->scratch.duration
                                                                                      : 5e-4;
@@ -155,10 +149,10 @@ const struct stage impacts_stage = {
     .does = "contact force of a series of impacts drawn from its statistics",
     .paper = "002 eq. 5, 6, 9, 12, 13, 16, 17; 004 eq. 2 to 11",
     .idle = "contact.model is not impacts",
+    .params = &impact_law_params,
     .needs = ITEM_BIT(ITEM_MOTION), /* its duration */
     .gives = ITEM_BIT(ITEM_SUBFORCE),
     .knobs = KNOB_BIT(oversampling),
-    .wanted = stage_wanted,
     .work = stage_work,
     .open = stage_open,
     .run = stage_fill,

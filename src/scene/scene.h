@@ -12,7 +12,6 @@
 #include <stdint.h>
 
 #include "scene/ablated.h"
-#include "scene/impacts.h"
 
 /* ------------------------------------------------------------------ choices: same order as the words in keys.def */
 
@@ -226,7 +225,6 @@ struct roll {         /* force/roll.h, convolution/coupled.h                    
 struct contact_model {
     int model; /* enum contact_kind                                                 */
     struct roll roll;
-    struct impacts impacts;
     double playback;     /* N/m: force for a metre of the surface's height (playback)         */
     int force;           /* enum force_kind                                                   */
     double beta1, beta2; /* eq. 3                                                             */

@@ -92,6 +92,5 @@ void scene_sense_model(const struct scene_part *p, const struct contact *c)
     if (!scene_part_known(p, "contact.model")) return;
     still_check(p, c);
     if (c->contact.model != CONTACT_SCRAPE) idle_check(p, c);
-    scene_sense_impacts(p, c);
     if (ball_rolls(c)) scene_sense_ball(p, c);
 }

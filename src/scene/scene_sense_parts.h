@@ -7,7 +7,6 @@
 void scene_sense_motion(const struct scene_part *p, const struct motion *m);    /* scene_sense_motion.c  */
 void scene_sense_model(const struct scene_part *p, const struct contact *c);    /* scene_sense_model.c   */
 void scene_sense_ball(const struct scene_part *p, const struct contact *c);     /* scene_sense_ball.c    */
-void scene_sense_impacts(const struct scene_part *p, const struct contact *c);  /* scene_sense_impacts.c */
 void scene_sense_response(const struct scene_part *p, const struct contact *c); /* scene_sense_response.c */
 void scene_sense_ablation(const struct scene_part *p, const struct contact *c); /* scene_sense_ablation.c */
 void scene_sense_object(const struct scene_part *p, const struct object_given *o,

@@ -8,28 +8,36 @@
 
 #define SAMPLE 22.6757e-6 /* s, at 44.1 kHz, as the keys' defaults have it */
 
+/* Of a contact that is made by hand. */
+static inline struct impacts *impacts_in(struct contact *c)
+{
+    static struct arena *a;
+    if (!a) a = arena_open();
+    return params_edit(c, &impact_law_params, a);
+}
+
 static inline struct contact impacts_contact(int prototype)
 {
     const struct impact_draws draws = {.mean = NAN, .deviation = NAN, .a1 = NAN, .b1 = NAN};
     struct contact c = {.name = "ball", .gain = 1, .contact = {.model = CONTACT_IMPACTS}};
-    c.contact.impacts = (struct impacts){.prototype = prototype,
-                                         .size = 0.5,
-                                         .velocity = 0.5,
-                                         .roughness = 0.5,
-                                         .unit_force = 1,
-                                         .amplitude = draws,
-                                         .interval = draws,
-                                         .zeta = NAN,
-                                         .theta = NAN,
-                                         .depth = NAN,
-                                         .rate = NAN,
-                                         .least_amplitude = NAN,
-                                         .least_interval = SAMPLE,
-                                         .rub = {0.15, SAMPLE, SAMPLE},
-                                         .scratch = {0.15, 0.01, SAMPLE},
-                                         .radius = 1,
-                                         .angle_to = NAN,
-                                         .radius_to = NAN};
+    *impacts_in(&c) = (struct impacts){.prototype = prototype,
+                                       .size = 0.5,
+                                       .velocity = 0.5,
+                                       .roughness = 0.5,
+                                       .unit_force = 1,
+                                       .amplitude = draws,
+                                       .interval = draws,
+                                       .zeta = NAN,
+                                       .theta = NAN,
+                                       .depth = NAN,
+                                       .rate = NAN,
+                                       .least_amplitude = NAN,
+                                       .least_interval = SAMPLE,
+                                       .rub = {0.15, SAMPLE, SAMPLE},
+                                       .scratch = {0.15, 0.01, SAMPLE},
+                                       .radius = 1,
+                                       .angle_to = NAN,
+                                       .radius_to = NAN};
     return c;
 }
 
@@ -37,9 +45,9 @@ static inline struct contact impacts_contact(int prototype)
 static inline struct contact impacts_custom(struct impact_draws amplitude, struct impact_draws interval)
 {
     struct contact c = impacts_contact(PROTOTYPE_CUSTOM);
-    c.contact.impacts.amplitude = amplitude;
-    c.contact.impacts.interval = interval;
-    c.contact.impacts.zeta = 1e-5;
+    impacts_in(&c)->amplitude = amplitude;
+    impacts_in(&c)->interval = interval;
+    impacts_in(&c)->zeta = 1e-5;
     return c;
 }
 

@@ -118,8 +118,8 @@ START_TEST(long_series)
         struct impact_series s = opened(&l, 5, a);
         unsigned any = ~0u;
         ck_assert_int_eq(take(&s, &any), 0);
-        near(taken[0], LONG, &c.contact.impacts.amplitude, 10);
-        near(taken[1], LONG, &c.contact.impacts.interval, 1);
+        near(taken[0], LONG, &impacts_in(&c)->amplitude, 10);
+        near(taken[1], LONG, &impacts_in(&c)->interval, 1);
     }
     arena_close(a);
 }
@@ -151,10 +151,10 @@ START_TEST(one_process_or_two)
     struct arena *a = arena_open();
     for (int two = 0; two <= 1; two++) {
         struct contact c = unlimited(0.5);
-        c.contact.impacts.processes = two ? PROCESSES_TWO : PROCESSES_ONE;
+        impacts_in(&c)->processes = two ? PROCESSES_TWO : PROCESSES_ONE;
         struct impact_law l = impacts_law(&c, 1, a);
         struct impact_series s = opened(&l, 7, a);
-        const struct impact_draws *d[2] = {&c.contact.impacts.amplitude, &c.contact.impacts.interval};
+        const struct impact_draws *d[2] = {&impacts_in(&c)->amplitude, &impacts_in(&c)->interval};
         double e[2] = {0}, sums[3] = {0};
         take(&s, NULL);
         for (long i = 1; i < LONG; i++) {
@@ -199,7 +199,7 @@ START_TEST(floors_are_met_as_often_as_a_gaussian_falls_below)
     struct arena *a = arena_open();
     for (int r = 0; r <= 2; r++) {
         struct contact c = impacts_contact(PROTOTYPE_ROLL);
-        c.contact.impacts.roughness = r / 2.0;
+        impacts_in(&c)->roughness = r / 2.0;
         struct impact_law l = impacts_law(&c, 1, a);
         struct impact_parameters p = impacts_at(&l, 0);
         for (int k = 0; k < 2; k++) {
@@ -224,16 +224,16 @@ START_TEST(floors_change_nothing_else)
 {
     struct arena *a = arena_open();
     struct contact c = impacts_contact(PROTOTYPE_ROLL), free = c;
-    c.contact.impacts.depth = free.contact.impacts.depth = 0;
-    c.contact.impacts.least_interval = 1e-3;
-    free.contact.impacts.prototype = PROTOTYPE_CUSTOM;
+    impacts_in(&c)->depth = impacts_in(&free)->depth = 0;
+    impacts_in(&c)->least_interval = 1e-3;
+    impacts_in(&free)->prototype = PROTOTYPE_CUSTOM;
     struct impact_law l = impacts_law(&c, 1, a);
     struct impact_parameters p = impacts_at(&l, 0);
-    free.contact.impacts.amplitude =
+    impacts_in(&free)->amplitude =
         (struct impact_draws){p.mean[0], 0.04, p.a1[0], p.b1[0], DISTRIBUTION_GAUSSIAN, NULL};
-    free.contact.impacts.interval =
+    impacts_in(&free)->interval =
         (struct impact_draws){p.mean[1], 0.52e-3, p.a1[1], p.b1[1], DISTRIBUTION_GAUSSIAN, NULL};
-    free.contact.impacts.zeta = p.zeta;
+    impacts_in(&free)->zeta = p.zeta;
     struct impact_law other = impacts_law(&free, 1, a);
     struct impact_series s = opened(&l, 3, a), t = s;
     long count[2] = {0};
@@ -260,9 +260,9 @@ START_TEST(log_normal)
 {
     struct arena *a = arena_open();
     struct contact c = impacts_contact(PROTOTYPE_ROLL);
-    c.contact.impacts.roughness = 1;
-    c.contact.impacts.depth = 0;
-    c.contact.impacts.marginal = MARGINAL_LOGNORMAL;
+    impacts_in(&c)->roughness = 1;
+    impacts_in(&c)->depth = 0;
+    impacts_in(&c)->marginal = MARGINAL_LOGNORMAL;
     struct impact_law l = impacts_law(&c, 1, a);
     struct impact_parameters p = impacts_at(&l, 0);
     struct impact_series s = opened(&l, 9, a);
@@ -294,8 +294,8 @@ START_TEST(amplitudes_are_stationary_from_the_first_impact_on)
 {
     struct arena *a = arena_open();
     struct contact c = unlimited(0);
-    const struct impact_draws *d = &c.contact.impacts.amplitude;
-    c.contact.impacts.processes = PROCESSES_TWO;
+    const struct impact_draws *d = &impacts_in(&c)->amplitude;
+    impacts_in(&c)->processes = PROCESSES_TWO;
     struct impact_law l = impacts_law(&c, 1, a);
     double x[2][SEEDS], mean, variance, both = 0, g = covariance(d, 0), at = covariance(d, 1) / g;
     for (int i = 0; i < SEEDS; i++) {
@@ -323,7 +323,7 @@ START_TEST(nothing_is_left_of_the_beginning)
     struct noise noise = noise_make(21, "impacts/ball");
     for (int r = 0; r <= 1; r++) {
         struct contact c = unlimited(r);
-        const struct impact_draws *d = &c.contact.impacts.amplitude;
+        const struct impact_draws *d = &impacts_in(&c)->amplitude;
         struct impact_law l = impacts_law(&c, 1, a);
         struct impact_series s = opened(&l, 21, a);
         double sum = gsl_cdf_gaussian_Pinv(noise_uniform(noise, (uint64_t)s.number, 0), 0.04), factor = d->b1 - d->a1;
@@ -371,8 +371,8 @@ START_TEST(the_first_impact_comes_at_any_phase)
     c = impacts_contact(PROTOTYPE_ROLL);
     struct impact_draws d = {0, 0.19e-3, -0.97, -0.34, DISTRIBUTION_GAUSSIAN, NULL};
     double m = 3.1e-3, v = covariance(&d, 0);
-    c.contact.impacts.roughness = 0;
-    c.contact.impacts.zeta = 1e-7;
+    impacts_in(&c)->roughness = 0;
+    impacts_in(&c)->zeta = 1e-7;
     phases(&c, m, m * m + v, m * m * m + 3 * m * v);
 }
 END_TEST
@@ -382,8 +382,8 @@ START_TEST(what_is_not_over_at_the_start)
 {
     struct arena *a = arena_open();
     struct contact c = impacts_contact(PROTOTYPE_SCRATCH);
-    c.contact.impacts.scratch.interval = 1e-4;
-    c.contact.impacts.scratch.duration = 0.05;
+    impacts_in(&c)->scratch.interval = 1e-4;
+    impacts_in(&c)->scratch.duration = 0.05;
     struct impact_law l = impacts_law(&c, 1, a);
     double first = 0, count = 0;
     for (int i = 0; i < 1000; i++) {
@@ -408,7 +408,7 @@ START_TEST(modulation_and_durations)
 {
     struct arena *a = arena_open();
     struct contact c = impacts_contact(PROTOTYPE_ROLL);
-    struct impacts *m = &c.contact.impacts;
+    struct impacts *m = impacts_in(&c);
     m->amplitude.deviation = 0;
     m->depth = 0.7, m->rate = 6.3, m->size = 0.4, m->unit_force = 5;
     struct impact_law l = impacts_law(&c, 1, a);
@@ -432,7 +432,7 @@ START_TEST(signs_stay)
     struct arena *a = arena_open();
     struct contact c = impacts_custom((struct impact_draws){0, 1, -0.5, 0, DISTRIBUTION_GAUSSIAN, NULL},
                                       (struct impact_draws){0.01, 0.001, 0, 0, DISTRIBUTION_GAUSSIAN, NULL});
-    c.contact.impacts.theta = 0.5;
+    impacts_in(&c)->theta = 0.5;
     struct impact_law l = impacts_law(&c, 1, a);
     struct impact_series s = opened(&l, 12, a);
     double shortest = 0.01 * sqrt(4 / 3.0);
@@ -514,8 +514,8 @@ START_TEST(a_fast_walk)
                                  (i % 5 - 2) / 2.0);
     impacts_file(path, text);
     struct contact c = impacts_contact(PROTOTYPE_SPACE);
-    c.contact.impacts.walk = path;
-    c.contact.impacts.rub.duration = 1e-3;
+    impacts_in(&c)->walk = path;
+    impacts_in(&c)->rub.duration = 1e-3;
     struct impact_law l = impacts_law(&c, 3, a);
     unlink(path);
     for (uint64_t seed = 0; seed < 20; seed++)

@@ -15,7 +15,8 @@ enum { RATES = sizeof rates / sizeof rates[0] };
 static struct contact series(int prototype, double duration)
 {
     struct contact c = shot_contact(CONTACT_IMPACTS, duration);
-    c.contact.impacts = impacts_contact(prototype).contact.impacts;
+    struct contact own = impacts_contact(prototype);
+    *impacts_in(&c) = *impact_law_given(&own);
     return c;
 }
 
@@ -23,20 +24,20 @@ static struct contact series(int prototype, double duration)
 static struct contact crowd(double duration)
 {
     struct contact c = series(PROTOTYPE_CUSTOM, duration);
-    c.contact.impacts.amplitude = (struct impact_draws){.mean = 0, .deviation = 0.5, .a1 = -0.5, .b1 = 0.2};
-    c.contact.impacts.interval = (struct impact_draws){.mean = 1e-3, .deviation = 0.3e-3, .a1 = -0.2, .b1 = 0};
-    c.contact.impacts.zeta = 1e-3;
-    c.contact.impacts.theta = 0.6;
+    impacts_in(&c)->amplitude = (struct impact_draws){.mean = 0, .deviation = 0.5, .a1 = -0.5, .b1 = 0.2};
+    impacts_in(&c)->interval = (struct impact_draws){.mean = 1e-3, .deviation = 0.3e-3, .a1 = -0.2, .b1 = 0};
+    impacts_in(&c)->zeta = 1e-3;
+    impacts_in(&c)->theta = 0.6;
     return c;
 }
 
 static struct contact even(double interval, double lasts, double duration)
 {
     struct contact c = series(PROTOTYPE_CUSTOM, duration);
-    c.contact.impacts.amplitude = (struct impact_draws){.mean = 0.7, .deviation = 0, .a1 = 0, .b1 = 0};
-    c.contact.impacts.interval = (struct impact_draws){.mean = interval, .deviation = 0, .a1 = 0, .b1 = 0};
-    c.contact.impacts.zeta = lasts;
-    c.contact.impacts.theta = 0;
+    impacts_in(&c)->amplitude = (struct impact_draws){.mean = 0.7, .deviation = 0, .a1 = 0, .b1 = 0};
+    impacts_in(&c)->interval = (struct impact_draws){.mean = interval, .deviation = 0, .a1 = 0, .b1 = 0};
+    impacts_in(&c)->zeta = lasts;
+    impacts_in(&c)->theta = 0;
     return c;
 }
 
@@ -294,8 +295,8 @@ START_TEST(too_long_a_one_is_refused)
 {
     struct contact c = crowd(1);
     struct shot s;
-    c.contact.impacts.theta = 2;
-    c.contact.impacts.zeta = 0.1;
+    impacts_in(&c)->theta = 2;
+    impacts_in(&c)->zeta = 0.1;
     ck_assert(!shot_open(&s, &impacts_stage, &c, 48000, 1));
     ck_assert_int_eq(s.e.kind, ERR_SCENE);
     ck_assert_msg(strstr(s.e.text, "an impact of the least amplitude would last") != NULL, "%s", s.e.text);

@@ -2,6 +2,7 @@
 #include "scenes.h"
 
 #include "force/gesture.h"
+#include "force/impact_law.h"
 #include "pipeline/stages.h"
 #include "scene/params.h"
 
@@ -143,7 +144,7 @@ END_TEST
 START_TEST(defaults)
 {
     struct result r = read_with(IMPACTS("prototype: roll"), NULL);
-    const struct impacts *m = &r.scene.contacts->contact.impacts;
+    const struct impacts *m = impact_law_given(r.scene.contacts);
     ck_assert_msg(r.good, "%s", r.messages);
     ck_assert(m->prototype == PROTOTYPE_ROLL && m->size == 0.5 && m->velocity == 0.5 && m->roughness == 0.5 &&
               m->unit_force == 1);
@@ -158,8 +159,8 @@ START_TEST(defaults)
     const struct gesture *g = params_of(r.scene.contacts, gesture_stage.params);
     ck_assert_msg(r.good, "%s", r.messages);
     ck_assert(g->given && g->cutoff == 1e4 && g->speed == 0.5 && g->order == 2);
-    ck_assert(r.scene.contacts->contact.impacts.rub.interval == 22.6757e-6 &&
-              r.scene.contacts->contact.impacts.rub.deviation == 0.15);
+    m = impact_law_given(r.scene.contacts);
+    ck_assert(m->rub.interval == 22.6757e-6 && m->rub.deviation == 0.15);
     arena_close(r.arena);
 }
 END_TEST
