@@ -75,17 +75,6 @@ static bool values_one(const char *given, struct arena *a, struct accuracy_value
     return true;
 }
 
-static bool read_values(const struct args *args, struct arena *a, struct accuracy_values *to, struct err *e)
-{
-    int n;
-    const char **given = args_values(args, "values", &n);
-    for (int k = 0; k < KNOBS; k++)
-        to[k].x = ARENA_TAKE(a, double, ACCURACY_VALUES);
-    for (int i = 0; i < n; i++)
-        if (!values_one(given[i], a, to, e)) return false;
-    return true;
-}
-
 /* What `rasp accuracy` renders: the presets, the scene as it is, and each knob's values, each once with all other knobs
    at `reference` (what it spoils alone) and once as the scene has them (what it costs). Knobs that turn nothing are
    left as they are, so that settings which differ in those are one. */
@@ -218,14 +207,6 @@ static const struct accuracy_render *alone(const struct accuracy_sweep *s, const
     return r->alone >= 0 && s->renders[r->alone].code == 0 ? &s->renders[r->alone] : NULL;
 }
 
-static void judge_order(const struct accuracy_sweep *s, const struct accuracy_row *before, struct accuracy_row *r)
-{
-    const struct accuracy_render *x = alone(s, before), *y = alone(s, r);
-    if (!x || !y || before->knob != r->knob || y == &s->renders[s->reference] || x == &s->renders[s->reference]) return;
-    double fine[2] = {before->fine, r->fine}, error[2] = {-x->error.snr / OCTAVE_DB, -y->error.snr / OCTAVE_DB};
-    r->order = convergence_slope(fine, error);
-}
-
 /* The reference's row of a knob, and the two before it, coarsest first; how many there are, 0: the reference has none.
  */
 static int finest(const struct accuracy_sweep *s, int knob, const struct accuracy_row *to[3])
@@ -274,8 +255,13 @@ bool accuracy_judge_below(const struct accuracy_sweep *s, const struct accuracy_
 void accuracy_judge(struct accuracy_sweep *s)
 {
     double sum = 0.0;
-    for (int i = 1; i < s->n_rows; i++)
-        if (s->rows[i].knob >= 0) judge_order(s, &s->rows[i - 1], &s->rows[i]);
+    for (int i = 1; i < s->n_rows; i++) {
+        const struct accuracy_row *before = &s->rows[i - 1], *r = &s->rows[i];
+        const struct accuracy_render *reference = &s->renders[s->reference], *x = alone(s, before), *y = alone(s, r);
+        if (r->knob < 0 || !x || !y || before->knob != r->knob || y == reference || x == reference) continue;
+        double fine[2] = {before->fine, r->fine}, error[2] = {-x->error.snr / OCTAVE_DB, -y->error.snr / OCTAVE_DB};
+        s->rows[i].order = convergence_slope(fine, error);
+    }
     for (int k = 0; k < KNOBS; k++) {
         s->own[k] = s->knobs & 1u << k && isinf(s->until) ? judge_own(s, k) : NAN;
         sum += isnan(s->own[k]) ? 0.0 : s->own[k] * s->own[k];
@@ -366,15 +352,6 @@ static char **command_line(const struct accuracy_sweep *s, const struct accuracy
     return (char **)w.list;
 }
 
-static _Noreturn void become(char **argv, int end, FILE *says, FILE *scene)
-{
-    if (scene) dup2(fileno(scene), STDIN_FILENO);
-    dup2(end, STDOUT_FILENO);
-    dup2(fileno(says), STDERR_FILENO);
-    execv("/proc/self/exe", argv);
-    _exit(127);
-}
-
 /* Runs it; its standard output in `out`, its standard error in the file. The exit code, or -1: it was
  * killed. */
 static int run_child(char **argv, FILE *says, FILE *scene, FILE *out, double *peak, struct err *e)
@@ -386,7 +363,13 @@ static int run_child(char **argv, FILE *says, FILE *scene, FILE *out, double *pe
     fflush(NULL);
     interrupt_hold();
     pid_t pid = fork();
-    if (pid == 0) become(argv, ends[1], says, scene);
+    if (pid == 0) {
+        if (scene) dup2(fileno(scene), STDIN_FILENO);
+        dup2(ends[1], STDOUT_FILENO);
+        dup2(fileno(says), STDERR_FILENO);
+        execv("/proc/self/exe", argv);
+        _exit(127);
+    }
     interrupt_child(pid);
     interrupt_go();
     close(ends[1]);
@@ -537,18 +520,6 @@ static bool sound_read(const char *path, double gain, struct arena *a, struct wa
     return true;
 }
 
-static bool reference_taken(struct accuracy_sweep *s, const char *path, const struct wav *a, struct err *e)
-{
-    interrupt_hold(); /* it would slip past what removes the folder */
-    bool moved = rename(child_sound(s), path) == 0;
-    interrupt_go();
-    if (!moved) return err_set(e, ERR_IO, "%s: %s", path, strerror(errno));
-    s->rate = a->rate;
-    s->channels = a->channels;
-    s->length = (double)a->frames / a->rate;
-    return true;
-}
-
 bool accuracy_child_compare(struct accuracy_sweep *s, int render, struct err *e)
 {
     struct accuracy_render *r = &s->renders[render];
@@ -558,7 +529,14 @@ bool accuracy_child_compare(struct accuracy_sweep *s, int render, struct err *e)
     bool is = render == s->reference;
     bool ok = sound_read(child_sound(s), r->gain, arena, &b, e) &&
               (is || sound_read(path, s->renders[s->reference].gain, arena, &a, e));
-    if (ok && is) ok = reference_taken(s, path, &b, e);
+    if (ok && is) {
+        interrupt_hold(); /* it would slip past what removes the folder */
+        ok = rename(child_sound(s), path) == 0 || err_set(e, ERR_IO, "%s: %s", path, strerror(errno));
+        interrupt_go();
+        s->rate = b.rate;
+        s->channels = b.channels;
+        s->length = (double)b.frames / b.rate;
+    }
     if (ok && !is && (a.channels != b.channels || a.rate != b.rate))
         ok = err_set(e, ERR_NUMBERS, "the renders differ in rate or channels and cannot be compared");
     if (ok && render == s->high && !is) {
@@ -633,8 +611,13 @@ static bool ask_files(const struct accuracy_sweep *s, struct err *e)
 static bool ask_scene(struct accuracy_sweep *s, struct err *e)
 {
     struct accuracy_values own[KNOBS] = {{0}};
-    if (!read_values(&s->call->args, s->call->arena, own, e) || !cmd_read_scene(s->call, s->file, &s->scene, e))
-        return false;
+    int n;
+    const char **given = args_values(&s->call->args, "values", &n);
+    for (int k = 0; k < KNOBS; k++)
+        own[k].x = ARENA_TAKE(s->call->arena, double, ACCURACY_VALUES);
+    for (int i = 0; i < n; i++)
+        if (!values_one(given[i], s->call->arena, own, e)) return false;
+    if (!cmd_read_scene(s->call, s->file, &s->scene, e)) return false;
     struct scene asked = s->scene;
     if (!error_budget_apply(&asked, s->call->arena, &s->scene, NULL, e)) return scene_places_report(&asked, e);
     s->scene.contacts = asked.contacts; /* engines are chosen for each setting */

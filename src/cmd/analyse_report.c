@@ -374,17 +374,6 @@ static const char *source_name(const struct analysis *a)
     return name;
 }
 
-/* As YAML reads it, whatever characters it has. */
-static void put_name(FILE *f, const char *name)
-{
-    fputc('\'', f);
-    for (const char *p = name; *p; p++) {
-        if (*p == '\'') fputc('\'', f);
-        fputc(*p, f);
-    }
-    fputc('\'', f);
-}
-
 static void put_value(FILE *f, const char *key, const struct estimate *x, const char *unit)
 {
     fprintf(f, "      %s: %.9g%s%s  # %.4g to %.4g\n", key, x->value, *unit ? " " : "", unit, x->low, x->high);
@@ -416,8 +405,10 @@ static void put_part(const struct part *p, FILE *f)
         fprintf(f, "    %s:\n", analyse_series_names[k]);
         put_value(f, "mean", &s->mean, unit);
         if (p->table[k]) {
-            fprintf(f, "      distribution: table\n      table: ");
-            put_name(f, p->table[k]);
+            fputs("      distribution: table\n      table: '", f);
+            for (const char *c = p->table[k]; *c; c++) /* as YAML reads it, whatever characters it has */
+                fprintf(f, *c == '\'' ? "''" : "%c", *c);
+            fputc('\'', f);
             fprintf(f, "  # standard deviation %.6g%s%s\n", s->deviation.value, *unit ? " " : "", unit);
         } else
             put_value(f, "deviation", &s->deviation, unit);

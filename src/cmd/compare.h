@@ -8,7 +8,6 @@
 
 struct compare_ask {
     const char *files[2]; /* A, the reference, and B; with a hash there is only A */
-    const char *hash;     /* 64 lower-case digits, or NULL                       */
     bool json, quiet;
     bool exact;                                        /* asked for, or nothing else is                       */
     double snr, lsb, third_octave;                     /* sounds: limits, dB, steps, dB; NAN: not asked for   */

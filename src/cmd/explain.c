@@ -93,16 +93,6 @@ static json_t *of_dimension(const struct key *k, struct arena *a)
                     k->type == KEY_TIME_OR_AUTO ? "auto" : NULL, a);
 }
 
-static json_t *columns(void)
-{
-    json_t *all = json_array();
-    const struct params *whose;
-    const struct params_column *t;
-    for (int k = 0; (t = scene_table_column(k, &whose)); k++)
-        json_array_append_new(all, json_string(t->name));
-    return json_pack("{s:o}", "enum", all);
-}
-
 static json_t *typed(const struct key *k, struct arena *a)
 {
     switch (k->type) {
@@ -124,9 +114,15 @@ static json_t *typed(const struct key *k, struct arena *a)
         return list(list(of_dimension(k, a), 2, 2, NULL), 2, 10000, NULL);
     case KEY_PLACES:
         return list(list(of_dimension(k, a), 3, 3, NULL), 1, 64, NULL);
-    case KEY_LIST:
-        return list(strcmp(k->path, "output.diagnostics.columns") ? json_pack("{s:s}", "type", "string") : columns(), 1,
-                    1000, NULL);
+    case KEY_LIST: {
+        json_t *all = json_array();
+        const struct params *whose;
+        const struct params_column *t;
+        bool columns = !strcmp(k->path, "output.diagnostics.columns");
+        for (int i = 0; columns && (t = scene_table_column(i, &whose)); i++)
+            json_array_append_new(all, json_string(t->name));
+        return list(columns ? json_pack("{s:o}", "enum", all) : json_pack("{s:s}", "type", "string"), 1, 1000, NULL);
+    }
     case KEY_CHOICE: {
         const char *words[64] = {NULL};
         for (int i = 0; i < 63 && k->choices[i].word; i++)
@@ -172,20 +168,16 @@ static const char *frame_meaning(const char *path)
     return NULL;
 }
 
-static const char *section_meaning(const char *path)
-{
-    for (const struct key_section *s = keys_sections; s->path; s++)
-        if (!strcmp(s->path, path)) return s->meaning;
-    return NULL;
-}
-
 /* The properties of the map `path`, under those of the top; maps are made as they are needed. */
 static json_t *properties_at(json_t *top, const char *path, struct arena *a)
 {
     if (!*path) return top;
     const char *dot = strrchr(path, '.'), *name = dot ? dot + 1 : path;
     json_t *outer = properties_at(top, arena_format(a, "%.*s", dot ? (int)(dot - path) : 0, path), a);
-    if (!json_object_get(outer, name)) json_object_set_new(outer, name, map(json_object(), section_meaning(path)));
+    const char *meaning = NULL;
+    for (const struct key_section *s = keys_sections; s->path; s++)
+        meaning = strcmp(s->path, path) ? meaning : s->meaning;
+    if (!json_object_get(outer, name)) json_object_set_new(outer, name, map(json_object(), meaning));
     return json_object_get(json_object_get(outer, name), "properties");
 }
 
@@ -226,15 +218,6 @@ static void add_keys(json_t *properties, enum key_struct of, struct arena *a)
     }
 }
 
-static json_t *inputs(void)
-{
-    json_t *entry = map(json_pack("{s:o, s:{s:s, s:s}}", "file", plain("text", NULL), "sha256", "type", "string",
-                                  "pattern", "^[0-9a-f]{64}$"),
-                        NULL);
-    json_object_set_new(entry, "required", json_pack("[s]", "file"));
-    return list(entry, 0, 1000000, frame_meaning("inputs"));
-}
-
 static json_t *schema_scene(struct arena *a)
 {
     json_t *contact = json_object(), *all = json_object();
@@ -244,7 +227,11 @@ static json_t *schema_scene(struct arena *a)
     json_object_set_new(all, "accuracy", ref("accuracy"));
     json_object_set_new(all, "contacts", list(map(contact, NULL), 1, 1000, frame_meaning("contacts")));
     json_object_set_new(all, "include", list(plain("text", NULL), 0, 200, frame_meaning("include")));
-    json_object_set_new(all, "inputs", inputs());
+    json_t *entry = map(json_pack("{s:o, s:{s:s, s:s}}", "file", plain("text", NULL), "sha256", "type", "string",
+                                  "pattern", "^[0-9a-f]{64}$"),
+                        NULL);
+    json_object_set_new(entry, "required", json_pack("[s]", "file"));
+    json_object_set_new(all, "inputs", list(entry, 0, 1000000, frame_meaning("inputs")));
     return json_pack("{s:s, s:s, s:s, s:s, s:o, s:b, s:o}", "$schema", "https://json-schema.org/draft/2020-12/schema",
                      "title", "a scene of rasp", "description",
                      "What touches what, how it moves and how it rings; see rasp-scene(5). Which keys go "
@@ -281,16 +268,6 @@ static json_t *settings(struct arena *a)
     return o;
 }
 
-/* A word, a key of scenes, or what contacts have. */
-static json_t *factor_names(struct arena *a)
-{
-    json_t *keys = json_array();
-    for (const char **names = keys_text_names(a); *names; names++)
-        if (strchr(*names, '.')) json_array_append_new(keys, json_string(*names));
-    return json_pack("{s:[{s:s}, {s:o}]}", "anyOf", "pattern", "^([A-Za-z][A-Za-z0-9_-]*|contacts\\..*)$", "enum",
-                     keys);
-}
-
 static json_t *factors(struct arena *a)
 {
     json_t *level =
@@ -307,7 +284,12 @@ static json_t *factors(struct arena *a)
         "object",
         "factors, crossed, the first slowest: a dotted key with values, or a word with levels {label, set, base}");
     json_object_set_new(o, "additionalProperties", levels);
-    json_object_set_new(o, "propertyNames", factor_names(a));
+    json_t *keys = json_array(); /* or a word, or what contacts have */
+    for (const char **names = keys_text_names(a); *names; names++)
+        if (strchr(*names, '.')) json_array_append_new(keys, json_string(*names));
+    json_object_set_new(
+        o, "propertyNames",
+        json_pack("{s:[{s:s}, {s:o}]}", "anyOf", "pattern", "^([A-Za-z][A-Za-z0-9_-]*|contacts\\..*)$", "enum", keys));
     return o;
 }
 

@@ -170,23 +170,19 @@ static void judge_bytes(struct golden_scene *s, const char *name, const char *co
         s->note = arena_format(s->arena, "%s%s%s", s->note ? s->note : "", s->note ? ", " : "", name);
 }
 
-/* Is the kept file the one that was written? */
-static void judge_hash(const struct golden *g, struct golden_scene *s, const struct golden_file *saved)
-{
-    const struct golden_file *sum =
-        g->hashes && g->saved ? golden_find(&g->sums, arena_format(s->arena, "%s/%s", s->name, saved->name)) : NULL;
-    if (sum && strcmp(sum->sha256, saved->sha256) != 0)
-        problem(s, saved->name, NULL,
-                "the kept file is not the one whose hash is kept in %s: it was changed or damaged since", g->hashes);
-    else if (!sum && g->hashes && g->saved)
-        problem(s, saved->name, NULL, "has no hash in %s", g->hashes);
-}
-
 static void judge_file(const struct golden *g, struct golden_scene *s, const struct golden_file *saved, int pass)
 {
     const struct golden_file *made = golden_find(&s->made[pass], saved->name);
     const char *new = path_of(g, s, pass, saved->name, s->arena);
-    if (pass == 0) judge_hash(g, s, saved);
+    if (pass == 0 && g->hashes && g->saved) { /* is the kept file the one that was written? */
+        const struct golden_file *sum = golden_find(&g->sums, arena_format(s->arena, "%s/%s", s->name, saved->name));
+        if (!sum)
+            problem(s, saved->name, NULL, "has no hash in %s", g->hashes);
+        else if (strcmp(sum->sha256, saved->sha256) != 0)
+            problem(s, saved->name, NULL,
+                    "the kept file is not the one whose hash is kept in %s: it was changed or damaged since",
+                    g->hashes);
+    }
     if (!made)
         problem(s, saved->name, NULL, "is kept, but not made any more");
     else if (strcmp(made->sha256, saved->sha256) == 0)

@@ -10,6 +10,7 @@
 
 #include "base/text.h"
 #include "cmd/cmd.h"
+#include "file/json_value.h"
 
 #define RED "\033[1;31m"
 #define MAGENTA "\033[1;35m"
@@ -146,12 +147,6 @@ bool message_begin(struct cmd_call *c, struct err *e)
 
 /* ------------------------------------------------------------------ JSON */
 
-static json_t *text_or_null(const char *s, size_t n)
-{
-    json_t *j = s ? json_stringn(s, n) : NULL; /* NULL also for what is not UTF-8 */
-    return j ? j : json_null();
-}
-
 static json_t *whole_or_null(int n) { return n > 0 ? json_integer(n) : json_null(); }
 
 static json_t *object(const char *severity, enum err_kind kind)
@@ -172,8 +167,7 @@ static void set_source(json_t *o, const struct diag_place *at, struct arena *a)
 {
     const char *name = at->source ? text_shown(a, at->source->name) : NULL;
     bool lines = at->source && !at->source->option && !at->source->made;
-    json_object_set_new(o, at->source && at->source->option ? "option" : "file",
-                        text_or_null(name, name ? strlen(name) : 0));
+    json_object_set_new(o, at->source && at->source->option ? "option" : "file", json_value_text(name));
     set_place(o, lines ? at->line : 0, at->column, at->width);
 }
 
@@ -181,8 +175,8 @@ static json_t *of_diag(const struct diag_error *x, enum err_kind kind, struct ar
 {
     json_t *o = object("error", kind);
     set_source(o, &x->at, a);
-    json_object_set_new(o, "message", text_or_null(x->text, strlen(x->text)));
-    if (x->help) json_object_set_new(o, "help", text_or_null(x->help, strlen(x->help)));
+    json_object_set_new(o, "message", json_value_text(x->text));
+    if (x->help) json_object_set_new(o, "help", json_value_text(x->help));
     if (!x->at.source || !x->at.source->named.source) return o;
     json_t *named = json_array();
     for (const struct diag_place *at = &x->at.source->named; at->source && !at->source->made; at = &at->source->named) {
@@ -198,10 +192,13 @@ static json_t *of_err(const struct err *e)
 {
     json_t *o = object("error", e->kind);
     const struct err_place *p = &e->place;
-    if (p->file > 0) json_object_set_new(o, "file", text_or_null(e->text, (size_t)p->file));
+    if (p->file > 0) {
+        json_t *file = json_stringn(e->text, (size_t)p->file);
+        json_object_set_new(o, "file", file ? file : json_null());
+    }
     set_place(o, p->line, p->column, p->width);
     const char *message = p->message < (int)strlen(e->text) ? e->text + p->message : e->text;
-    json_object_set_new(o, "message", text_or_null(message, strlen(message)));
+    json_object_set_new(o, "message", json_value_text(message));
     return o;
 }
 
@@ -236,9 +233,7 @@ void message_scene(struct cmd_call *c, const struct diag *d, const char *message
 static const char *number_at(const char *text, int *n)
 {
     size_t digits = *text == ':' ? strspn(text + 1, "0123456789") : 0;
-    *n = 0;
-    for (size_t i = 1; i <= digits && digits < 10; i++)
-        *n = 10 * *n + (text[i] - '0');
+    *n = digits && digits < 10 ? atoi(text + 1) : 0;
     return *n > 0 ? text + 1 + digits : NULL;
 }
 
@@ -289,8 +284,8 @@ void message_stimulus(struct cmd_call *c, const char *command, const char *stimu
         struct err placed = *e;
         placed.place = place_in(e->text);
         json_t *o = of_err(&placed);
-        if (!placed.place.file && file) json_object_set_new(o, "file", text_or_null(file, strlen(file)));
-        json_object_set_new(o, "stimulus", text_or_null(stimulus, strlen(stimulus)));
+        if (!placed.place.file && file) json_object_set_new(o, "file", json_value_text(file));
+        json_object_set_new(o, "stimulus", json_value_text(stimulus));
         put(c, o);
     } else {
         struct err named = {0};
@@ -314,9 +309,9 @@ static void warn_json(const struct warning *w)
 {
     json_t *o = object("warning", ERR_NONE), *files = json_array();
     for (int i = 0; i < w->n; i++)
-        json_array_append_new(files, text_or_null(w->files[i], strlen(w->files[i])));
+        json_array_append_new(files, json_value_text(w->files[i]));
     json_object_set(o, w->stimuli ? "stimulus" : "file", json_array_get(files, 0));
-    json_object_set_new(o, "message", text_or_null(w->text, strlen(w->text)));
+    json_object_set_new(o, "message", json_value_text(w->text));
     if (w->n > 1) json_object_set(o, w->stimuli ? "stimuli" : "files", files);
     json_decref(files);
     print(o);

@@ -431,19 +431,6 @@ static bool from_object(struct list *l, const struct body *b, struct err *e)
     return true;
 }
 
-static bool from_space(struct list *l, const struct body *b, struct err *e)
-{
-    struct modes m;
-    struct modes_ask ask = {.strongest = b->response->modes,
-                            .band = {b->response->band[0], b->response->band[1]},
-                            .rate = b->scene.output.sample_rate};
-    if (!space_modes(&b->response->space, &ask, l->c->arena, &m, e)) return false;
-    start(l, m.n, m.quantity);
-    l->places = 1;
-    count_modes(l, &m, &(struct modes_where){0});
-    return true;
-}
-
 static bool gather(struct list *l, struct err *e)
 {
     const char *file = l->c->args.operands[0];
@@ -451,7 +438,17 @@ static bool gather(struct list *l, struct err *e)
     if (text_ends(file, ".csv")) return from_table(l, file, e);
     if (!body_read(l->c, file, &b, e)) return false;
     if (b.response->object.given) return from_object(l, &b, e);
-    if (b.response->space.given) return from_space(l, &b, e);
+    if (b.response->space.given) {
+        struct modes m;
+        struct modes_ask ask = {.strongest = b.response->modes,
+                                .band = {b.response->band[0], b.response->band[1]},
+                                .rate = b.scene.output.sample_rate};
+        if (!space_modes(&b.response->space, &ask, l->c->arena, &m, e)) return false;
+        start(l, m.n, m.quantity);
+        l->places = 1;
+        count_modes(l, &m, &(struct modes_where){0});
+        return true;
+    }
     if (b.response->file && text_ends(b.response->file, ".csv")) return from_table(l, b.response->file, e);
     return err_set(e, ERR_SCENE,
                    b.response->file ? "%s: %s.response is recorded (%s), and has no modes"

@@ -240,14 +240,6 @@ static const char *irs_seen(const char *folder, struct arena *a)
     return seen;
 }
 
-static bool write_file(const struct new_starter *s, const char *file, bool force, struct arena *a, struct err *e)
-{
-    struct outfile o;
-    if (!mark_absent(file, force, e) || !outfile_open(&o, file, e)) return false;
-    new_print(o.stream, s, irs_seen(relpath_folder(file, a), a), a);
-    return outfile_commit(&o, e);
-}
-
 static int new_run(struct cmd_call *c, struct err *e)
 {
     const char *name = c->args.n_operands ? c->args.operands[0] : new_starters[0].name, *names[32] = {NULL};
@@ -268,9 +260,12 @@ static int new_run(struct cmd_call *c, struct err *e)
     else if (file && !strcmp(file, "-"))
         err_set(e, ERR_USAGE,
                 "--output -: leave it out, and the scene goes to standard output; a file of that name is ./-");
-    else if (file)
-        write_file(s, file, args_given(&c->args, "force"), c->arena, e);
-    else
+    else if (file) {
+        struct outfile o;
+        if (!mark_absent(file, args_given(&c->args, "force"), e) || !outfile_open(&o, file, e)) return 0;
+        new_print(o.stream, s, irs_seen(relpath_folder(file, c->arena), c->arena), c->arena);
+        outfile_commit(&o, e);
+    } else
         new_print(stdout, s, irs_seen(NULL, c->arena), c->arena);
     return 0;
 }

@@ -31,11 +31,6 @@ enum { REFERENCE, OWN };
 
 static bool steps(int knob) { return keys_knobs[knob].scale == KEY_STEPS; }
 
-static double finer(int knob, double own)
-{
-    return steps(knob) ? fmin(2 * own, keys_knobs[knob].high) : fmax(floor(own / 2), keys_knobs[knob].low);
-}
-
 /* `raised`: set of knobs that are finer than the preset has them. */
 static struct accuracy finest(const struct accuracy *own, unsigned used, unsigned *raised)
 {
@@ -44,7 +39,8 @@ static struct accuracy finest(const struct accuracy *own, unsigned used, unsigne
     *raised = 0;
     for (int k = 0; k < KNOBS; k++) {
         double x = accuracy_knob(own, (enum knob)k), y = accuracy_knob(&set, (enum knob)k),
-               z = used & 1u << k ? finer(k, x) : x;
+               finer = steps(k) ? fmin(2 * x, keys_knobs[k].high) : fmax(floor(x / 2), keys_knobs[k].low),
+               z = used & 1u << k ? finer : x;
         double best = steps(k) ? fmax(z, y) : fmin(z, y);
         accuracy_turn(&set, (enum knob)k, best);
         *raised |= best != y ? 1u << k : 0;
@@ -199,16 +195,6 @@ static const char *render_base(struct cmd_call *c, const char *file, struct err 
     return arena_format(c->arena, "%.*s", (int)n - 4, o);
 }
 
-/* Creates the folder of -o FOLDER/ when it is not there; its parent must be. */
-static bool render_folder(struct cmd_call *c, struct err *e)
-{
-    const char *o = args_value(&c->args, "output");
-    struct stat st;
-    if (!o || o[0] == '\0' || o[strlen(o) - 1] != '/' || stat(o, &st) == 0) return true;
-    return mkdir(o, 0777) == 0 ||
-           err_set(e, ERR_CREATE, "the folder %s cannot be created: is its parent there, and writable?", o);
-}
-
 /* Several scenes' summaries are one array. */
 static void render_print(struct cmd_call *c, const struct scene *s, const struct render_report *r)
 {
@@ -238,10 +224,15 @@ static struct outputs *render_read(struct cmd_call *c, struct err *e)
         if (!base || !cmd_read_scene(c, file, &scenes[i], e)) return NULL;
         all[i] = outputs_make(&scenes[i], base, c->arena);
     }
-    return outputs_distinct(all, n, c->arena, e) && outputs_check_overwrite(all, n, c->arena, e) &&
-                   outputs_replace(all, n, args_given(&c->args, "force"), c->arena, e) && render_folder(c, e)
-               ? all
-               : NULL;
+    if (!outputs_distinct(all, n, c->arena, e) || !outputs_check_overwrite(all, n, c->arena, e) ||
+        !outputs_replace(all, n, args_given(&c->args, "force"), c->arena, e))
+        return NULL;
+    /* The folder of -o FOLDER/ is created when it is not there; its parent must be. */
+    const char *o = args_value(&c->args, "output");
+    struct stat st;
+    if (o && text_ends(o, "/") && stat(o, &st) != 0 && mkdir(o, 0777) != 0)
+        return err_set(e, ERR_CREATE, "the folder %s cannot be created: is its parent there, and writable?", o), NULL;
+    return all;
 }
 
 /* printed: how many scenes' summaries are. */

@@ -611,26 +611,18 @@ static void synth_report(const struct synth *s, const char *out)
     printf(" samples, pitch %.9g um, rms height %.4g um\n", s->pitch * 1e6, sqrt(square) * 1e6);
 }
 
-/* Neither recipe, nor what it includes, nor the map whose statistics it has. */
-static bool all_spared(const struct synth *s, const char *out, struct err *e)
-{
-    int n;
-    const struct outputs_source *sources = outputs_sources(&s->scene, &n, s->c->arena);
-    for (int i = 0; i < n; i++)
-        if (!cmd_spares(out, "the heights", sources[i].file, "a file of another name", e)) return false;
-    return true;
-}
-
 static int surface_synth_run(struct cmd_call *c, struct err *e)
 {
     struct synth s = {.c = c};
     enum heightfile_format format;
     struct heightfile_written w;
     const char *out = c->args.operands[1];
-    if (!heightfile_write_format(out, &format, e) || !read_size(&s, e) || !read_surface(&s, e) ||
-        !all_spared(&s, out, e) || !mark_absent(out, args_given(&c->args, "force"), e) || !read_along(&s, e) ||
-        !make(&s, e))
-        return (int)e->kind;
+    if (!heightfile_write_format(out, &format, e) || !read_size(&s, e) || !read_surface(&s, e)) return (int)e->kind;
+    int n; /* it is neither the recipe, nor what that includes, nor the map whose statistics it has */
+    const struct outputs_source *sources = outputs_sources(&s.scene, &n, c->arena);
+    for (int i = 0; i < n; i++)
+        if (!cmd_spares(out, "the heights", sources[i].file, "a file of another name", e)) return (int)e->kind;
+    if (!mark_absent(out, args_given(&c->args, "force"), e) || !read_along(&s, e) || !make(&s, e)) return (int)e->kind;
     s.h.pitch_x = s.h.pitch_y = s.pitch;
     s.h.metric = true;
     s.h.title = s.scene.title;
