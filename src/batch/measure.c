@@ -68,53 +68,19 @@ void measure_close(struct measure_source *c) { wav_stream_close(&c->in); }
 
 /* ------------------------------------------------------------------ measuring */
 
-struct sums {
-    double peak, squares;
-    struct hash hash;
-};
-
-static void add(struct sums *s, const double *x, long n)
-{
-    for (long i = 0; i < n; i++) {
-        double size = fabs(x[i]);
-        s->peak = size > s->peak ? size : s->peak;
-        s->squares += x[i] * x[i];
-    }
-    distance_hash_add(&s->hash, x, (size_t)n);
-}
-
-static bool pass(struct measure_source *c, struct sums *s, struct err *e)
-{
-    double x[PIECE];
-    long n, most = PIECE / c->in.channels;
-    do {
-        if (!measure_read(c, x, most, &n, e)) return false;
-        add(s, x, n * c->in.channels);
-    } while (n > 0);
-    return true;
-}
-
-/* BS.1770's gate is absolute: the sound is brought to peak 1 first. */
-static bool loud_pass(struct measure_source *c, double peak, struct loudness *l, struct err *e)
-{
-    double x[PIECE];
-    long n, most = PIECE / c->in.channels;
-    do {
-        if (!measure_read(c, x, most, &n, e)) return false;
-        for (long i = 0; i < n * c->in.channels; i++)
-            x[i] /= peak;
-        loudness_add(l, x, (size_t)n);
-    } while (n > 0);
-    return true;
-}
-
 static bool find_loudness(const char *path, const struct measure_form *form, struct measure *m, struct err *e)
 {
     struct measure_source c;
-    double lufs, silence[PIECE] = {0};
+    double x[PIECE], lufs, silence[PIECE] = {0};
     struct loudness *l = loudness_open(m->channels, m->rate, true);
     if (!l) return err_set(e, ERR_MEMORY, "the loudness meter cannot be set up at %g Hz", m->rate);
-    bool ok = measure_open(&c, path, form, e) && loud_pass(&c, m->peak, l, e);
+    bool ok = measure_open(&c, path, form, e);
+    for (long n = 1; ok && n > 0;) {
+        ok = measure_read(&c, x, PIECE / c.in.channels, &n, e);
+        for (long i = 0; ok && i < n * c.in.channels; i++)
+            x[i] /= m->peak; /* BS.1770's gate is absolute: the sound is brought to peak 1 first */
+        if (ok && n > 0) loudness_add(l, x, (size_t)n);
+    }
     if (ok && loudness_read(l, &lufs)) m->lufs = lufs + 20 * real_log10(m->peak);
     for (int i = 0; ok && i < BEHIND; i++)
         loudness_add(l, silence, 1);
@@ -126,20 +92,28 @@ static bool find_loudness(const char *path, const struct measure_form *form, str
 
 static bool find_rest(struct measure_source *c, struct measure *m, struct err *e)
 {
-    struct sums s = {.hash = hash_start()};
+    struct hash hash = hash_start();
+    double x[PIECE], squares = 0;
+    bool ok = true;
     *m = (struct measure){.rate = c->in.rate,
                           .channels = c->in.channels,
                           .frames = c->frames,
                           .own = c->own,
                           .lufs = NAN,
                           .true_peak = NAN};
-    distance_hash_add(&s.hash, (const double[2]){m->rate, m->channels}, 2);
-    bool ok = pass(c, &s, e);
-    hash_end(&s.hash, m->audio);
+    distance_hash_add(&hash, (const double[2]){m->rate, m->channels}, 2);
+    for (long n = 1; ok && n > 0;) {
+        ok = measure_read(c, x, PIECE / m->channels, &n, e);
+        for (long i = 0; ok && i < n * m->channels; i++) {
+            m->peak = fmax(m->peak, fabs(x[i]));
+            squares += x[i] * x[i];
+        }
+        if (ok && n > 0) distance_hash_add(&hash, x, (size_t)(n * m->channels));
+    }
+    hash_end(&hash, m->audio);
     m->end = c->end;
     m->before = c->before;
-    m->peak = s.peak;
-    m->rms = sqrt(s.squares / fmax(1, (double)m->frames * m->channels));
+    m->rms = sqrt(squares / fmax(1, (double)m->frames * m->channels));
     return ok;
 }
 

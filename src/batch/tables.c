@@ -251,28 +251,6 @@ static void compare(struct search *s, const struct sound *first, const struct so
         s->replicates[0] = first, s->replicates[1] = other;
 }
 
-static const char *factors_text(const struct search *s, struct arena *a)
-{
-    const char *names = "";
-    for (int k = 0; k < s->design->n_factors; k++)
-        if (s->factors[k]) names = arena_format(a, "%s%s%s", names, *names ? ", " : "", s->design->factors[k].name);
-    return arena_format(a,
-                        "%d of %d sounds %s the very samples of another one that differs in %s (%s and %s): what the "
-                        "factor's levels set has no effect there",
-                        s->found, s->n, s->found == 1 ? "has" : "have", names, s->design->stimuli[s->pair[0]->row].name,
-                        s->design->stimuli[s->pair[1]->row].name);
-}
-
-static const char *no_effect_text(const struct search *s, struct arena *a)
-{
-    const struct design_stimulus *rows = s->design->stimuli;
-    const char *text = s->found ? factors_text(s, a) : "";
-    if (!s->replicates[0]) return text;
-    return arena_format(
-        a, "%s%sreplicates have the very samples of each other (%s and %s): nothing is random there, and one would do",
-        text, *text ? "; " : "", rows[s->replicates[0]->row].name, rows[s->replicates[1]->row].name);
-}
-
 static const char *find_no_effect(struct search *s, struct arena *a)
 {
     if (s->n) qsort(s->sounds, (size_t)s->n, sizeof *s->sounds, by_audio);
@@ -282,7 +260,21 @@ static const char *find_no_effect(struct search *s, struct arena *a)
         else
             compare(s, &s->sounds[first], &s->sounds[i]);
     }
-    return no_effect_text(s, a);
+    const struct design_stimulus *rows = s->design->stimuli;
+    const char *factors = "", *text = "";
+    for (int k = 0; k < s->design->n_factors; k++)
+        if (s->factors[k])
+            factors = arena_format(a, "%s%s%s", factors, *factors ? ", " : "", s->design->factors[k].name);
+    if (s->found)
+        text = arena_format(a,
+                            "%d of %d sounds %s the very samples of another one that differs in %s (%s and %s): what "
+                            "the factor's levels set has no effect there",
+                            s->found, s->n, s->found == 1 ? "has" : "have", factors, rows[s->pair[0]->row].name,
+                            rows[s->pair[1]->row].name);
+    if (!s->replicates[0]) return text;
+    return arena_format(
+        a, "%s%sreplicates have the very samples of each other (%s and %s): nothing is random there, and one would do",
+        text, *text ? "; " : "", rows[s->replicates[0]->row].name, rows[s->replicates[1]->row].name);
 }
 
 /* ------------------------------------------------------------------ the side-car */
@@ -328,56 +320,24 @@ struct writing {
     bool timings; /* they are written, too */
 };
 
-static void put_head(FILE *f, const struct design *d)
-{
-    for (const struct column *c = columns; c->name; c++) {
-        if (strcmp(c->name, "*") != 0) fprintf(f, "%s%s", c == columns ? "" : ",", c->name);
-        for (int k = 0; !strcmp(c->name, "*") && k < d->n_factors; k++)
-            fprintf(f, ",%s", d->factors[k].column);
-    }
-    fputc('\n', f);
-}
-
-static void put(const struct cell *cell, const struct column *c)
-{
-    const char *words = c->text ? c->text(cell) : NULL;
-    if (c->text)
-        tables_text(cell->f, words ? words : "n/a");
-    else
-        tables_number(cell->f, c->number(cell));
-}
-
-static void put_row(const struct cell *cell)
+/* A row of the manifest; head: the columns' names. */
+static void put_row(const struct cell *cell, bool head)
 {
     const struct design *d = cell->set->design;
     for (const struct column *c = columns; c->name; c++) {
-        if (strcmp(c->name, "*") != 0) {
-            fputs(c == columns ? "" : ",", cell->f);
-            put(cell, c);
-        }
-        for (int k = 0; !strcmp(c->name, "*") && k < d->n_factors; k++) {
+        bool factors = !strcmp(c->name, "*");
+        const char *words = head ? c->name : c->text && !factors ? c->text(cell) : NULL;
+        if (c != columns && !factors) fputc(',', cell->f);
+        if (!factors && (head || c->text))
+            tables_text(cell->f, words ? words : "n/a");
+        else if (!factors)
+            tables_number(cell->f, c->number(cell));
+        for (int k = 0; factors && k < d->n_factors; k++) {
             fputc(',', cell->f);
-            tables_text(cell->f, design_value(d, cell->row, k));
+            tables_text(cell->f, head ? d->factors[k].column : design_value(d, cell->row, k));
         }
     }
     fputc('\n', cell->f);
-}
-
-/* Names hold nothing that sha256sum would want escaped. */
-static void put_sums(FILE *f, const struct record *r)
-{
-    for (int i = 0; i < r->n_files; i++)
-        fprintf(f, "%s  %s\n", r->files[i].sha256, r->files[i].path);
-}
-
-static void put_time(FILE *f, const char *name, const struct tables_row *row)
-{
-    tables_text(f, name);
-    fputc(',', f);
-    tables_number(f, row->wall);
-    fputc(',', f);
-    tables_number(f, row->cpu);
-    fputc('\n', f);
 }
 
 /* One stimulus, into all tables. */
@@ -395,9 +355,18 @@ static bool put_stimulus(struct writing *w, int i, struct err *e)
     bool ok =
         w->cell.record || !t->rows[i].there ||
         err_set(e, ERR_IO, "%s: the record of the stimulus cannot be read again", record_path(t->folder, x->name, a));
-    if (ok) put_row(&w->cell);
-    if (done(&w->cell)) put_sums(w->files[SUMS].stream, &r);
-    if (w->timings && t->rows[i].made) put_time(w->files[TIMINGS].stream, x->name, &t->rows[i]);
+    if (ok) put_row(&w->cell, false);
+    for (int k = 0; done(&w->cell) && k < r.n_files; k++) /* names hold nothing that sha256sum would want escaped */
+        fprintf(w->files[SUMS].stream, "%s  %s\n", r.files[k].sha256, r.files[k].path);
+    if (w->timings && t->rows[i].made) {
+        FILE *f = w->files[TIMINGS].stream;
+        tables_text(f, x->name);
+        fputc(',', f);
+        tables_number(f, t->rows[i].wall);
+        fputc(',', f);
+        tables_number(f, t->rows[i].cpu);
+        fputc('\n', f);
+    }
     if (sound_of(&w->cell) && r.audio && !x->recording) {
         snprintf(w->search.sounds[w->search.n].audio, HASH_TEXT, "%s", r.audio);
         w->search.sounds[w->search.n++].row = i;
@@ -419,7 +388,7 @@ static bool put_all(struct writing *w, struct err *e)
 {
     const struct set *s = w->t->set;
     w->cell = (struct cell){.set = s, .level = set_level_text(s, w->t->arena), .f = w->files[MANIFEST].stream};
-    put_head(w->files[MANIFEST].stream, s->design);
+    put_row(&w->cell, true);
     if (w->timings) fputs("stimulus_id,wall_s,cpu_s\n", w->files[TIMINGS].stream);
     for (int i = 0; i < s->n; i++)
         if (!put_stimulus(w, i, e)) return false;

@@ -126,9 +126,18 @@ static void print_statistics(struct report *r, const struct analysis *a)
 
 /* ------------------------------------------------------------------ durations and shapes */
 
-static void print_shape(struct report *r, const struct analysis *a)
+static void report_shape(struct report *r, const struct analysis *a)
 {
     const struct impact_shape *h = &a->shape;
+    if (h->fitted > 0) {
+        report_object(r, "shape");
+        report_set(
+            r, "fitted:l cosine_r2_5_50_95:a meixner_r2_5_50_95:a meixner_b:n meixner_xi:n cosine_over_contact_time:n",
+            h->fitted, h->r2[0], 3, h->r2[1], 3, h->b, h->xi, h->stretch);
+        report_set(r, "time_over_duration:a mean:a deviation:a", h->q, IMPACT_SHAPE_POINTS, h->mean,
+                   IMPACT_SHAPE_POINTS, h->deviation, IMPACT_SHAPE_POINTS);
+        report_end(r);
+    }
     if (!a->source.has_force) return;
     if (h->fitted == 0) {
         line(r, "shape");
@@ -218,30 +227,6 @@ static void set_source(struct report *r, const char *key, const struct analyse_s
     report_end(r);
 }
 
-static void set_duration(struct report *r, const struct analysis *a)
-{
-    static const char *const from[] = {"given", "single", "alone", "none"};
-    const struct impact_duration *d = &a->duration;
-    report_object(r, "duration");
-    report_set(r, "theta:n theta_error:n theta_from:s constant:b singles:l", d->theta, d->theta_error, from[a->theta],
-               a->constant, d->singles);
-    report_set(r, "theta_single:n zeta_single_s:n r2_single:n r2_single_log:n", d->theta_single, d->zeta_single,
-               d->r2_single, d->r2_single_log);
-    report_set(r, "zeta_s:n impacts:l r2:n r2_log:n", d->zeta, d->n, d->r2, d->r2_log);
-    report_end(r);
-}
-
-static void set_shape(struct report *r, const struct impact_shape *h)
-{
-    report_object(r, "shape");
-    report_set(r,
-               "fitted:l cosine_r2_5_50_95:a meixner_r2_5_50_95:a meixner_b:n meixner_xi:n cosine_over_contact_time:n",
-               h->fitted, h->r2[0], 3, h->r2[1], 3, h->b, h->xi, h->stretch);
-    report_set(r, "time_over_duration:a mean:a deviation:a", h->q, IMPACT_SHAPE_POINTS, h->mean, IMPACT_SHAPE_POINTS,
-               h->deviation, IMPACT_SHAPE_POINTS);
-    report_end(r);
-}
-
 bool analyse_report(const struct analysis *a, bool json, struct err *e)
 {
     struct report r = report_open(stdout, json);
@@ -258,12 +243,19 @@ bool analyse_report(const struct analysis *a, bool json, struct err *e)
         print_statistics(&r, a);
     }
     if (a->lasts) {
-        set_duration(&r, a);
+        static const char *const theta_from[] = {"given", "single", "alone", "none"};
         static const char *const from[] = {[ANALYSE_THETA_GIVEN] = "",
                                            [ANALYSE_THETA_FILE] = "single impacts",
                                            [ANALYSE_THETA_ALONE] = "those that stand alone",
                                            [ANALYSE_THETA_NONE] = ""};
         const struct impact_duration *d = &a->duration;
+        report_object(&r, "duration");
+        report_set(&r, "theta:n theta_error:n theta_from:s constant:b singles:l", d->theta, d->theta_error,
+                   theta_from[a->theta], a->constant, d->singles);
+        report_set(&r, "theta_single:n zeta_single_s:n r2_single:n r2_single_log:n", d->theta_single, d->zeta_single,
+                   d->r2_single, d->r2_single_log);
+        report_set(&r, "zeta_s:n impacts:l r2:n r2_log:n", d->zeta, d->n, d->r2, d->r2_log);
+        report_end(&r);
         const char *whose = a->theta == ANALYSE_THETA_ALONE && !a->source.has_force ? "all" : from[a->theta];
         report_text(&r, "\n");
         line(&r, "duration, step 1");
@@ -284,8 +276,7 @@ bool analyse_report(const struct analysis *a, bool json, struct err *e)
             report_text(&r, " A^-%.4f, A in N, R2 %.4f, of its logarithm %.4f", d->theta, d->r2, d->r2_log);
         report_text(&r, a->constant ? ", the median of %ld impact%s\n" : ", over %ld impact%s\n", d->n, plural(d->n));
     }
-    if (a->shape.fitted > 0) set_shape(&r, &a->shape);
-    print_shape(&r, a);
+    report_shape(&r, a);
     for (int i = 0; i < a->n_notes; i++) {
         report_text(&r, "%s", i ? "" : "\n");
         report_note(&r, "  note: ", a->notes[i]);
