@@ -91,19 +91,14 @@ static bool reserved(const struct design_reading *r, const struct yaml_node *key
 
 /* ------------------------------------------------------------------ values */
 
-/* "contacts.rod." */
-static const char *prefix_of(const char *path, struct arena *a)
-{
-    return arena_format(a, "%.*s", (int)(keys_text_plain(path) - path), path);
-}
-
 static bool value_good(const struct design_reading *r, const char *path, const struct yaml_node *value)
 {
     const struct key *k = design_changes_key(path);
     if (!k || yaml_null(value)) return true;
     struct arena *own = arena_open(); /* some kilobytes, for each of perhaps thousands of levels */
     void *to = k->of == KEY_CONTACT ? (void *)params_contacts(own, 1) : ARENA_TAKE(own, struct scene, 1);
-    struct scene_part part = {r->yaml, r->root, prefix_of(path, own), k->of, to};
+    const char *prefix = arena_format(own, "%.*s", (int)(keys_text_plain(path) - path), path); /* "contacts.rod." */
+    struct scene_part part = {r->yaml, r->root, prefix, k->of, to};
     bool good = scene_values_read(&part, k, value);
     arena_close(own);
     return good;
@@ -170,31 +165,21 @@ static void put_text(FILE *f, const struct yaml_node *node, bool alone, struct a
     fputc(node->kind == YAML_MAP ? '}' : ']', f);
 }
 
-static const char *design_changes_text(const struct yaml_node *value, struct arena *a)
-{
-    char *memory = NULL;
-    size_t size = 0;
-    FILE *f = memory_stream(&memory, &size);
-    put_text(f, value, true, a);
-    memory_stream_end(f, &memory);
-    const char *text = arena_text(a, memory);
-    free(memory);
-    return text;
-}
-
-static const char *path_text(struct yaml_node *const *path, struct arena *a)
-{
-    const char *all = "";
-    for (; *path; path++)
-        all = arena_format(a, "%s%s%s", all, *all ? "." : "", (*path)->text);
-    return all;
-}
-
 static const char **design_changes_texts(const struct design_change *c, struct arena *a)
 {
     const char **all = ARENA_TAKE(a, const char *, c->n + 1);
-    for (int i = 0; i < c->n; i++)
-        all[i] = arena_format(a, "%s=%s", path_text(c->keys[i].path, a), design_changes_text(c->keys[i].value, a));
+    for (int i = 0; i < c->n; i++) {
+        char *memory = NULL;
+        size_t size = 0;
+        FILE *f = memory_stream(&memory, &size);
+        for (struct yaml_node *const *path = c->keys[i].path; *path; path++)
+            fprintf(f, "%s%s", path == c->keys[i].path ? "" : ".", (*path)->text);
+        fputc('=', f);
+        put_text(f, c->keys[i].value, true, a);
+        memory_stream_end(f, &memory);
+        all[i] = arena_text(a, memory);
+        free(memory);
+    }
     return all;
 }
 
@@ -221,33 +206,15 @@ static bool quantity_of(const char *label, enum key_dimension bare, struct measu
     return true;
 }
 
-static const char *number_as_written(const struct measure *q, struct arena *a)
-{
-    double x = 0;
-    text_scaled(q->number, q->size, 0, &x);
-    return keys_yaml_number(x, a);
-}
-
-static const char *number_si(const char *label, enum key_dimension d, struct arena *a)
-{
-    struct units_fault fault;
-    double x = 0;
-    units_read(label, d, &x, a, &fault);
-    return keys_yaml_number(x, a);
-}
-
-static bool of_numbers(const struct key *k)
-{
-    return k->type == KEY_NUMBER || k->type == KEY_WHOLE || k->type == KEY_COUNT || k->type == KEY_TIME_OR_AUTO;
-}
-
 /* Are the labels quantities of one dimension, those of levels that scenes have? Then that of each (number NULL: a
    recorded one that is none), and whether all have the same unit; the first. NULL: they are not */
 static const struct measure *quantities(const struct design_factor *f, struct measure *q, bool *same)
 {
     const struct key *k = design_changes_key(f->name);
     const struct measure *first = NULL;
-    for (int i = 0; i < f->n_levels && !(k && !of_numbers(k)); i++) {
+    bool numbers =
+        !k || k->type == KEY_NUMBER || k->type == KEY_WHOLE || k->type == KEY_COUNT || k->type == KEY_TIME_OR_AUTO;
+    for (int i = 0; numbers && i < f->n_levels; i++) {
         bool good = quantity_of(f->levels[i].label, k ? k->dimension : KEY_NONE, &q[i]);
         if (f->levels[i].recorded) continue;
         if (!good || (first && q[i].dimension != first->dimension)) return NULL;
@@ -270,9 +237,13 @@ static void values_make(const struct design_reading *r, struct design_factor *f)
     const struct measure *first = quantities(f, q, &same);
     for (int i = 0; i < f->n_levels; i++, item = item->next) {
         bool number = first && q[i].number;
-        f->levels[i].value = !number ? f->levels[i].label
-                             : same  ? number_as_written(&q[i], r->arena)
-                                     : number_si(f->levels[i].label, q[i].dimension, r->arena);
+        struct units_fault fault;
+        double x = 0; /* as written, else in SI units */
+        if (number && same)
+            text_scaled(q[i].number, q[i].size, 0, &x);
+        else if (number)
+            units_read(f->levels[i].label, q[i].dimension, &x, r->arena, &fault);
+        f->levels[i].value = number ? keys_yaml_number(x, r->arena) : f->levels[i].label;
         if (first && !number)
             diag_add(r->yaml->diag, item->at,
                      "leave the factor out of the recording, whose cell in that column is n/a then; a condition of its "

@@ -127,14 +127,6 @@ static bool is_list(const struct design_reading *r, const struct yaml_node *list
     return true;
 }
 
-static void cell_complete(const struct design_reading *r, const struct yaml_node *entry)
-{
-    for (int f = 0; f < r->design->n_factors; f++)
-        if (!yaml_get(entry, r->design->factors[f].name))
-            diag_add(r->yaml->diag, entry->at, "name a level of every factor", "this cell says nothing of %s",
-                     r->design->factors[f].name);
-}
-
 static void cells_list(struct design_reading *r, const struct yaml_node *list, struct exclusion *all, int n)
 {
     static const char *const own[] = {NULL};
@@ -143,7 +135,10 @@ static void cells_list(struct design_reading *r, const struct yaml_node *list, s
     for (const struct yaml_node *entry = list->first; entry; entry = entry->next) {
         if (entry->kind != YAML_MAP) continue;
         int *level = entry_levels(r, entry, own);
-        cell_complete(r, entry);
+        for (int f = 0; f < r->design->n_factors; f++)
+            if (!yaml_get(entry, r->design->factors[f].name))
+                diag_add(r->yaml->diag, entry->at, "name a level of every factor", "this cell says nothing of %s",
+                         r->design->factors[f].name);
         crossed_only(r, level, entry);
         if (r->yaml->diag->n == errors && !excluded(r->design, level, all, n))
             *cell_add(r) = (struct design_cell){.level = level, .entry = entry};
@@ -238,22 +233,6 @@ static void recorded_check(const struct design_reading *r)
 
 /* ------------------------------------------------------------------ all */
 
-static void matched_check(const struct design_reading *r, const struct exclusion *all, int n)
-{
-    for (int i = 0; i < n; i++)
-        if (!all[i].matched)
-            diag_add(r->yaml->diag, all[i].entry->at, "remove it, or mend it",
-                     "this excludes nothing: there is no such cell");
-}
-
-static bool few_enough(const struct design_reading *r, double cells, const struct yaml_node *at)
-{
-    cells *= r->design->replicates;
-    return cells <= DESIGN_READING_CELLS ||
-           diag_add(r->yaml->diag, at ? at->at : r->root->at, "make several designs of it",
-                    "this makes %.0f stimuli; a design has at most %d", cells, DESIGN_READING_CELLS);
-}
-
 void design_rows_cells(struct design_reading *r)
 {
     const struct yaml_node *cells = design_reading_value(r, "cells"),
@@ -261,14 +240,22 @@ void design_rows_cells(struct design_reading *r)
     int n, errors = r->yaml->diag->n;
     struct exclusion *all = exclusions_read(r, &n);
     struct crossing *levels = crossings(r);
-    if (!few_enough(r, cells ? cells->n : crossed(r->design, levels),
-                    cells ? cells : design_reading_value(r, "factors")))
+    const struct yaml_node *at = cells ? cells : design_reading_value(r, "factors");
+    double stimuli = (cells ? cells->n : crossed(r->design, levels)) * r->design->replicates;
+    if (stimuli > DESIGN_READING_CELLS) {
+        diag_add(r->yaml->diag, at ? at->at : r->root->at, "make several designs of it",
+                 "this makes %.0f stimuli; a design has at most %d", stimuli, DESIGN_READING_CELLS);
         return;
+    }
     if (cells)
         cells_list(r, cells, all, n);
     else if (r->yaml->diag->n == errors)
         cells_cross(r, levels, all, n);
-    if (r->yaml->diag->n == errors) matched_check(r, all, n);
+    bool good = r->yaml->diag->n == errors;
+    for (int i = 0; good && i < n; i++)
+        if (!all[i].matched)
+            diag_add(r->yaml->diag, all[i].entry->at, "remove it, or mend it",
+                     "this excludes nothing: there is no such cell");
     if (r->yaml->diag->n == errors && r->n_cells == 0)
         diag_add(r->yaml->diag,
                  (cells ? cells : yaml_get(r->root, yaml_get(r->root, "exclude") ? "exclude" : "factors"))->at,

@@ -233,19 +233,15 @@ static bool is_otherwise(const struct planning *p, int i, struct look *l)
 
 /* ------------------------------------------------------------------ faults */
 
-static bool same(const struct set_fault *f, const struct trial *t)
-{
-    return !strcmp(f->messages, t->messages) && (*t->messages || !strcmp(f->err->text, t->e.text));
-}
-
 /* Which fault it is. The first that has it keeps its texts. */
 static int note(struct planning *p, int i, struct trial *t)
 {
     struct set_plan *o = p->out;
     int k = 0;
     o->worst = t->e.kind > o->worst ? t->e.kind : o->worst;
-    while (k < o->n_faults && k < SET_FAULTS && !same(&o->faults[k], t))
-        k++;
+    for (; k < o->n_faults && k < SET_FAULTS; k++)
+        if (!strcmp(o->faults[k].messages, t->messages) && (*t->messages || !strcmp(o->faults[k].err->text, t->e.text)))
+            break;
     if (k == o->n_faults) {
         o->faults = arena_more(p->arena, o->faults, o->n_faults, sizeof *o->faults);
         o->faults[o->n_faults++] = (struct set_fault){t->arena, t->diag, t->messages, &t->e, name_of(p, i), 0};
