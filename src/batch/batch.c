@@ -14,7 +14,6 @@
 #include "base/memory.h"
 #include "base/stopwatch.h"
 #include "batch/pool.h"
-#include "batch/progress.h"
 #include "num/fft.h"
 #include "num/resample.h"
 
@@ -39,7 +38,7 @@ struct batch {
     bool (*act)(const struct batch *b, int i, struct arena *a, struct stimulus *s, struct err *e); /* what jobs do */
     struct slot *slots;                                                                            /* [n_now] */
     int *now, n_now; /* the stimuli that jobs are about */
-    struct progress progress;
+    struct pool_progress progress;
     struct err stop;
     const char *changed; /* an input, while stimuli were made of it; NULL: none */
 };
@@ -113,8 +112,8 @@ static void took(void *context, int at)
     free(s->e);
     free(s->key);
     *s = (struct slot){0};
-    progress_step(&b->progress, b->report->design.stimuli[i].name, made ? cost : 0, made ? 0 : cost,
-                  made ? b->report->set.lengths[i] : 0);
+    pool_progress_step(&b->progress, b->report->design.stimuli[i].name, made ? cost : 0, made ? 0 : cost,
+                       made ? b->report->set.lengths[i] : 0);
 }
 
 /* Results behind the first that was not done are there all the same, and have their records. */
@@ -123,7 +122,7 @@ static void run_jobs(struct batch *b)
     pool_run(&(struct pool_work){.n = b->n_now, .threads = b->ask->threads, .context = b, .job = job, .took = took});
     for (int at = 0; at < b->n_now; at++)
         if (b->slots[at].done) took(b, at);
-    progress_clear(&b->progress);
+    pool_progress_clear(&b->progress);
 }
 
 static bool make_all(struct batch *b, struct err *e)
@@ -134,7 +133,7 @@ static bool make_all(struct batch *b, struct err *e)
     b->act = make;
     for (int at = 0; at < b->n_now; at++)
         cost += r->set.cost[b->now[at]];
-    progress_begin(&b->progress, b->n_now, cost, b->ask->quiet);
+    pool_progress_begin(&b->progress, b->n_now, cost, b->ask->quiet);
     run_jobs(b);
     for (int at = 0; at < b->n_now; at++)
         done += r->rows[b->now[at]].there;
@@ -183,7 +182,7 @@ static bool level_all(struct batch *b, struct err *e)
     for (int i = 0; i < r->set.n; i++)
         if (needs_gain(b, i, r->full_scale)) b->now[b->n_now++] = i;
     b->act = level;
-    progress_begin(&b->progress, b->n_now, 0, true);
+    pool_progress_begin(&b->progress, b->n_now, 0, true);
     run_jobs(b);
     return !b->stop.kind ||
            err_set(e, b->stop.kind, "%s; run the same command again, and it goes on from here", b->stop.text);
@@ -243,7 +242,7 @@ static bool look_at_folder(struct batch *b, struct err *e)
     for (int i = 0; i < r->set.n; i++)
         b->now[b->n_now++] = i;
     b->act = look;
-    progress_begin(&b->progress, b->n_now, 0, true);
+    pool_progress_begin(&b->progress, b->n_now, 0, true);
     run_jobs(b);
     if (b->stop.kind) return err_set(e, b->stop.kind, "%s", b->stop.text);
     if (b->ask->missing) list_missing(b);

@@ -1,4 +1,5 @@
-/* Jobs by several threads, each job taken up in order and its result handed over in order. */
+/* Jobs by several threads, each job taken up in order and its result handed over in order; and the line on a terminal
+   that says how far they are. */
 #ifndef BATCH_POOL_H
 #define BATCH_POOL_H
 #include <stdbool.h>
@@ -15,5 +16,28 @@ struct pool_work {
 /* Does all jobs. Returns how many were done from 0 on without a gap: n, unless a job said stop. A thread that cannot be
  * started is done without. */
 int pool_run(const struct pool_work *w);
+
+/* "[ 37/240] scrape_r2_v10  x12.4  ETA 0:41" */
+struct pool_progress {
+    bool shown;         /* a terminal is there to show it                                        */
+    double start, last; /* s; when it was last drawn                                             */
+    double cost, done;  /* of all that is to be rendered; of what was                            */
+    double sound;       /* s of sound rendered                                                   */
+    int n, at;
+};
+
+/* quiet: nothing is shown; nor where standard error is no terminal, TERM is dumb, or CI is set. cost: in whatever unit,
+ * of all n. */
+void pool_progress_begin(struct pool_progress *p, int n, double cost, bool quiet);
+
+/* One more is there: rendered at that cost, `sound` seconds long; or it was there already (cost 0 then, and `left` less
+ * to do). */
+void pool_progress_step(struct pool_progress *p, const char *name, double cost, double left, double sound);
+
+/* Takes the line away, before something else is written and at the end. */
+void pool_progress_clear(struct pool_progress *p);
+
+/* "0:41", "1:02:03"; text has room for 24. */
+void pool_progress_time(double seconds, char text[24]);
 
 #endif

@@ -8,7 +8,7 @@
 
 #include "base/hash.h"
 #include "batch/batch.h"
-#include "batch/progress.h"
+#include "batch/pool.h"
 #include "cmd/cmd.h"
 #include "cmd/message.h"
 #include "cmd/report.h"
@@ -209,7 +209,7 @@ static bool report_json(const struct batch_ask *ask, const struct batch_report *
 static void print_report(const struct batch_ask *ask, const struct batch_report *r, struct arena *a)
 {
     char took[24];
-    progress_time(ask->dry ? r->plan.cycles / 3e9 : r->seconds, took);
+    pool_progress_time(ask->dry ? r->plan.cycles / 3e9 : r->seconds, took);
     if (ask->dry) {
         const char **states = r->states ? ARENA_TAKE(a, const char *, r->set.n) : NULL,
                    *lengths = set_lengths_text(&r->set, &r->plan, a);

@@ -9,7 +9,6 @@
 
 #include "batch/folder.h"
 #include "batch/pool.h"
-#include "batch/progress.h"
 #include "batch/record.h"
 #include "batch/set.h"
 #include "batch/tables.h"
@@ -423,7 +422,7 @@ START_TEST(times_are_short)
     } all[] = {{0, "0:00"}, {0.2, "0:01"}, {61, "1:01"}, {3600, "1:00:00"}, {1e30, "2777:46:39"}};
     char text[24];
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        progress_time(all[i].s, text);
+        pool_progress_time(all[i].s, text);
         ck_assert_str_eq(text, all[i].text);
     }
 }
