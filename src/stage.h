@@ -185,7 +185,9 @@ struct stage {
                        those of what it reads are theirs */
     unsigned (*turns)(const struct contact *, const struct scene *); /* further knobs, of some scenes; may be NULL */
     bool (*wanted)(const struct contact *, const struct scene *);    /* NULL: where its params are given */
-    double (*work)(const struct contact *, const struct scene *);    /* predicted cycles per audio sample */
+    double (*work)(const struct contact *,
+                   const struct scene *); /* predicted cycles per audio sample; NULL: `cycles` */
+    double cycles;
     bool (*open)(struct stage_run *, struct err *);
     bool (*run)(struct stage_run *, long from, long to, struct err *); /* frames [from, to); may be NULL */
     void (*skip)(struct stage_run *, long frame); /* to go on at that frame, from an empty board: of what knows which

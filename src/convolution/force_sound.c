@@ -11,12 +11,6 @@ static bool force_sound_wanted(const struct contact *c, const struct scene *s)
     return s->output.quantity == QUANTITY_FORCE;
 }
 
-static double force_sound_work(const struct contact *c, const struct scene *s)
-{
-    (void)c, (void)s;
-    return 1;
-}
-
 static bool force_sound_open(struct stage_run *r, struct err *e)
 {
     (void)e;
@@ -43,7 +37,7 @@ const struct stage force_sound_stage = {
     .needs = ITEM_BIT(ITEM_FORCE),
     .gives = ITEM_BIT(ITEM_SOUND),
     .wanted = force_sound_wanted,
-    .work = force_sound_work,
+    .cycles = 1,
     .open = force_sound_open,
     .run = force_sound_run,
 };

@@ -90,12 +90,6 @@ static bool gesture_wanted(const struct contact *c, const struct scene *s)
     return gesture_follows(c);
 }
 
-static double gesture_work(const struct contact *c, const struct scene *s)
-{
-    (void)c, (void)s;
-    return 160;
-}
-
 /* The fade of what is lowered and raised; of a given force of the release alone, as far as there is time. */
 static bool fade_make(const struct stage_run *r, struct load_law *fade, struct err *e)
 {
@@ -178,7 +172,7 @@ const struct stage gesture_stage = {
     .needs = ITEM_BIT(ITEM_FORCE) | ITEM_BIT(ITEM_VELOCITY),
     .gives = ITEM_BIT(ITEM_FORCE),
     .wanted = gesture_wanted,
-    .work = gesture_work,
+    .cycles = 160,
     .open = gesture_open,
     .run = gesture_run,
     .skip = gesture_skip,

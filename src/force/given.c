@@ -138,12 +138,6 @@ static bool samples_wanted(const struct contact *c, const struct scene *s)
     return c->contact.model == CONTACT_GIVEN && !given_is_table(c);
 }
 
-static double samples_work(const struct contact *c, const struct scene *s)
-{
-    (void)c, (void)s;
-    return 2;
-}
-
 /* As the file has them. */
 struct given_file {
     bool is_npy;
@@ -254,7 +248,7 @@ const struct stage given_samples_stage = {
     .needs = ITEM_BIT(ITEM_MOTION), /* its duration */
     .gives = ITEM_BIT(ITEM_FORCE),
     .wanted = samples_wanted,
-    .work = samples_work,
+    .cycles = 2,
     .open = samples_open,
     .run = samples_fill,
 };

@@ -319,7 +319,7 @@ static double cost_of(const struct budgeting *m, const struct accuracy *set)
     for (int i = 0; i < s.n_contacts; i++) {
         const struct plan *p = &m->parts.parts[i].plan;
         for (int k = 0; k < p->n; k++)
-            all += p->rows[k].verdict == PLAN_RUNS ? p->rows[k].stage->work(p->contact, &s) : 0;
+            all += p->rows[k].verdict == PLAN_RUNS ? stages_work(p->rows[k].stage, p->contact, &s) : 0;
     }
     return all;
 }

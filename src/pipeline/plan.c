@@ -155,7 +155,7 @@ bool plan_make(const struct stage *const *table, const struct contact *c, const 
         p->alive |= l.need & st->gives;
         p->rows[i].work = (l.need & st->gives) == ITEM_BIT(ITEM_MOTION)
                               ? 0
-                              : st->work(c, s); /* a motion that no stage has laid out costs nothing */
+                              : stages_work(st, c, s); /* a motion that no stage has laid out costs nothing */
         p->rows[i].knobs = st->knobs | (st->turns ? st->turns(c, s) : 0);
         p->rows[i].reads = st->needs | st->takes | (st->asks ? st->asks(c, s) : 0);
         if (!plan_needs(st, c, s, &l, e)) return false;

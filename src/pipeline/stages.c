@@ -20,3 +20,8 @@ bool stages_wanted(const struct stage *st, const struct contact *c, const struct
 {
     return st->wanted ? st->wanted(c, s) : params_given(c, st->params);
 }
+
+double stages_work(const struct stage *st, const struct contact *c, const struct scene *s)
+{
+    return st->work ? st->work(c, s) : st->cycles;
+}

@@ -10,7 +10,8 @@
 /* Ends with NULL. */
 extern const struct stage *const stages_table[];
 
-/* Does the scene want it? */
+/* Does the scene want it? Predicted cycles per audio sample. */
 bool stages_wanted(const struct stage *st, const struct contact *c, const struct scene *s);
+double stages_work(const struct stage *st, const struct contact *c, const struct scene *s);
 
 #endif

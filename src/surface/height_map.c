@@ -336,12 +336,6 @@ static bool height_map_open(struct stage_run *r, struct err *e)
     return map_of(r->contact)->off_map != OFF_MAP_ERROR || height_map_inside(r, part, e);
 }
 
-static double height_map_work(const struct contact *c, const struct scene *s)
-{
-    (void)c, (void)s;
-    return 0;
-}
-
 const struct stage height_map_stage = {
     .name = "height_map",
     .does = "measured map as a cubic spline",
@@ -350,6 +344,5 @@ const struct stage height_map_stage = {
     .params = &height_map_params,
     .needs = ITEM_BIT(ITEM_SURFACE),
     .gives = ITEM_BIT(ITEM_SURFACE),
-    .work = height_map_work,
     .open = height_map_open,
 };

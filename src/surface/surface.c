@@ -8,12 +8,6 @@ static bool surface_wanted(const struct contact *c, const struct scene *s)
     return true;
 }
 
-static double surface_work(const struct contact *c, const struct scene *s)
-{
-    (void)c, (void)s;
-    return 0;
-}
-
 static bool surface_open(struct stage_run *r, struct err *e)
 {
     (void)e;
@@ -31,6 +25,5 @@ const struct stage surface_stage = {
     .idle = "",
     .gives = ITEM_BIT(ITEM_SURFACE),
     .wanted = surface_wanted,
-    .work = surface_work,
     .open = surface_open,
 };

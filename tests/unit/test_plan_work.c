@@ -23,7 +23,7 @@ static void stages_known(const struct scene *s, const char *what)
     for (int i = 0; i < s->n_contacts; i++)
         for (int k = 0; stages_table[k]; k++) {
             const struct stage *st = stages_table[k];
-            double work = stages_wanted(st, &s->contacts[i], s) ? st->work(&s->contacts[i], s) : 0;
+            double work = stages_wanted(st, &s->contacts[i], s) ? stages_work(st, &s->contacts[i], s) : 0;
             ck_assert_msg(work >= 0 && isfinite(work), "%s: contact '%s': %g cycles of '%s'", what, s->contacts[i].name,
                           work, st->name);
         }
