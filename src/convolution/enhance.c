@@ -53,10 +53,9 @@ static void check(const struct scene_part *p, const struct contact *c, const voi
     const char *path = "contact.enhance";
     if ((rules_responds(r) && !rules_is_recorded(r))) return;
     if (rules_is_recorded(r))
-        diag_add(p->yaml->diag, scene_part_later(p, path, "surface.response"),
-                 "give a mode table (.csv), surface.object or surface.space, or remove contact.enhance",
-                 "%s needs the surface's modes, and '%s' is recorded", scene_part_label(p, path),
-                 diag_shown(p->yaml->diag, r->file));
+        scene_part_refuse(p, path, "surface.response",
+                          "give a mode table (.csv), surface.object or surface.space, or remove contact.enhance",
+                          " needs the surface's modes, and '%s' is recorded", diag_shown(p->yaml->diag, r->file));
     else
         diag_add(p->yaml->diag, yaml_find(p->map, path)->key->at,
                  "give surface.response (a mode table), surface.object or surface.space, or remove contact.enhance",

@@ -55,10 +55,9 @@ static void check(const struct scene_part *p, const struct contact *c, const voi
                  "%s has no effect where %s is %s", scene_part_label(p, path), scene_part_label(p, "contact.model"),
                  keys_find("contact.model")->choices[c->contact.model].word);
     if (gesture_follows(c) && c->motion.path == PATH_STILL && scene_part_known(p, motion))
-        diag_add(p->yaml->diag, scene_part_later(p, motion, path),
-                 "let it move, such as path: back_and_forth; or remove contact.gesture",
-                 "%s is still and %s is given: its low-pass follows the speed, and lets nothing pass at rest",
-                 scene_part_label(p, motion), scene_part_label(p, path));
+        scene_part_refuse(p, motion, path, "let it move, such as path: back_and_forth; or remove contact.gesture",
+                          " is still and %s is given: its low-pass follows the speed, and lets nothing pass at rest",
+                          scene_part_label(p, path));
 }
 
 static const struct params gesture_params = {

@@ -46,9 +46,8 @@ static void check(const struct scene_part *p, const struct contact *c, const voi
     int kind = 0;
     (void)c;
     if (g->scale == 0)
-        diag_add(p->yaml->diag, scene_part_later(p, "contact.given.scale", "contact.given.scale"),
-                 "write for instance: 10 N", "%s is 0: there would be no force",
-                 scene_part_label(p, "contact.given.scale"));
+        scene_part_refuse(p, "contact.given.scale", "contact.given.scale", "write for instance: 10 N",
+                          " is 0: there would be no force");
     while (g->file && kind < 3 && !rules_ends_in(g->file, endings[kind]))
         kind++;
     if (!g->file || kind == 3) return;

@@ -148,14 +148,6 @@ static const struct key keys[] = {
      "the way over the disk: CSV with the columns time_s, angle_deg, radius, straight between its rows"},
     {.path = NULL}};
 
-static bool is_given(const struct scene_part *p, const char *path) { return yaml_find(p->map, path) != NULL; }
-
-/* Told at a value that is there. */
-static void refuse(const struct scene_part *p, const char *path, const char *cure, const char *says)
-{
-    diag_add(p->yaml->diag, scene_part_later(p, path, path), cure, "%s %s", scene_part_label(p, path), says);
-}
-
 static void draws_missing(const struct scene_part *p, const struct impact_draws *d, const char *series,
                           const char *mean, const char *deviation)
 {
@@ -172,9 +164,10 @@ static void modulation_check(const struct scene_part *p, const struct impacts *m
     const char *rate = "contact.impacts.modulation.rate";
     if (m->depth > 0)
         scene_check_missing(p, rate, "5 Hz", ": contact.impacts.modulation.depth is above 0");
-    else if (is_given(p, rate) && !isnan(m->rate))
-        refuse(p, rate, "remove it, or give contact.impacts.modulation.depth",
-               "has no effect where contact.impacts.modulation.depth is 0, as it is of custom unless given");
+    else if (scene_part_given(p, rate) && !isnan(m->rate))
+        scene_part_refuse(
+            p, rate, rate, "remove it, or give contact.impacts.modulation.depth",
+            " has no effect where contact.impacts.modulation.depth is 0, as it is of custom unless given");
 }
 
 static void custom_check(const struct scene_part *p, const struct impacts *m)
@@ -199,14 +192,12 @@ static void interval_check(const struct scene_part *p, const struct impacts *m)
     const char *mean = "contact.impacts.interval.mean", *floor = "contact.impacts.floor.interval";
     double every = mean_of(&m->interval);
     if (every <= 0)
-        diag_add(p->yaml->diag, scene_part_later(p, mean, mean),
-                 "raise it; write for instance: interval: {mean: 5 ms, deviation: 1 ms}",
-                 "%s: impacts would come every %.4g s on average, and must come at times that rise",
-                 scene_part_label(p, mean), every);
+        scene_part_refuse(p, mean, mean, "raise it; write for instance: interval: {mean: 5 ms, deviation: 1 ms}",
+                          ": impacts would come every %.4g s on average, and must come at times that rise", every);
     else if (every < m->least_interval)
-        diag_add(p->yaml->diag, scene_part_later(p, mean, floor), "raise it, or lower contact.impacts.floor.interval",
-                 "%s: impacts would come every %.4g s on average, and the least interval, %s, is %.4g s",
-                 scene_part_label(p, mean), every, scene_part_label(p, floor), m->least_interval);
+        scene_part_refuse(p, mean, floor, "raise it, or lower contact.impacts.floor.interval",
+                          ": impacts would come every %.4g s on average, and the least interval, %s, is %.4g s", every,
+                          scene_part_label(p, floor), m->least_interval);
 }
 
 /* Of a rub or a scratch, alone or on the disk. */
@@ -214,10 +205,9 @@ static void grain_check(const struct scene_part *p, const struct impacts *m, con
 {
     const char *floor = "contact.impacts.floor.interval";
     if (every < m->least_interval)
-        diag_add(p->yaml->diag, scene_part_later(p, interval, floor),
-                 arena_format(p->yaml->arena, "raise %s, or lower %s", interval, floor),
-                 "%s, %.4g s, is below the least interval, %s, %.4g s", scene_part_label(p, interval), every,
-                 scene_part_label(p, floor), m->least_interval);
+        scene_part_refuse(p, interval, floor, arena_format(p->yaml->arena, "raise %s, or lower %s", interval, floor),
+                          ", %.4g s, is below the least interval, %s, %.4g s", every, scene_part_label(p, floor),
+                          m->least_interval);
 }
 
 static void amplitude_check(const struct scene_part *p, const struct impacts *m)
@@ -226,12 +216,12 @@ static void amplitude_check(const struct scene_part *p, const struct impacts *m)
     double height = mean_of(&m->amplitude);
     if (!(height <= 0)) return;
     if (m->least_amplitude > 0)
-        diag_add(p->yaml->diag, scene_part_later(p, floor, mean),
-                 "remove floor.amplitude: amplitudes then keep their sign",
-                 "%s is a share of the mean, and that is %.4g", scene_part_label(p, floor), height);
+        scene_part_refuse(p, floor, mean, "remove floor.amplitude: amplitudes then keep their sign",
+                          " is a share of the mean, and that is %.4g", height);
     else if (m->prototype == PROTOTYPE_ROLL)
-        refuse(p, mean, "raise it, or set contact.impacts.prototype to custom, whose amplitudes may have any sign",
-               "must be such that amplitudes are above 0 on average where contact.impacts.prototype is roll");
+        scene_part_refuse(
+            p, mean, mean, "raise it, or set contact.impacts.prototype to custom, whose amplitudes may have any sign",
+            " must be such that amplitudes are above 0 on average where contact.impacts.prototype is roll");
 }
 
 static void lognormal_check(const struct scene_part *p, const struct impact_draws *d, const char *series)
@@ -240,14 +230,13 @@ static void lognormal_check(const struct scene_part *p, const struct impact_draw
                *distribution = arena_format(p->yaml->arena, "contact.impacts.%s.distribution", series);
     const char *mean = arena_format(p->yaml->arena, "contact.impacts.%s.mean", series);
     if (d->distribution != DISTRIBUTION_GAUSSIAN && scene_part_known(p, distribution))
-        diag_add(p->yaml->diag, scene_part_later(p, distribution, marginal),
-                 "leave the distribution out, or set contact.impacts.marginal to as_drawn",
-                 "%s must be gaussian where %s is lognormal: a log-normal series is the exponential of a Gaussian one",
-                 scene_part_label(p, distribution), scene_part_label(p, marginal));
+        scene_part_refuse(
+            p, distribution, marginal, "leave the distribution out, or set contact.impacts.marginal to as_drawn",
+            " must be gaussian where %s is lognormal: a log-normal series is the exponential of a Gaussian one",
+            scene_part_label(p, marginal));
     else if (d->mean <= 0)
-        diag_add(p->yaml->diag, scene_part_later(p, mean, marginal),
-                 "raise it, or set contact.impacts.marginal to as_drawn", "%s must be above 0 where %s is lognormal",
-                 scene_part_label(p, mean), scene_part_label(p, marginal));
+        scene_part_refuse(p, mean, marginal, "raise it, or set contact.impacts.marginal to as_drawn",
+                          " must be above 0 where %s is lognormal", scene_part_label(p, marginal));
 }
 
 static void series_check(const struct scene_part *p, const struct impacts *m)
@@ -271,7 +260,7 @@ static void check(const struct scene_part *p, const struct contact *c, const voi
 {
     const char *prototype = "contact.impacts.prototype";
     (void)c;
-    if (is_given(p, prototype) && scene_part_known(p, prototype)) series_check(p, own);
+    if (scene_part_given(p, prototype) && scene_part_known(p, prototype)) series_check(p, own);
 }
 
 static bool draws_impacts(const struct contact *c) { return c->contact.model == CONTACT_IMPACTS; }

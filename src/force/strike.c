@@ -51,8 +51,6 @@ static const struct key keys[] = {
      "speed after over speed before an impact: the impacts are a bounce train under contact.gravity"},
     {.path = NULL}};
 
-static bool is_given(const struct scene_part *p, const char *path) { return yaml_find(p->map, path) != NULL; }
-
 /* The unit, where one is written, says which pulse the figure is meant for. */
 static void unit_check(const struct scene_part *p, const struct strike *s)
 {
@@ -70,7 +68,7 @@ static void unit_check(const struct scene_part *p, const struct strike *s)
 
 static void stiffness_check(const struct scene_part *p, const struct contact *c, const struct strike *s)
 {
-    if (is_given(p, "contact.strike.stiffness")) return;
+    if (scene_part_given(p, "contact.strike.stiffness")) return;
     if (s->pulse == PULSE_HALF_SINE) {
         scene_check_missing(p, "contact.strike.stiffness", "2 MN/m", ": a half_sine pulse needs it");
         return;
@@ -86,19 +84,16 @@ static void train_check(const struct scene_part *p, const struct contact *c, con
     const char *count = "contact.strike.count", *first = "contact.strike.first", *gravity = "contact.gravity",
                *bounce = "contact.strike.restitution";
     double lasts = scene_sense_lasts(&c->motion);
-    if (s->count > 1 && !is_given(p, "contact.strike.interval") && !is_given(p, bounce))
-        diag_add(p->yaml->diag, scene_part_later(p, count, count),
-                 "add for instance: interval: 0.5 s; or restitution: 0.7 for a bounce train",
-                 "%s is %d, and nothing says when the second impact comes", scene_part_label(p, count), s->count);
+    if (s->count > 1 && !scene_part_given(p, "contact.strike.interval") && !scene_part_given(p, bounce))
+        scene_part_refuse(p, count, count, "add for instance: interval: 0.5 s; or restitution: 0.7 for a bounce train",
+                          " is %d, and nothing says when the second impact comes", s->count);
     if (!isnan(s->restitution) && s->count != 1 && c->contact.gravity == 0)
-        diag_add(p->yaml->diag, scene_part_later(p, gravity, bounce),
-                 "raise contact.gravity, or give contact.strike.interval in place of restitution",
-                 "%s is 0: what bounces never comes back", scene_part_label(p, gravity));
+        scene_part_refuse(p, gravity, bounce,
+                          "raise contact.gravity, or give contact.strike.interval in place of restitution",
+                          " is 0: what bounces never comes back");
     if (s->first >= lasts)
-        diag_add(p->yaml->diag, scene_part_later(p, first, "motion.duration"),
-                 "lower contact.strike.first, or let the motion last longer",
-                 "%s: the first impact comes at %.4g s, and the motion lasts %.4g s", scene_part_label(p, first),
-                 s->first, lasts);
+        scene_part_refuse(p, first, "motion.duration", "lower contact.strike.first, or let the motion last longer",
+                          ": the first impact comes at %.4g s, and the motion lasts %.4g s", s->first, lasts);
 }
 
 static void check(const struct scene_part *p, const struct contact *c, const void *own)

@@ -60,10 +60,9 @@ static void rule_check(const struct scene_part *p, const struct contact *c, cons
     double x = *(const double *)keys_field(a, c), y = *(const double *)keys_field(b, c);
     const char *unit[2] = {keys_text_unit(a->dimension), keys_text_unit(b->dimension)};
     if (x > r->factor * y)
-        diag_add(p->yaml->diag, scene_part_later(p, r->path, r->other), r->cure,
-                 "%s, %.4g%s%s, must be at most %g times %s, %.4g%s%s", scene_part_label(p, r->path), x,
-                 *unit[0] ? " " : "", unit[0], r->factor, scene_part_label(p, r->other), y, *unit[1] ? " " : "",
-                 unit[1]);
+        scene_part_refuse(p, r->path, r->other, r->cure, ", %.4g%s%s, must be at most %g times %s, %.4g%s%s", x,
+                          *unit[0] ? " " : "", unit[0], r->factor, scene_part_label(p, r->other), y,
+                          *unit[1] ? " " : "", unit[1]);
 }
 
 void params_check(const struct scene_part *p, const struct contact *c)

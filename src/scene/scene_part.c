@@ -1,6 +1,8 @@
 /* Names and places of what a part of a scene holds: see scene_part.h. */
 #include "scene/scene_part.h"
 
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 const char *scene_part_label(const struct scene_part *p, const char *path)
@@ -52,4 +54,17 @@ bool scene_part_before(const struct diag_place *a, const struct diag_place *b)
     if (of_a == of_b) return a->line != b->line ? a->line < b->line : a->column < b->column;
     if (of_a->option != of_b->option) return of_b->option;
     return of_a->option == (of_a->order < of_b->order);
+}
+
+bool scene_part_given(const struct scene_part *p, const char *path) { return yaml_find(p->map, path) != NULL; }
+
+void scene_part_refuse(const struct scene_part *p, const char *path, const char *other, const char *cure,
+                       const char *format, ...)
+{
+    char says[1024];
+    va_list ap;
+    va_start(ap, format);
+    vsnprintf(says, sizeof says, format, ap);
+    va_end(ap);
+    diag_add(p->yaml->diag, scene_part_later(p, path, other), cure, "%s%s", scene_part_label(p, path), says);
 }

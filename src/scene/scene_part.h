@@ -30,6 +30,13 @@ struct diag_place scene_part_later(const struct scene_part *p, const char *path,
 void scene_part_contradiction(const struct scene_part *p, const char *const paths[2], const char *says,
                               const char *cure);
 
+/* Does the scene say something of it? */
+bool scene_part_given(const struct scene_part *p, const char *path);
+
+/* Reports what `format` says behind the key's name, where the later of both keys (which may be the same) is given. */
+void scene_part_refuse(const struct scene_part *p, const char *path, const char *other, const char *cure,
+                       const char *format, ...) __attribute__((format(printf, 5, 6)));
+
 /* Has the key one of its words, or is it left out? Else its error is told already, and what follows from it is not
  * known. */
 bool scene_part_known(const struct scene_part *p, const char *path);

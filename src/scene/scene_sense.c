@@ -39,9 +39,9 @@ static void lowering_check(const struct scene_part *p, const struct contact *c)
     double taken = (isnan(c->load.approach) ? 0 : c->load.approach) + (isnan(c->load.release) ? 0 : c->load.release);
     double lasts = scene_sense_lasts(&c->motion);
     if (taken > lasts * (1 + 1e-9))
-        diag_add(p->yaml->diag, scene_part_later(p, approach, release), "lower them, or let the motion last longer",
-                 "%s and %s take %.4g s together, and the motion lasts %.4g s", scene_part_label(p, approach),
-                 scene_part_label(p, release), taken, lasts);
+        scene_part_refuse(p, approach, release, "lower them, or let the motion last longer",
+                          " and %s take %.4g s together, and the motion lasts %.4g s", scene_part_label(p, release),
+                          taken, lasts);
 }
 
 static void tip_check(const struct scene_part *p, const struct scraper *s)
@@ -94,9 +94,8 @@ static void smoothing_check(const struct scene_part *p, const struct contact *c)
     const char *path = "contact.smoothing";
     double sigma = rules_sigma(&c->contact, alpha_widest(c));
     if (c->contact.smoothing > 0 && c->contact.smoothing < NARROWEST_SMOOTHING)
-        diag_add(p->yaml->diag, scene_part_later(p, path, path),
-                 "0 turns it off; or write for instance: smoothing: 50 us", "%s must be 0 or at least 1 ns",
-                 scene_part_label(p, path));
+        scene_part_refuse(p, path, path, "0 turns it off; or write for instance: smoothing: 50 us",
+                          " must be 0 or at least 1 ns");
     if (sigma > RULES_SMOOTHING_WIDEST)
         diag_add(p->yaml->diag,
                  yaml_find(p->map, path) ? scene_part_later(p, path, path)

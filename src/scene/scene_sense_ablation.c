@@ -12,9 +12,8 @@ static bool sound_check(const struct scene_part *p, const struct contact *c)
     const char *path = "ablation.sound", *tool = ball_tool(c);
     int word = c->ablation.sound - ABLATED_SOUND_SCRAPER;
     if (word < 0 || !scene_part_known(p, "contact.model") || !strcmp(bodies[word], tool)) return true;
-    diag_add(p->yaml->diag, scene_part_later(p, path, "contact.model"),
-             arena_format(p->yaml->arena, "write %s: %s", path, tool),
-             "%s is %s, and what touches the surface here is called %s", scene_part_label(p, path), bodies[word], tool);
+    scene_part_refuse(p, path, "contact.model", arena_format(p->yaml->arena, "write %s: %s", path, tool),
+                      " is %s, and what touches the surface here is called %s", bodies[word], tool);
     return false;
 }
 
@@ -29,20 +28,19 @@ static void silence_check(const struct scene_part *p, const struct contact *c)
 {
     const char *path = "ablation.sound", *body = ablation_mutes_surface(c) ? ball_tool(c) : "surface";
     if (lacks_sound(c) && scene_part_known(p, path))
-        diag_add(p->yaml->diag, scene_part_later(p, path, path),
-                 arena_format(p->yaml->arena, "give %s.response%s, or leave ablation.sound out", body,
-                              ablation_mutes_surface(c) ? " and a weight above 0" : ""),
-                 "%s is %s, which does not ring: nothing would be heard", scene_part_label(p, path), body);
+        scene_part_refuse(p, path, path,
+                          arena_format(p->yaml->arena, "give %s.response%s, or leave ablation.sound out", body,
+                                       ablation_mutes_surface(c) ? " and a weight above 0" : ""),
+                          " is %s, which does not ring: nothing would be heard", body);
 }
 
 static void force_check(const struct scene_part *p, const struct contact *c)
 {
     const char *path = "ablation.normal_force";
     if (ablation_steady(c) && c->load.recorded)
-        diag_add(p->yaml->diag, scene_part_later(p, path, "load.recorded"),
-                 "give load.constant in place of load.recorded (load: {recorded: null, constant: 1 N})",
-                 "%s is constant, and a recorded force has no mean that is known before its file is read",
-                 scene_part_label(p, path));
+        scene_part_refuse(p, path, "load.recorded",
+                          "give load.constant in place of load.recorded (load: {recorded: null, constant: 1 N})",
+                          " is constant, and a recorded force has no mean that is known before its file is read");
 }
 
 void scene_sense_ablation(const struct scene_part *p, const struct contact *c)

@@ -7,14 +7,6 @@
 #include "scene/scene_check.h"
 #include "scene/scene_sense_parts.h"
 
-static bool is_given(const struct scene_part *p, const char *path) { return yaml_find(p->map, path) != NULL; }
-
-/* Told at a key that is there. */
-static void refuse(const struct scene_part *p, const char *path, const char *cure, const char *says)
-{
-    diag_add(p->yaml->diag, scene_part_later(p, path, path), cure, "%s %s", scene_part_label(p, path), says);
-}
-
 /* ------------------------------------------------------------------ sizes and mass */
 
 static void below_radius(const struct scene_part *p, const char *path, double size, double radius)
@@ -33,14 +25,16 @@ static void sizes_check(const struct scene_part *p, const struct contact *c)
     below_radius(p, "ball.patch", b->patch, b->radius);
     below_radius(p, "ball.lobe_height", b->lobe_height, b->radius);
     if (b->patch == 0 && c->contact.model == CONTACT_ROLL)
-        refuse(p, "ball.patch", "write for instance: patch: 20 um",
-               "must be above 0 where contact.model is roll: the force follows from the slope and curvature of the "
-               "rolling curve, which has kinks");
+        scene_part_refuse(
+            p, "ball.patch", "ball.patch", "write for instance: patch: 20 um",
+            " must be above 0 where contact.model is roll: the force follows from the slope and curvature of the "
+            "rolling curve, which has kinks");
     if (b->patch == 0 && c->contact.model == CONTACT_ROLL_COUPLED && rules_along(c) == ALONG_PLANE)
-        refuse(p, "ball.patch",
-               "write for instance: patch: 20 um; or let the surface follow the path, by surface.along: path",
-               "must be above 0 on a surface in the plane: only along a line is the rolling curve known without "
-               "smoothing");
+        scene_part_refuse(
+            p, "ball.patch", "ball.patch",
+            "write for instance: patch: 20 um; or let the surface follow the path, by surface.along: path",
+            " must be above 0 on a surface in the plane: only along a line is the rolling curve known without "
+            "smoothing");
 }
 
 /* What the mass lacks, with an example of the cure; NULL: it is not the mass. */
@@ -49,7 +43,7 @@ static const char *mass_lacks(const struct scene_part *p, const struct ball *b)
     bool of_material = b->response.object.material != MATERIAL_CUSTOM || !isnan(b->response.object.density);
     if (b->body == BODY_HOOP || b->body == BODY_WHEEL)
         return ": what a hoop or a wheel weighs does not follow from its radius";
-    if (b->body == BODY_HOLLOW && !is_given(p, "ball.wall"))
+    if (b->body == BODY_HOLLOW && !scene_part_given(p, "ball.wall"))
         return ": it is hollow; or give ball.wall and ball.material, from which it follows";
     return of_material ? NULL
                        : ": it is not known what the ball is made of; ball.material, such as glass, would do as well";
@@ -66,15 +60,16 @@ static void mass_check(const struct scene_part *p, const struct contact *c)
 
 static bool stiffness_is_given(const struct scene_part *p)
 {
-    return is_given(p, "contact.roll.stiffness") || is_given(p, "contact.roll.kappa");
+    return scene_part_given(p, "contact.roll.stiffness") || scene_part_given(p, "contact.roll.kappa");
 }
 
 static void unit_check(const struct scene_part *p, const struct roll *r)
 {
     const char *path = "contact.roll.stiffness";
     if (!isnan(r->stiffness) && scene_sense_model_unit(yaml_find(p->map, path), false))
-        refuse(p, path, "give it in N/m^1.5: the force is stiffness x penetration^1.5 (Hertz's contact)",
-               "is in N/m^1.5, not in N/m");
+        scene_part_refuse(p, path, path,
+                          "give it in N/m^1.5: the force is stiffness x penetration^1.5 (Hertz's contact)",
+                          " is in N/m^1.5, not in N/m");
 }
 
 /* ------------------------------------------------------------------ roll */
@@ -86,10 +81,10 @@ static void paper_check(const struct scene_part *p, const struct roll *r)
         scene_check_missing(p, "contact.roll.stiffness", "2 kN/m^1.5",
                             " (or contact.roll.kappa): under penetration: paper rho is about the ball's radius, and "
                             "the stiffness is chosen by hand");
-    if (is_given(p, "contact.roll.mu") && r->mu != 1)
-        refuse(p, "contact.roll.mu",
-               "give contact.roll.lambda in its place, or set contact.roll.penetration to deviation",
-               "has no effect where contact.roll.penetration is paper");
+    if (scene_part_given(p, "contact.roll.mu") && r->mu != 1)
+        scene_part_refuse(p, "contact.roll.mu", "contact.roll.mu",
+                          "give contact.roll.lambda in its place, or set contact.roll.penetration to deviation",
+                          " has no effect where contact.roll.penetration is paper");
 }
 
 static void roll_check(const struct scene_part *p, const struct contact *c)
@@ -118,15 +113,15 @@ static void ground_check(const struct scene_part *p, const struct contact *c)
          exact = c->contact.roll.integrator == INTEGRATOR_EXACT_IMPACT;
     if (!scene_part_known(p, ground) || !scene_part_known(p, integrator)) return;
     if (elastic && why)
-        diag_add(p->yaml->diag, scene_part_later(p, ground, ground),
-                 "give surface.object, or a mode table with shared poles as surface.response; or set it to rigid",
-                 "%s is elastic, and %s", scene_part_label(p, ground), why);
+        scene_part_refuse(
+            p, ground, ground,
+            "give surface.object, or a mode table with shared poles as surface.response; or set it to rigid",
+            " is elastic, and %s", why);
     else if (exact && (elastic || (c->contact.roll.ground == GROUND_AUTO && !why)))
-        diag_add(p->yaml->diag, scene_part_later(p, integrator, ground),
-                 "set contact.roll.ground to rigid, or leave contact.roll.integrator out",
-                 "%s: exact_impact needs rigid ground, and %s is %s", scene_part_label(p, integrator),
-                 scene_part_label(p, ground),
-                 elastic ? "elastic" : "auto, which is elastic where the surface rings by modes");
+        scene_part_refuse(p, integrator, ground,
+                          "set contact.roll.ground to rigid, or leave contact.roll.integrator out",
+                          ": exact_impact needs rigid ground, and %s is %s", scene_part_label(p, ground),
+                          elastic ? "elastic" : "auto, which is elastic where the surface rings by modes");
 }
 
 /* What is dropped without gravity never arrives. */
@@ -134,10 +129,9 @@ static void drop_check(const struct scene_part *p, const struct contact *c)
 {
     const char *drop = "contact.roll.drop", *gravity = "contact.gravity";
     if (c->contact.roll.drop > 0 && c->contact.gravity == 0)
-        diag_add(p->yaml->diag, scene_part_later(p, drop, gravity),
-                 "raise contact.gravity, or lay the ball down with drop: 0",
-                 "%s is %.4g m and %s is 0: the ball never arrives", scene_part_label(p, drop), c->contact.roll.drop,
-                 scene_part_label(p, gravity));
+        scene_part_refuse(p, drop, gravity, "raise contact.gravity, or lay the ball down with drop: 0",
+                          " is %.4g m and %s is 0: the ball never arrives", c->contact.roll.drop,
+                          scene_part_label(p, gravity));
 }
 
 void scene_sense_ball(const struct scene_part *p, const struct contact *c)

@@ -10,8 +10,6 @@
 
 static const char *model(const struct contact *c) { return keys_find("contact.model")->choices[c->contact.model].word; }
 
-static bool is_given(const struct scene_part *p, const char *path) { return yaml_find(p->map, path) != NULL; }
-
 /* ------------------------------------------------------------------ scrape, and what only a scrape has */
 
 /* A ball that is dropped may bounce at one place; all else that follows a surface has to move. */
@@ -21,12 +19,13 @@ static void still_check(const struct scene_part *p, const struct contact *c)
     bool rolls = c->contact.model == CONTACT_ROLL,
          follows = rolls || c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_PLAYBACK;
     if (c->motion.path == PATH_STILL && scene_part_known(p, path) && follows)
-        diag_add(p->yaml->diag, scene_part_later(p, path, kind),
-                 rolls ? "let it move, such as path: line; or set contact.model to roll_coupled, under which a ball "
-                         "may bounce on the spot"
-                       : "let it move, such as path: line; or set contact.model to strike or given",
-                 "%s is still: nothing would %s where %s is %s", scene_part_label(p, path),
-                 c->contact.model == CONTACT_PLAYBACK ? "sound" : model(c), scene_part_label(p, kind), model(c));
+        scene_part_refuse(
+            p, path, kind,
+            rolls ? "let it move, such as path: line; or set contact.model to roll_coupled, under which a ball "
+                    "may bounce on the spot"
+                  : "let it move, such as path: line; or set contact.model to strike or given",
+            " is still: nothing would %s where %s is %s", c->contact.model == CONTACT_PLAYBACK ? "sound" : model(c),
+            scene_part_label(p, kind), model(c));
 }
 
 static void idle_refuse(const struct scene_part *p, const struct contact *c, const char *path, bool keys_say_it)
@@ -61,8 +60,8 @@ static bool is_elastic(const struct scene_part *p, const char *body, const struc
 {
     struct arena *a = p->yaml->arena;
     return o->material != MATERIAL_CUSTOM || !scene_part_known(p, arena_format(a, "%s.material", body)) ||
-           (is_given(p, arena_format(a, "%s.object.youngs_modulus", body)) &&
-            is_given(p, arena_format(a, "%s.object.poisson", body)));
+           (scene_part_given(p, arena_format(a, "%s.object.youngs_modulus", body)) &&
+            scene_part_given(p, arena_format(a, "%s.object.poisson", body)));
 }
 
 static void moduli_missing(const struct scene_part *p, const char *body, const char *because)

@@ -34,8 +34,7 @@ static void turns_check(const struct scene_part *p, const struct motion *m)
 {
     const char *path = "motion.turns";
     if (m->path == PATH_CIRCLE && 2 * M_PI * m->radius * fabs(m->turns) < SHORTEST_PATH)
-        diag_add(p->yaml->diag, scene_part_later(p, path, path), "write for instance: turns: 1, or -1 for clockwise",
-                 "%s must not be 0", scene_part_label(p, path));
+        scene_part_refuse(p, path, path, "write for instance: turns: 1, or -1 for clockwise", " must not be 0");
 }
 
 /* ------------------------------------------------------------------ how long it takes */
@@ -91,10 +90,9 @@ static void law_check(const struct scene_part *p, const struct motion *m)
     for (int i = 0; keys_find("motion.law")->choices[i].word; i++)
         if (rules_law_fits(m, i)) laws = arena_format(a, "%s%s%s", laws, *laws ? ", " : "", word("motion.law", i));
     if (m->path == PATH_POLYLINE) cure = arena_format(a, "; or round the corners: %smotion.corner: 5 mm", p->prefix);
-    diag_add(p->yaml->diag, scene_part_later(p, "motion.law", "motion.path"),
-             arena_format(a, "laws here: %s%s", laws, cure), "%s must not be %s where %s is %s: %s",
-             scene_part_label(p, "motion.law"), word("motion.law", m->law), scene_part_label(p, "motion.path"),
-             word("motion.path", m->path), why_not(m));
+    scene_part_refuse(p, "motion.law", "motion.path", arena_format(a, "laws here: %s%s", laws, cure),
+                      " must not be %s where %s is %s: %s", word("motion.law", m->law),
+                      scene_part_label(p, "motion.path"), word("motion.path", m->path), why_not(m));
 }
 
 /* ------------------------------------------------------------------ free motion */
@@ -105,9 +103,9 @@ static bool free_grip(const struct scene_part *p)
     const struct yaml_node *grip = yaml_find(p->map, "grip");
     const char *model = "contact.model", *path = "motion.path";
     if (c->contact.model == CONTACT_GIVEN && scene_part_known(p, model))
-        diag_add(p->yaml->diag, scene_part_later(p, path, model), "let it move otherwise, such as path: line",
-                 "%s must not be incline where %s is given: there is no contact.gravity", scene_part_label(p, path),
-                 scene_part_label(p, model));
+        scene_part_refuse(p, path, model, "let it move otherwise, such as path: line",
+                          " must not be incline where %s is given: there is no contact.gravity",
+                          scene_part_label(p, model));
     else if (grip && c->contact.model == CONTACT_SCRAPE) /* other models have none at all */
         diag_add(p->yaml->diag, grip->key->at, "remove it, or let the hand say how it moves: path: line",
                  "%s must not be given where %s is incline: nothing holds what moves freely",
@@ -134,10 +132,9 @@ static void free_check(const struct scene_part *p, const struct motion *m)
     if (i.over == INCLINE_STUCK)
         free_stuck(p, m);
     else if (incline_exits(&i, lasts))
-        diag_add(p->yaml->diag, scene_part_later(p, duration, duration),
-                 "lower it, or leave it out: the motion ends there by itself; or make the way longer",
-                 "%s is %.6g s, and the motion %s after %.6g s", scene_part_label(p, duration), lasts,
-                 incline_event(&i), i.end);
+        scene_part_refuse(p, duration, duration,
+                          "lower it, or leave it out: the motion ends there by itself; or make the way longer",
+                          " is %.6g s, and the motion %s after %.6g s", lasts, incline_event(&i), i.end);
     else if (lasts > INCLINE_LONGEST)
         diag_add(p->yaml->diag, motion_place(p), "add for instance: duration: 1 min",
                  "%s: it is %.4g s before it %s, and a motion lasts at most %g s", scene_part_label(p, "motion"), lasts,

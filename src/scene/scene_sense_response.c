@@ -146,9 +146,8 @@ static void space_check(const struct scene_part *p, const char *path, const doub
 {
     double r = sqrt(place[0] * place[0] + place[1] * place[1]);
     if (r > 1 + 1e-6)
-        diag_add(p->yaml->diag, scene_part_later(p, path, path), "the rim is where x^2 + y^2 is 1",
-                 "%s lies %.6g from the centre, outside the disk of materials, whose radius is 1",
-                 scene_part_label(p, path), r);
+        scene_part_refuse(p, path, path, "the rim is where x^2 + y^2 is 1",
+                          " lies %.6g from the centre, outside the disk of materials, whose radius is 1", r);
 }
 
 void scene_sense_response(const struct scene_part *p, const struct contact *c)

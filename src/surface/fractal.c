@@ -67,10 +67,10 @@ static void check(const struct scene_part *p, const struct contact *c, const voi
     const struct fractal *f = own;
     double heights = fractal_size(f); /* NAN: pitch or length is wrong, and that is said */
     if (heights < FRACTAL_LEAST || heights > FRACTAL_MOST)
-        diag_add(p->yaml->diag, scene_part_later(p, pitch, length),
-                 heights < FRACTAL_LEAST ? "raise length, or lower pitch" : "lower length, or raise pitch",
-                 "%s over %s is %.4g, and from %d to %d heights are offered", scene_part_label(p, length),
-                 scene_part_label(p, pitch), f->length / f->pitch, FRACTAL_LEAST, FRACTAL_MOST);
+        scene_part_refuse(p, length, pitch,
+                          heights < FRACTAL_LEAST ? "raise length, or lower pitch" : "lower length, or raise pitch",
+                          " over %s is %.4g, and from %d to %d heights are offered", scene_part_label(p, pitch),
+                          f->length / f->pitch, FRACTAL_LEAST, FRACTAL_MOST);
     if (scene_part_known(p, along) && rules_along(c) == ALONG_PLANE)
         diag_add(p->yaml->diag,
                  yaml_find(p->map, along) ? scene_part_later(p, section, along) : yaml_find(p->map, section)->key->at,
@@ -78,10 +78,8 @@ static void check(const struct scene_part *p, const struct contact *c, const voi
                  scene_part_label(p, section));
     if (f->interpolation != INTERPOLATION_SPLINE && scene_part_known(p, interpolation) &&
         c->contact.model == CONTACT_SCRAPE && !yaml_find(p->map, "scraper.radius"))
-        diag_add(p->yaml->diag, scene_part_later(p, interpolation, interpolation),
-                 "set it to spline, or give scraper.radius",
-                 "%s must be spline where the scraper is a point: kinks and steps are no surface for it",
-                 scene_part_label(p, interpolation));
+        scene_part_refuse(p, interpolation, interpolation, "set it to spline, or give scraper.radius",
+                          " must be spline where the scraper is a point: kinks and steps are no surface for it");
 }
 
 static double likely_finest(const void *own) { return ((const struct fractal *)own)->pitch; }

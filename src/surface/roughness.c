@@ -62,9 +62,9 @@ static void band_check(const struct scene_part *p, const struct roughness *r)
     if (r->longest <= r->shortest)
         scene_part_contradiction(p, waves, "must be less than", "raise longest, or lower shortest");
     else if (r->longest / r->shortest > BAND_WIDEST)
-        diag_add(p->yaml->diag, scene_part_later(p, waves[0], waves[1]), "lower longest, or raise shortest",
-                 "%s is %.3g times %s, and at most 100 000 times are offered", scene_part_label(p, waves[1]),
-                 r->longest / r->shortest, scene_part_label(p, waves[0]));
+        scene_part_refuse(p, waves[1], waves[0], "lower longest, or raise shortest",
+                          " is %.3g times %s, and at most 100 000 times are offered", r->longest / r->shortest,
+                          scene_part_label(p, waves[0]));
 }
 
 /* (E x^3)^2 <= E x^2 E (x^2 - 1)^2 for x of mean 0 and variance 1: no distribution lies beyond, and none that is
@@ -87,9 +87,8 @@ static void check(const struct scene_part *p, const struct contact *c, const voi
     band_check(p, r);
     moments_check(p, r);
     if (r->grain > 1 && scene_part_known(p, along) && (c->surface.along == ALONG_PATH || c->surface.along == ALONG_X))
-        diag_add(p->yaml->diag, scene_part_later(p, grain, along),
-                 arena_format(p->yaml->arena, "set %s to plane, or remove the grain", along),
-                 "%s: a profile has no grain: it needs %s: plane", scene_part_label(p, grain), along);
+        scene_part_refuse(p, grain, along, arena_format(p->yaml->arena, "set %s to plane, or remove the grain", along),
+                          ": a profile has no grain: it needs %s: plane", along);
 }
 
 static int directed(const void *own) { return ((const struct roughness *)own)->grain != 1; }
