@@ -3,7 +3,11 @@
    The file holds the struct, whose first member is `bool given`, rows of keys with offsets within it (scene/rows.h),
    rules between them, columns of diagnostics, and one `const struct params` that its stage points to. The rows stand in
    keys_table where keys.def has STAGES(map), in the order of pipeline/stages.def. The structs of a contact lie in one
-   block, contact->params; a contact that is copied shares it, and nobody writes into it but params_edit. */
+   block, contact->params; a contact that is copied shares it, and nobody writes into it but params_edit.
+
+   Keys that no section holds alone have no such bool: those of a height map, of an impact. `given` says then whether
+   they count, `section` is the path they have in common, and `meaning` is NULL. STAGES(path) in keys.def gives them a
+   place of their own, where that of the whole map is not theirs. */
 #ifndef SCENE_PARAMS_H
 #define SCENE_PARAMS_H
 #include "base/arena.h"

@@ -1,8 +1,8 @@
 /* What is asked for: a scene as plain structs. Read this first.
 
-   All quantities are SI (angles in radians). Every field a user can set is a row of scene/keys.def (key path, unit,
-   range, default, meaning) or, where time is traded for accuracy, of scene/accuracy.def; from those two tables come the
-   reader, the effective scene, `rasp explain`, `rasp new` and man rasp-scene(5).
+   All quantities are SI (angles in radians). Every field a user can set is a row (key path, unit, range, default,
+   meaning) of scene/keys.def, of its stage's own file (scene/params.h) or, of knobs, of scene/accuracy.def. From these
+   come the reader, the effective scene, `rasp explain`, `rasp new` and man rasp-scene(5).
 
    "Not given": a text is NULL, a number is NAN, a section's `given` is false. */
 #ifndef SCENE_SCENE_H

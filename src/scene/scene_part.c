@@ -30,12 +30,12 @@ struct diag_place scene_part_later(const struct scene_part *p, const char *path,
     return node ? node->at : scene_part_place(p, p->map);
 }
 
-void scene_part_contradiction(const struct scene_part *p, const char *const paths[2], const char *says,
+void scene_part_contradiction(const struct scene_part *p, const char *path, const char *other, const char *says,
                               const char *cure)
 {
-    const struct yaml_node *a = yaml_find(p->map, paths[0]), *b = yaml_find(p->map, paths[1]);
-    diag_add(p->yaml->diag, scene_part_later(p, paths[0], paths[1]), cure, "%s %s %s%s", scene_part_label(p, paths[0]),
-             says, scene_part_label(p, paths[1]), a && b ? "" : " (the other is the default; give both)");
+    const struct yaml_node *a = yaml_find(p->map, path), *b = yaml_find(p->map, other);
+    diag_add(p->yaml->diag, scene_part_later(p, path, other), cure, "%s %s %s%s", scene_part_label(p, path), says,
+             scene_part_label(p, other), a && b ? "" : " (the other is the default; give both)");
 }
 
 bool scene_part_known(const struct scene_part *p, const char *path)

@@ -27,7 +27,7 @@ struct diag_place scene_part_place(const struct scene_part *p, const struct yaml
 struct diag_place scene_part_later(const struct scene_part *p, const char *path, const char *other);
 
 /* Tells there that "path SAYS other", and whether one of them is a default. */
-void scene_part_contradiction(const struct scene_part *p, const char *const paths[2], const char *says,
+void scene_part_contradiction(const struct scene_part *p, const char *path, const char *other, const char *says,
                               const char *cure);
 
 /* Does the scene say something of it? */

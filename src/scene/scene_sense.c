@@ -46,18 +46,18 @@ static void lowering_check(const struct scene_part *p, const struct contact *c)
 
 static void tip_check(const struct scene_part *p, const struct scraper *s)
 {
-    static const char *const radii[2] = {"scraper.patch", "scraper.radius"};
     if (s->patch >= s->radius)
-        scene_part_contradiction(p, radii, "must be less than", "lower scraper.patch, or raise scraper.radius");
+        scene_part_contradiction(p, "scraper.patch", "scraper.radius", "must be less than",
+                                 "lower scraper.patch, or raise scraper.radius");
 }
 
 /* ------------------------------------------------------------------ limiter and smoothing */
 
 static void alpha_check(const struct scene_part *p, const struct limiter *l)
 {
-    static const char *const alphas[2] = {"contact.limiter.alpha_min", "contact.limiter.alpha_max"};
     if (l->alpha_min > l->alpha_max)
-        scene_part_contradiction(p, alphas, "must not be greater than", "lower alpha_min, or raise alpha_max");
+        scene_part_contradiction(p, "contact.limiter.alpha_min", "contact.limiter.alpha_max",
+                                 "must not be greater than", "lower alpha_min, or raise alpha_max");
 }
 
 /* Defaults stand in every effective scene, so that only another value is one that was meant to do something. */

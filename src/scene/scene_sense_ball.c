@@ -11,9 +11,8 @@
 
 static void below_radius(const struct scene_part *p, const char *path, double size, double radius)
 {
-    const char *const sizes[2] = {path, "ball.radius"};
     if (size >= radius)
-        scene_part_contradiction(p, sizes, "must be less than",
+        scene_part_contradiction(p, path, "ball.radius", "must be less than",
                                  arena_format(p->yaml->arena, "lower %s, or raise ball.radius", path));
 }
 

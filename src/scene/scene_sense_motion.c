@@ -23,10 +23,9 @@ static struct diag_place motion_place(const struct scene_part *p)
 
 static void stroke_check(const struct scene_part *p, const struct motion *m)
 {
-    static const char *const ends[2] = {"motion.to", "motion.from"};
     double x = m->to[0] - m->from[0], y = m->to[1] - m->from[1];
     if (m->path != PATH_STILL && rules_straight(m) && sqrt(x * x + y * y) < SHORTEST_PATH)
-        scene_part_contradiction(p, ends, "must differ from",
+        scene_part_contradiction(p, "motion.to", "motion.from", "must differ from",
                                  "the ends are to be at least 1 nm apart: write for instance: to: [3 cm, 0]");
 }
 

@@ -35,7 +35,6 @@ static const struct key keys[] = {
 /* It takes over half an octave to both sides of `from`. */
 static void check(const struct scene_part *p, const struct contact *c, const void *own)
 {
-    static const char *const waves[2] = {"surface.continuation.shortest", "surface.continuation.from"};
     const struct continuation *k = own;
     const char *section = "surface.continuation", *map = "surface.height_map";
     (void)c;
@@ -44,7 +43,8 @@ static void check(const struct scene_part *p, const struct contact *c, const voi
                  "give surface.height_map, or write roughness in place of continuation",
                  "%s needs %s, which it continues", scene_part_label(p, section), scene_part_label(p, map));
     if (k->shortest >= sqrt(0.5) * k->from)
-        scene_part_contradiction(p, waves, "must be less than 0.7 times", "raise from, or lower shortest");
+        scene_part_contradiction(p, "surface.continuation.shortest", "surface.continuation.from",
+                                 "must be less than 0.7 times", "raise from, or lower shortest");
 }
 
 static double likely_finest(const void *own) { return ((const struct continuation *)own)->shortest / 4; }

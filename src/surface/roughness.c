@@ -58,13 +58,13 @@ static const struct key keys[] = {
 
 static void band_check(const struct scene_part *p, const struct roughness *r)
 {
-    static const char *const waves[2] = {"surface.roughness.shortest", "surface.roughness.longest"};
+    const char *shortest = "surface.roughness.shortest", *longest = "surface.roughness.longest";
     if (r->longest <= r->shortest)
-        scene_part_contradiction(p, waves, "must be less than", "raise longest, or lower shortest");
+        scene_part_contradiction(p, shortest, longest, "must be less than", "raise longest, or lower shortest");
     else if (r->longest / r->shortest > BAND_WIDEST)
-        scene_part_refuse(p, waves[1], waves[0], "lower longest, or raise shortest",
+        scene_part_refuse(p, longest, shortest, "lower longest, or raise shortest",
                           " is %.3g times %s, and at most 100 000 times are offered", r->longest / r->shortest,
-                          scene_part_label(p, waves[0]));
+                          scene_part_label(p, shortest));
 }
 
 /* (E x^3)^2 <= E x^2 E (x^2 - 1)^2 for x of mean 0 and variance 1: no distribution lies beyond, and none that is
