@@ -322,7 +322,7 @@ static bool drop_fastest(struct modal_fit *f)
 
 /* Is it a hum? It is as loud in all strikes, within 12 dB, as nothing is that they strike; or before the first strike
    at least half as loud as after most. */
-static bool hums(const struct modal_fit *f, int i, bool undamped)
+static bool is_hum(const struct modal_fit *f, int i, bool undamped)
 {
     double size[MODAL_STRETCHES], of[MODAL_STRETCHES], lead = 0.0;
     int n = 0;
@@ -356,7 +356,7 @@ static int drop_uncertain(struct modal_fit *f)
                  undamped = slow ? m.decay <= 2.0 * fmax(m.decay_se, f->slowest) : m.decay <= m.decay_se;
             for (int g = 0; g < stretches; g++)
                 gains = gains || cplx_abs(f->part[i * stretches + g].gain) > m.gain_se[g];
-            f->c[i].hum = hums(f, i, slow && undamped);
+            f->c[i].hum = is_hum(f, i, slow && undamped);
             if (f->c[i].hum || (!undamped && gains)) continue;
             double share = projected(f, i);
             weakest = share < least ? i : weakest;
@@ -474,6 +474,7 @@ bool modal_find(const struct modal_data *d, const struct modal_options *o, struc
     else
         search(&f);
     f.data = d;
+    f.found = true;
     for (int i = 0; i < f.m; i++)
         f.c[i].moved = 1e9;
     fit_gains(&f);

@@ -56,12 +56,12 @@ static inline __attribute__((always_inline)) double lanes_sum(const double s[LAN
     return ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
 }
 
-/* a[i][j] += sum over ROWS of column i times column j, j <= i < n, by blocks of 4 x 2; x has three columns of zeros
- * behind its last. */
+/* sum[i][j][lane] += column i times column j over the lane's rows, j <= i < n, by blocks of 4 x 2; x has three columns
+   of zeros behind its last, sum is [n + 3][n + 3][LANES]. */
 LANES_CLONES
-void modal_block_products(const double *x, int n, double *a);
+void modal_block_products(const double *x, int n, double *sum);
 LANES_CLONES
-void modal_block_products(const double *x, int n, double *a)
+void modal_block_products(const double *x, int n, double *sum)
 {
     for (int i = 0; i < n; i += 4)
         for (int j = 0; j < i + 4 && j < n; j += 2) {
@@ -80,8 +80,12 @@ void modal_block_products(const double *x, int n, double *a)
                     s[6][l] += p[3 * ROWS + k + l] * u;
                     s[7][l] += p[3 * ROWS + k + l] * v;
                 }
-            for (int c = 0; c < 8; c++)
-                if (i + c / 2 < n && j + c % 2 <= i + c / 2) a[(i + c / 2) * n + j + c % 2] += lanes_sum(s[c]);
+            for (int c = 0; c < 8; c++) {
+                double *to = sum + ((i + c / 2) * (n + 3) + j + c % 2) * LANES;
+#pragma omp simd
+                for (int l = 0; l < LANES; l++)
+                    to[l] += s[c][l];
+            }
         }
 }
 
@@ -140,12 +144,12 @@ static bool sums_make(struct modal_block *b, int s, bool full, struct sums *g)
     if (b->to[s] <= b->from[s]) return false;
     g->linear = 2 * b->m + MODAL_SMOOTH;
     g->n = g->linear + (full ? 2 * b->m : 0) + 1;
-    memset(g->a, 0, (size_t)(g->n * g->n) * sizeof *g->a);
     const struct modal_fit *f = b->fit;
     const struct modal_bins *bins = &f->bins[s];
     int stretches = f->data->stretches;
     double room[8][CHUNK], weight[CHUNK], *x[8], *columns = ARENA_TAKE(b->a, double, (MODAL_COLUMNS + 3) * ROWS),
-                                                 *r = columns + (g->n - 1) * ROWS;
+                                                 *r = columns + (g->n - 1) * ROWS,
+                                                 *sum = ARENA_TAKE(b->a, double, (g->n + 3) * (g->n + 3) * LANES);
     struct modal_line line[MODAL_BLOCK];
     for (int c = 0; c < 8; c++)
         x[c] = room[c];
@@ -165,12 +169,12 @@ static bool sums_make(struct modal_block *b, int s, bool full, struct sums *g)
                                 columns + 2 * i * ROWS, full ? columns + (g->linear + 2 * i) * ROWS : NULL, r);
         }
         smooth_columns(bins, b, weight, from, n, columns + 2 * b->m * ROWS);
-        modal_block_products(columns, g->n, g->a);
+        modal_block_products(columns, g->n, sum);
     }
     for (int i = 0; i < g->n; i++) {
+        for (int j = 0; j <= i; j++)
+            g->a[j * g->n + i] = g->a[i * g->n + j] = lanes_sum(sum + (i * (g->n + 3) + j) * LANES);
         g->scale[i] = g->a[i * g->n + i];
-        for (int j = 0; j < i; j++)
-            g->a[j * g->n + i] = g->a[i * g->n + j];
     }
     return true;
 }
@@ -192,7 +196,7 @@ static void steps_of(const struct modal_block *b, int i, int stretch, double to[
 static void normal_of(const struct modal_block *b, int stretch, const struct sums *g, struct modal_normal *to)
 {
     int poles = 2 * b->m, n = g->n;
-    double part = 1.0 / b->noise[stretch];
+    double part = 1.0 / (b->noise[stretch] * b->alike[stretch]);
     for (int i = 0; i < b->m; i++) {
         double u[2][2], v[2][2];
         steps_of(b, i, stretch, u);
@@ -331,7 +335,7 @@ static void pass(struct modal_block *b, bool full, struct sums *to)
         int n = g->n, last = n - 1;
         modal_block_sweep(g->a, n, 0, g->linear, g->scale, g->swept);
         b->noise[k] = (g->a[last * n + last] + known) / b->degrees[k];
-        sum += fitted ? b->degrees[k] * real_log(b->noise[k]) : 0.0;
+        sum += fitted ? b->degrees[k] / b->alike[k] * real_log(b->noise[k]) : 0.0;
         for (int i = 0; i < 2 * b->m; i++)
             if (g->swept[i]) {
                 cplx *gain = &b->part[i / 2 * d->stretches + k].gain;
@@ -356,6 +360,28 @@ static double reach(const struct modal_fit *f, cplx s)
     return -MODAL_REACH * s.re + 4.0 * MODAL_REACH * REAL_PI / f->longest;
 }
 
+/* (1 + r)/(1 - r), r the correlation of what is left in neighbouring bins, as of an autoregressive series. Of white
+   noise |r|^2 n is exponential: what is less than chance makes it in one of 50 is taken for 0. */
+static double alike(const struct modal_bins *bins, long from, long n, const double *re, const double *im)
+{
+    static const double chance = 4.0, most = 0.9;
+    struct arena *a = arena_open();
+    double *x = ARENA_TAKE(a, double, n), *y = ARENA_TAKE(a, double, n), power = 0.0;
+    cplx product = {0};
+    modal_fit_take_smooth_off(bins, from, n, re, im, x, y);
+    for (long k = 0; k < n; k++) {
+        double weight = 1.0 / bins->variance[from + k];
+        power += weight * (x[k] * x[k] + y[k] * y[k]);
+        if (k)
+            product = cplx_add(product, cplx_scale(sqrt(weight / bins->variance[from + k - 1]),
+                                                   cplx_mul((cplx){x[k], y[k]}, (cplx){x[k - 1], -y[k - 1]})));
+    }
+    arena_close(a);
+    double square = power > 0.0 ? cplx_square(product) / (power * power) - chance / (double)n : 0.0,
+           r = fmin(sqrt(fmax(square, 0.0)), most);
+    return (1.0 + r) / (1.0 - r);
+}
+
 void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, const int *of, const cplx *extra,
                       int extras, struct arena *a)
 {
@@ -370,6 +396,7 @@ void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, c
     b->each = ARENA_TAKE(a, struct modal_normal, d->stretches);
     b->noise = ARENA_TAKE(a, double, d->stretches);
     b->degrees = ARENA_TAKE(a, double, d->stretches);
+    b->alike = ARENA_TAKE(a, double, d->stretches);
     for (int i = 0; i < m + extras; i++) {
         b->of[i] = i < m ? of[i] : -1;
         b->s[i] = i < m ? f->c[of[i]].s : extra[i - m];
@@ -410,6 +437,10 @@ void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, c
         b->degrees[g] = known - 2.0 * b->m - MODAL_SMOOTH - 2.0 * b->m / d->stretches;
         b->degrees[g] += 2.0 * (double)(b->to[g] - b->from[g]);
         b->degrees[g] = fmax(b->degrees[g], known);
+        long n = b->to[g] - b->from[g];
+        b->alike[g] = extras || n < 2
+                          ? 1.0
+                          : alike(&f->bins[g], b->from[g], n, f->bins[g].rr + b->from[g], f->bins[g].ri + b->from[g]);
     }
 }
 
@@ -440,7 +471,8 @@ void modal_block_worth(struct modal_block *b, double *worth)
                          det = p * r - q * q;
             cplx at = b->part[i * stretches + k].gain;
             if (g[k].swept[2 * i] && g[k].swept[2 * i + 1] && det > 0.0)
-                worth[i] += (at.re * at.re * r - 2.0 * at.re * at.im * q + at.im * at.im * p) / (det * b->noise[k]);
+                worth[i] += (at.re * at.re * r - 2.0 * at.re * at.im * q + at.im * at.im * p) /
+                            (det * b->noise[k] * b->alike[k]);
         }
     arena_close(inner);
 }
@@ -569,7 +601,7 @@ void modal_block_errors(struct modal_block *b, int i, double se[2], double *gain
         for (int c = 0; c < 2; c++)
             for (int e = 0; e < 2; e++)
                 sum += u[c] * u[e] * g[k].a[(2 * i + c) * wide + 2 * i + e];
-        sum *= b->noise[k];
+        sum *= b->noise[k] * b->alike[k];
         for (int j = 0; j < b->m; j++) {
             const double *re = g[k].a + 2 * i * wide + g[k].linear + 2 * j, *im = re + wide;
             double by[2][2];

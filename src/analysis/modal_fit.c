@@ -101,41 +101,33 @@ static void smooth_power(const double *re, const double *im, long n, long half, 
     arena_close(a);
 }
 
-/* rest - F (c0 + c1 u + c2 u^2), c by least squares on every `patch` bins: what goes straight from the force to the
- * sound, and the skirts of modes that are far away. */
-static void take_smooth_off(struct modal_bins *b, long patch)
+void modal_fit_take_smooth_off(const struct modal_bins *b, long from, long n, const double *re, const double *im,
+                               double *to_re, double *to_im)
 {
-    enum { TERMS = 3 };
-    for (long from = 0; from < b->n; from += patch) {
-        long n = from + 2 * patch <= b->n ? patch : b->n - from;
-        double a[(TERMS + 2) * (TERMS + 2)] = {0}, scale[TERMS];
-        bool swept[TERMS];
-        enum { N = TERMS + 2 };
-        for (long k = from; k < from + n; k++) {
-            double power = b->fr[k] * b->fr[k] + b->fi[k] * b->fi[k], u = 2.0 * (double)(k - from) / (double)n - 1.0,
-                   row[TERMS] = {1.0, u, u * u};
-            double re = b->fr[k] * b->rr[k] + b->fi[k] * b->ri[k], im = b->fr[k] * b->ri[k] - b->fi[k] * b->rr[k];
-            for (int i = 0; i < TERMS; i++) {
-                for (int j = 0; j < TERMS; j++)
-                    a[i * N + j] += power * row[i] * row[j];
-                a[i * N + TERMS] += row[i] * re;
-                a[i * N + TERMS + 1] += row[i] * im;
-            }
+    enum { TERMS = 3, N = TERMS + 2 };
+    const double *fr = b->fr + from, *fi = b->fi + from;
+    double a[N * N] = {0}, scale[TERMS];
+    bool swept[TERMS];
+    for (long k = 0; k < n; k++) {
+        double power = fr[k] * fr[k] + fi[k] * fi[k], u = 2.0 * (double)k / (double)n - 1.0,
+               row[TERMS] = {1.0, u, u * u};
+        for (int i = 0; i < TERMS; i++) {
+            for (int j = 0; j < TERMS; j++)
+                a[i * N + j] += power * row[i] * row[j];
+            a[i * N + TERMS] += row[i] * (fr[k] * re[k] + fi[k] * im[k]);
+            a[i * N + TERMS + 1] += row[i] * (fr[k] * im[k] - fi[k] * re[k]);
         }
+    }
+    for (int i = 0; i < TERMS; i++)
+        scale[i] = a[i * N + i];
+    modal_block_sweep(a, N, 0, TERMS, scale, swept);
+    for (long k = 0; k < n; k++) {
+        double u = 2.0 * (double)k / (double)n - 1.0, row[TERMS] = {1.0, u, u * u};
+        cplx c = {0};
         for (int i = 0; i < TERMS; i++)
-            scale[i] = a[i * N + i];
-        modal_block_sweep(a, N, 0, TERMS, scale, swept);
-        for (long k = from; k < from + n; k++) {
-            double u = 2.0 * (double)(k - from) / (double)n - 1.0, row[TERMS] = {1.0, u, u * u}, re = 0.0, im = 0.0;
-            for (int i = 0; i < TERMS; i++)
-                if (swept[i]) {
-                    re += row[i] * a[i * N + TERMS];
-                    im += row[i] * a[i * N + TERMS + 1];
-                }
-            b->nr[k] = b->rr[k] - (b->fr[k] * re - b->fi[k] * im);
-            b->ni[k] = b->ri[k] - (b->fr[k] * im + b->fi[k] * re);
-        }
-        if (n > patch) break;
+            if (swept[i]) c = cplx_add(c, cplx_scale(row[i], (cplx){a[i * N + TERMS], a[i * N + TERMS + 1]}));
+        to_re[k] = re[k] - (fr[k] * c.re - fi[k] * c.im);
+        to_im[k] = im[k] - (fr[k] * c.im + fi[k] * c.re);
     }
 }
 
@@ -144,7 +136,11 @@ void modal_fit_noise(struct modal_fit *f, double width)
     for (int s = 0; s < f->data->stretches; s++) {
         struct modal_bins *b = &f->bins[s];
         long patch = (long)(4.0 * 2.0 * REAL_PI * width / b->width); /* what is as wide as a band stays */
-        take_smooth_off(b, patch > PATCH ? patch : PATCH);
+        patch = patch > PATCH ? patch : PATCH;
+        for (long from = 0, n; from < b->n; from += n) {
+            n = from + 2 * patch <= b->n ? patch : b->n - from;
+            modal_fit_take_smooth_off(b, from, n, b->rr + from, b->ri + from, b->nr + from, b->ni + from);
+        }
         long half = (long)(0.5 * 2.0 * REAL_PI * width / (b->width * GROUP));
         smooth_power(b->nr, b->ni, b->n, half > 25 ? half : 25, b->variance);
         for (long k = 0; k < b->n; k++)

@@ -16,7 +16,12 @@
 
    In a window of bins what modes outside it leave there, and what goes straight from the force to the sound, is smooth
    in frequency but for F: F(w) (c0 + c1 u + c2 u^2), u from -1 to 1 over the window (a local polynomial, as of the
-   local polynomial method of system identification). These columns are fitted with the gains, always. */
+   local polynomial method of system identification). These columns are fitted with the gains, always.
+
+   An object does not decay quite as the model has it, and what the model leaves of it is no noise: neighbouring bins are
+   alike. Once the search is over a strike's bins count as fewer, by (1 + r)/(1 - r), r the correlation of neighbours in
+   what its modes leave: in chi squared, so that no component stays that only mends the model, and in standard errors. Of
+   white noise r is 0. */
 #ifndef ANALYSIS_MODAL_FIT_H
 #define ANALYSIS_MODAL_FIT_H
 #include <stdbool.h>
@@ -77,6 +82,7 @@ struct modal_fit {
     double longest;          /* s, of the longest stretch */
     int most;                /* components: the weakest may be none, or leave in the end */
     int strikes;             /* that are fitted */
+    bool found;              /* the search is over: what is left now is noise, and what is no mode */
     struct modal_bins *bins; /* [stretches] */
     int m, room;
     struct modal_component *c; /* [room] */
@@ -102,6 +108,8 @@ struct modal_block {
     double chi; /* -2 log likelihood: sum of degrees log noise, and the squares of strikes' poles off the shared ones */
     double *noise;   /* [stretches] what a strike's window leaves, over the variance: its noise, and what is no mode */
     double *degrees; /* [stretches] of freedom, of the block as it was opened */
+    double *
+        alike; /* [stretches] bins of what is left that are as good as one: 1 of white noise, more of what is no mode */
     double normal[2 * MODAL_BLOCK * 2 * MODAL_BLOCK]; /* of the shared poles (omega, log d), all others projected out */
     struct modal_normal *each;                        /* [stretches] of the strikes' own poles */
     struct arena *a;
@@ -111,6 +119,10 @@ struct modal_block {
 void modal_fit_open(struct modal_fit *f, const struct modal_data *d, const struct modal_options *o, struct arena *a);
 void modal_fit_noise(struct modal_fit *f,
                      double width); /* variance: a running median over that many Hz of what is left */
+/* re, im[n] - F (c0 + c1 u + c2 u^2), c by least squares: what goes straight from the force to the sound, and the
+ * skirts of modes that are far away. */
+void modal_fit_take_smooth_off(const struct modal_bins *b, long from, long n, const double *re, const double *im,
+                               double *to_re, double *to_im);
 void modal_fit_add(struct modal_fit *f, cplx s, const struct modal_part *part); /* part NULL: no gains */
 void modal_fit_drop(struct modal_fit *f, int i);
 /* What a block fits: gains with what rings on from earlier strikes of the place, as if the strike had made it. Of a
