@@ -18,10 +18,10 @@
    in frequency but for F: F(w) (c0 + c1 u + c2 u^2), u from -1 to 1 over the window (a local polynomial, as of the
    local polynomial method of system identification). These columns are fitted with the gains, always.
 
-   An object does not decay quite as the model has it, and what the model leaves of it is no noise: neighbouring bins are
-   alike. Once the search is over a strike's bins count as fewer, by (1 + r)/(1 - r), r the correlation of neighbours in
-   what its modes leave: in chi squared, so that no component stays that only mends the model, and in standard errors. Of
-   white noise r is 0. */
+   An object does not decay quite as the model has it, and what the model leaves of it is no noise: neighbouring bins
+   are alike. Once the search is over a strike's bins count as fewer, by (1 + r)/(1 - r), r the correlation of
+   neighbours in what its modes leave: in chi squared, so that no component stays that only mends the model, and in
+   standard errors. Of white noise r is 0. */
 #ifndef ANALYSIS_MODAL_FIT_H
 #define ANALYSIS_MODAL_FIT_H
 #include <stdbool.h>
