@@ -2,9 +2,10 @@
 made of OBJECTS. NAME is all, or odd and even (fitted to every other strike), or a kind of OpenBLAS's kernels (KINDS).
 
   python3 extract_report.py halves OBJECT   the two lists of strikes, one a line
-  python3 extract_report.py PART            strikes, modes, apart, halves_agree, kinds, order, lines, said
+  python3 extract_report.py flip OBJECT N   in place of OBJECT.wav one with the last bit of 40 samples flipped
+  python3 extract_report.py PART            strikes, modes, apart, halves_agree, flips, kinds, order, lines, said
 """
-import hashlib, json, math, os, sys
+import hashlib, json, math, os, random, struct, sys
 
 OBJECTS, KINDS = os.environ["OBJECTS"].split(), os.environ.get("KINDS", "").split()
 
@@ -135,6 +136,37 @@ def halves_agree():
               within("decay_per_s", "decay_se_between") + "; " + within("decay_per_s", "decay_se", "decay_error"),
               f"{median([abs(x['frequency_hz'] - y['frequency_hz']) for x, y in pairs]):.3f}, "
               f"{median([100 * abs(x['decay_per_s'] / y['decay_per_s'] - 1) for x, y in pairs]):.1f}")
+
+def flip(o, n):
+    with open(f"{o}.wav", "rb") as f:
+        b = bytearray(f.read())
+    at = 12
+    while b[at:at + 4] != b"data": # chunks of even length before it
+        at += 8 + struct.unpack_from("<I", b, at + 4)[0]
+    size = struct.unpack_from("<I", b, at + 4)[0]
+    random.seed(int(n))
+    for k in random.sample(range(size // 2), 40): # 16 bits
+        b[at + 8 + 2 * k] ^= 1
+    os.remove(f"{o}.wav")
+    with open(f"{o}.wav", "wb") as f:
+        f.write(b)
+
+def flips():
+    names = ["all", "flip1", "flip2", "flip3", "flip4"]
+    head("object", "modes", "median decay by energy (1/s)", "explained (%)", "strong ones there, of 40")
+    for o in OBJECTS:
+        of = [load(o, name) for name in names]
+        if not all(of):
+            table(o, *["refused" if not r else "" for r in of][:4])
+            continue
+        there = 0
+        for a in sorted(of[0]["modes"], key=lambda m: -m["share"])[:10]:
+            for r in of[1:]:
+                there += any(abs(a["frequency_hz"] - b["frequency_hz"]) < max(a["decay_per_s"], b["decay_per_s"]) / 2 / math.pi
+                             and 1 / 1.5 < a["decay_per_s"] / b["decay_per_s"] < 1.5 for b in r["modes"])
+        table(o, ", ".join(str(len(r["modes"])) for r in of),
+              ", ".join(f"{r['median_decay_by_energy_per_s']:.3g}" for r in of),
+              ", ".join(f"{100 * r['places'][0]['explained']:.2f}" for r in of), there)
 
 def kinds():
     head("object", *KINDS, "different tables")
