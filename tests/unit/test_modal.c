@@ -381,7 +381,8 @@ START_TEST(strikes_alike)
 END_TEST
 
 /* What the model leaves is not always white: noise that fades within 20 ms, 30 dB above what stays. Errors of two modes
-   over their standard errors, rms over three recordings: 1 if they were those of that noise, 5.2 if it were taken for white */
+   over their standard errors, rms over three recordings: 1 if they were those of that noise, 5.2 if it were taken for
+   white. */
 START_TEST(noise_that_fades)
 {
     static const struct known m[] = {{800, 20, 1, 0}, {1500, 12, 0.6, 0}};
