@@ -355,7 +355,8 @@ static int drop_uncertain(struct modal_fit *f)
             bool slow = m.decay < 2.0 / f->longest, gains = false,
                  undamped = slow ? m.decay <= 2.0 * fmax(m.decay_se, f->slowest) : m.decay <= m.decay_se;
             for (int g = 0; g < stretches; g++)
-                gains = gains || cplx_abs(f->part[i * stretches + g].gain) > m.gain_se[g];
+                gains =
+                    gains || (f->data->stretch[g].fitted && cplx_abs(f->part[i * stretches + g].gain) > m.gain_se[g]);
             f->c[i].hum = is_hum(f, i, slow && undamped);
             if (f->c[i].hum || (!undamped && gains)) continue;
             double share = projected(f, i);

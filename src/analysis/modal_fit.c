@@ -47,8 +47,6 @@ static void open_bins(const struct modal_fit *f, const struct modal_stretch *s, 
     for (long i = 0; i < s->pulse.n; i++)
         if (s->pulse.at + i >= s->first && s->pulse.at + i < s->first + s->n)
             force[s->pulse.at + i - s->first] = s->pulse.f[i];
-    b->free = s->pulse.at + s->pulse.n <= s->first;
-    if (b->free) force[0] = 1.0; /* far skirts are smooth but for an impulse where the stretch begins */
     spectrum(force, s->n, b, b->fr, b->fi);
     spectrum(s->y, s->n, b, b->yr, b->yi);
     for (long i = 0; i < s->n; i++)
@@ -223,14 +221,8 @@ struct modal_line modal_fit_line(const struct modal_fit *f, int stretch, cplx s)
     double rate = f->data->rate, size = 1.0 / sqrt((double)st->n);
     cplx value, slope, p = cplx_exp(s, 1.0 / rate);
     carried(st, rate, s, &value, &slope);
-    return (struct modal_line){p.re,
-                               p.im,
-                               size * value.re,
-                               size * value.im,
-                               size * slope.re,
-                               size * slope.im,
-                               1.0 / rate,
-                               f->bins[stretch].free ? 0.0 : 1.0};
+    return (struct modal_line){p.re,       p.im, size * value.re, size * value.im, size * slope.re, size * slope.im,
+                               1.0 / rate, 1.0};
 }
 
 LANES_CLONES

@@ -12,7 +12,7 @@
    spread that all modes share and that is 0 unless the strikes show one. What rings on from earlier strikes of a place
    is a state at the stretch's first sample, of their gains. Where no force is known
    a stretch begins after its strike and f is a unit impulse at its first sample. A pulse may lie before its stretch,
-   too: then H brings all in, and where the smooth columns (below) have F there is an impulse at the first sample.
+   too: then H brings all in, F is 0, and there are no smooth columns (below).
 
    In a window of bins what modes outside it leave there, and what goes straight from the force to the sound, is smooth
    in frequency but for F: F(w) (c0 + c1 u + c2 u^2), u from -1 to 1 over the window (a local polynomial, as of the
@@ -46,7 +46,6 @@ struct modal_normal { /* normal equations of the poles (omega, log d), gains and
 
 struct modal_bins { /* of one stretch: its DFT over sqrt(n), bins first ... first + n - 1 */
     long first, n;
-    bool free;        /* its pulse is over when it begins */
     double width;     /* rad/s from bin to bin */
     double *er, *ei;  /* e^(-jw) */
     double *fr, *fi;  /* the force */
@@ -108,8 +107,7 @@ struct modal_block {
     double chi; /* -2 log likelihood: sum of degrees log noise, and the squares of strikes' poles off the shared ones */
     double *noise;   /* [stretches] what a strike's window leaves, over the variance: its noise, and what is no mode */
     double *degrees; /* [stretches] of freedom, of the block as it was opened */
-    double *
-        alike; /* [stretches] bins of what is left that are as good as one: 1 of white noise, more of what is no mode */
+    double *alike;   /* [stretches] bins of what is left that are as good as one: 1 of white noise */
     double normal[2 * MODAL_BLOCK * 2 * MODAL_BLOCK]; /* of the shared poles (omega, log d), all others projected out */
     struct modal_normal *each;                        /* [stretches] of the strikes' own poles */
     struct arena *a;
@@ -131,9 +129,8 @@ void modal_fit_drop(struct modal_fit *f, int i);
 void modal_fit_totals(const struct modal_fit *f, int i, struct modal_part *total);
 void modal_fit_replace(struct modal_fit *f, int i, cplx pole, const struct modal_part *total);
 void modal_fit_sizes(const struct modal_fit *f, int i, double *size); /* [stretches] |x B| at their pulses' ends */
-double modal_fit_lead(const struct modal_fit *f, int stretch,
-                      cplx s);                               /* amplitude of what a lead holds within the pole's
-                                                                          half-width and 2 bins, noise off */
+/* Amplitude of what a lead holds within the pole's half-width and two bins, noise off. */
+double modal_fit_lead(const struct modal_fit *f, int stretch, cplx s);
 void modal_fit_put(struct modal_fit *f, int i, double sign); /* rest += sign (component i) */
 void modal_fit_rest(struct modal_fit *f);                    /* rest anew */
 /* What X of a pole needs on a stretch's bins: p, H - G and its derivative over sqrt(n). */
@@ -178,7 +175,7 @@ void modal_converge_eliminate(struct modal_fit *f, double limit);
 void modal_converge(struct modal_fit *f);
 int modal_converge_runaways(struct modal_fit *f); /* components at the bound of decays, or far louder than there is */
 double modal_converge_limit(const struct modal_fit *f,
-                            double chi4); /* of chi squared of 2 + 2 strikes degrees, as likely
+                            double chi4); /* of chi squared of 2 + 2 stretches degrees, as likely
                                                                       as chi4 of four */
 
 /* modal_spread.c */

@@ -233,7 +233,7 @@ void message_scene(struct cmd_call *c, const struct diag *d, const char *message
 static const char *number_at(const char *text, int *n)
 {
     size_t digits = *text == ':' ? strspn(text + 1, "0123456789") : 0;
-    *n = digits && digits < 10 ? atoi(text + 1) : 0;
+    *n = digits && digits < 10 ? (int)strtol(text + 1, NULL, 10) : 0;
     return *n > 0 ? text + 1 + digits : NULL;
 }
 

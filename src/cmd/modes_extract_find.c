@@ -2,9 +2,9 @@
 
    With a force a stretch begins just before its strike, and what rings on from earlier strikes is carried into it
    (analysis/modal_fit.h), from those too that are left out. What is wrong with a strike is not fitted: of a doubled one
-   it begins after the second pulse, of one that clips where that has ended.
-   Without one it begins a millisecond after the strike, when a hard hammer has left, and has
-   gains of its own, which are taken back to the strike by e^(-s t).
+   the stretch begins after the second pulse, of one that clips where that has ended. Without a force it begins a
+   millisecond after the strike, when a hard hammer has left, and has gains of its own, which are taken back to the
+   strike by e^(-s t).
 
    A microphone's pressure is, without the sizes of a radiator, taken as proportional to the acceleration of the
    surface, as of a small source: gains then hold what the path through the air did to each mode. With them each mode's
@@ -265,10 +265,9 @@ static bool alone(const struct modes_extract *x)
     for (const struct modal_mode *m = x->found.mode; m < x->found.mode + x->found.n; m++) {
         double most = 0.0, sum = 0.0;
         for (int s = 0; s < x->data.stretches; s++) {
-            int q = s;
             if (!x->data.stretch[s].fitted) continue;
-            most = fmax(most, m->re[q] * m->re[q] + m->im[q] * m->im[q]);
-            sum += m->re[q] * m->re[q] + m->im[q] * m->im[q];
+            most = fmax(most, m->re[s] * m->re[s] + m->im[s] * m->im[s]);
+            sum += m->re[s] * m->re[s] + m->im[s] * m->im[s];
         }
         all += m->share;
         common += most / sum <= single ? m->share : 0.0;
