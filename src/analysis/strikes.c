@@ -419,7 +419,7 @@ bool strikes_response(struct strikes_recording *r, double delay, struct arena *a
     const double *x = r->sound.x;
     double length = (double)r->n / r->rate, behind = length - (isnan(delay) ? 0.0 : delay);
     if (behind < shortest)
-        return err_set(e, ERR_SCENE, "%s lasts %.4g s%s; a response takes at least 10 ms", r->name, length,
+        return err_set(e, ERR_SCENE, "%s lasts %.4g ms%s; a response takes at least 10 ms", r->name, 1e3 * length,
                        isnan(delay) ? ""
                                     : arena_format(a, ", of which --delay leaves %.3g ms", 1e3 * fmax(behind, 0.0)));
     long shift = isnan(delay) ? begins(x, r->n) : (long)rint(delay * r->rate);
