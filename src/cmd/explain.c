@@ -115,13 +115,14 @@ static json_t *typed(const struct key *k, struct arena *a)
     case KEY_PLACES:
         return list(list(of_dimension(k, a), 3, 3, NULL), 1, 64, NULL);
     case KEY_LIST: {
+        if (strcmp(k->path, "output.diagnostics.columns") != 0)
+            return list(json_pack("{s:s}", "type", "string"), 1, 1000, NULL);
         json_t *all = json_array();
         const struct params *whose;
         const struct params_column *t;
-        bool columns = !strcmp(k->path, "output.diagnostics.columns");
-        for (int i = 0; columns && (t = scene_table_column(i, &whose)); i++)
+        for (int i = 0; (t = scene_table_column(i, &whose)); i++)
             json_array_append_new(all, json_string(t->name));
-        return list(columns ? json_pack("{s:o}", "enum", all) : json_pack("{s:s}", "type", "string"), 1, 1000, NULL);
+        return list(json_pack("{s:o}", "enum", all), 1, 1000, NULL);
     }
     case KEY_CHOICE: {
         const char *words[64] = {NULL};
