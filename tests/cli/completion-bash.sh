@@ -65,8 +65,8 @@ ask rasp plot --format=s
 ask rasp plan --set=motion.path=s
 
 # every command and every option there is
-for command in $_rasp_commands; do
+for command in $(rasp completion words -- '' | cut -f 1); do
     [ "$command" = help ] || rasp help "$command" | grep -Eo '^ +(-., )?--[a-z0-9-]+' | grep -Eo -e '--.*' | while read -r option; do
-        [[ " $(_rasp_options "$command") " == *" $option "* ]] || echo "$command: $option is not completed"
+        rasp completion words -- "$command" - | grep -e "^$option"'[=[:blank:]]' > /dev/null || echo "$command: $option is not completed"
     done
 done

@@ -39,7 +39,7 @@ import json, sys
 text = json.dumps(json.load(open(sys.argv[1])))
 sys.exit(not ('"swell"' in text and '"swell_gain"' in text and "reatest factor on the force" in text))
 END
-expect_exit 0 rasp completion bash
+expect_exit 0 rasp completion words -- plan --set ""
 expect_text out 'contact\.swell\.most'
 
 # What describes a scene.
