@@ -19,7 +19,7 @@ far = [(x, y) for x, y in zip(a, b)
 print("near" if len(a) == len(b) > 10 and not far else ("far", len(a), len(b), len(far), far[:3]))
 END
 for solid in ball:sphere:diameter=20cm,fineness=1 ring:ring:diameter=14cm,width=10mm,thickness=6mm,fineness=1 \
-    square:plate:length=20cm,width=20cm,thickness=5mm,fineness=1 rod:rod:length=20cm,diameter=1cm; do
+    square:plate:length=20cm,width=20cm,thickness=5mm,fineness=1 rod:rod:length=20cm,diameter=2cm; do
     name=${solid%%:*}
     words=(compute --shape "${solid#*:}" --material steel --modes 20 --top 60kHz --grid "17,17" -q -f)
     rasp modes "${words[@]}" -o "$name.csv"

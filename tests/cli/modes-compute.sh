@@ -46,7 +46,7 @@ compute --shape $ring --material glass --modes 4 --grid 17,9 -q -o grid.csv
 places grid.csv
 compute --shape $ring --material glass --modes 4 --circle 4.5cm --places 8 -q -o circle.csv
 places circle.csv
-for shape in "$ring" bowl:diameter=10cm,height=4cm,thickness=3mm; do # rings, of a bowl to its lip
+for shape in "$ring" bowl:diameter=10cm,height=4cm,thickness=5mm,fineness=1; do # rings, of a bowl to its lip
     compute --shape $shape --material glass --order 2 --modes 10 -q --force -o round.csv
     awk '/^# rings: / { rings++ } /^# interpolation_error: / { told = $3 } END { exit !(rings == 1 && told <= -40) }' round.csv ||
         echo "$shape: $(grep '^# rings\|^# interpolation' round.csv)"
