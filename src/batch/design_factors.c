@@ -24,7 +24,6 @@
 #include "scene/scene_merge.h"
 #include "scene/scene_values.h"
 #include "scene/units.h"
-#include "scene/units_table.h"
 
 /* ------------------------------------------------------------------ what is changed */
 
@@ -108,7 +107,7 @@ static bool leaf_add(const struct design_reading *r, struct design_change *c, co
                      const struct yaml_node *value)
 {
     if (reserved(r, key) || !design_changes_known(r, key) || !value_good(r, key->text, value)) return false;
-    struct yaml_node **path = scene_layer_path(r->yaml, key);
+    struct yaml_node **path = scene_merge_layer_path(r->yaml, key);
     if (!path) return false;
     c->keys = arena_more(r->arena, c->keys, c->n, sizeof *c->keys);
     c->keys[c->n++] = (struct scene_layer_key){path, value};
@@ -200,7 +199,7 @@ static bool quantity_of(const char *label, enum key_dimension bare, struct measu
     double x;
     size_t n = text_number_length(label);
     const char *unit = label + n + strspn(label + n, " \t");
-    const struct units_table_unit *u = *unit ? units_table_find(unit, &power) : NULL;
+    const struct units_unit *u = *unit ? units_find(unit, &power) : NULL;
     if (n == 0 || (*unit && !u) || !text_scaled(label, n, 0, &x)) return false;
     *q = (struct measure){label, *unit ? unit : keys_text_unit(bare), n, u ? u->dimension : bare};
     return true;

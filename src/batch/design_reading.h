@@ -4,7 +4,7 @@
 #define BATCH_DESIGN_READING_H
 #include "batch/design.h"
 #include "file/yaml.h"
-#include "scene/scene_layer.h"
+#include "scene/scene_merge.h"
 
 enum { DESIGN_READING_CELLS = 1000000 /* stimuli at most */ };
 

@@ -11,12 +11,11 @@
 #include "base/wrap.h"
 #include "cmd/cmd.h"
 #include "cmd/report.h"
-#include "scene/keys_man.h"
-#include "scene/keys_reference.h"
 #include "scene/keys_text.h"
-#include "scene/scene_table.h"
+#include "scene/keys_yaml.h"
+#include "scene/params.h"
 #include "scene/scene_write.h"
-#include "scene/units_table.h"
+#include "scene/units.h"
 
 /* ------------------------------------------------------------------ JSON Schemas (draft 2020-12), for editors
 
@@ -76,7 +75,7 @@ static json_t *number(double x) { return x == floor(x) && fabs(x) < 1e15 ? json_
 static json_t *quantity(enum key_dimension dimension, double low, double high, bool whole, const char *word,
                         struct arena *a)
 {
-    const char *units = units_table_pattern(dimension, a);
+    const char *units = units_pattern(dimension, a);
     const char *text = arena_format(a, "%s%s", number_pattern, *units ? arena_format(a, "([ \\t]*(%s))?", units) : "");
     text = word ? arena_format(a, "^(%s|%s)$", word, text) : arena_format(a, "^%s$", text);
     json_t *o =
@@ -120,7 +119,7 @@ static json_t *typed(const struct key *k, struct arena *a)
         json_t *all = json_array();
         const struct params *whose;
         const struct params_column *t;
-        for (int i = 0; (t = scene_table_column(i, &whose)); i++)
+        for (int i = 0; (t = params_column(i, &whose)); i++)
             json_array_append_new(all, json_string(t->name));
         return list(json_pack("{s:o}", "enum", all), 1, 1000, NULL);
     }
@@ -437,7 +436,7 @@ static bool explain_path(const char *path, const char **names, struct arena *a)
     if (columns) fputs("  columns\n", stdout);
     const struct params *whose;
     const struct params_column *t;
-    for (int i = 0; columns && (t = scene_table_column(i, &whose)); i++)
+    for (int i = 0; columns && (t = params_column(i, &whose)); i++)
         wrap_print(stdout, t->meaning, printf("    %-22s ", t->name), "                           ");
     return true;
 }
@@ -541,8 +540,8 @@ static int explain_run(struct cmd_call *c, struct err *e)
     const struct params *whose;
     const struct params_column *t;
     if (args_given(&c->args, "man")) {
-        if (cmd_either(c, "man", parts, &part, e) && part == 0) keys_man_print(stdout, c->arena);
-        for (int k = 0; part == 1 && (t = scene_table_column(k, &whose)); k++)
+        if (cmd_either(c, "man", parts, &part, e) && part == 0) keys_text_man(stdout, c->arena);
+        for (int k = 0; part == 1 && (t = params_column(k, &whose)); k++)
             printf(".It Ic %s\n%c%s.\n", t->name, toupper((unsigned char)t->meaning[0]), t->meaning + 1);
     } else if (args_given(&c->args, "schema")) {
         if (cmd_either(c, "schema", schemas, &of, e)) {
@@ -552,7 +551,7 @@ static int explain_run(struct cmd_call *c, struct err *e)
     } else if (args_given(&c->args, "json"))
         explain_json(schema, word, names, c->arena, e);
     else if (!word)
-        keys_reference_print(stdout, c->arena);
+        keys_yaml_reference(stdout, c->arena);
     else if (explain_path(keys_text_plain(word), names, c->arena)) {
         if (key) /* of scenes and of designs, each with a meaning of its own */
             wrap_print(stdout, design_text(key), printf("  designs   have one, too: "), "            ");

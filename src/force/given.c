@@ -13,7 +13,6 @@
 #include "num/resample.h"
 #include "scene/rows.h"
 #include "scene/rules.h"
-#include "scene/scene_check.h"
 #include "scene/scene_part.h"
 #include "stage.h"
 #include "trajectory/series.h"
@@ -52,10 +51,10 @@ static void check(const struct scene_part *p, const struct contact *c, const voi
         kind++;
     if (!g->file || kind == 3) return;
     if (kind == 0 && access(g->file, F_OK) == 0)
-        scene_check_missing(p, "contact.given.scale", "10 N",
-                            ": a WAV does not say how many newtons its full scale stands for");
+        scene_part_missing(p, "contact.given.scale", "10 N",
+                           ": a WAV does not say how many newtons its full scale stands for");
     if (kind == 1 && access(g->file, F_OK) == 0)
-        scene_check_missing(p, "contact.given.rate", "48 kHz", ": an NPY does not say how many samples a second has");
+        scene_part_missing(p, "contact.given.rate", "48 kHz", ": an NPY does not say how many samples a second has");
     const bool given[] = {g->channel > 1, !isnan(g->rate),
                           g->column && strcmp(g->column, "force_n") != 0}; /* defaults stand in every effective scene */
     for (int i = 0; i < 3; i++)

@@ -24,7 +24,6 @@
 #include "force/impact_density.h"
 #include "num/real.h"
 #include "scene/rows.h"
-#include "scene/scene_check.h"
 #include "scene/scene_part.h"
 #include "trajectory/series.h"
 
@@ -153,17 +152,17 @@ static void draws_missing(const struct scene_part *p, const struct impact_draws 
 {
     struct arena *a = p->yaml->arena;
     static const char because[] = ": of custom nothing is known that is not given";
-    scene_check_missing(p, arena_format(a, "contact.impacts.%s.mean", series), mean, because);
+    scene_part_missing(p, arena_format(a, "contact.impacts.%s.mean", series), mean, because);
     if (d->distribution != DISTRIBUTION_TABLE &&
         scene_part_known(p, arena_format(a, "contact.impacts.%s.distribution", series)))
-        scene_check_missing(p, arena_format(a, "contact.impacts.%s.deviation", series), deviation, because);
+        scene_part_missing(p, arena_format(a, "contact.impacts.%s.deviation", series), deviation, because);
 }
 
 static void modulation_check(const struct scene_part *p, const struct impacts *m)
 {
     const char *rate = "contact.impacts.modulation.rate";
     if (m->depth > 0)
-        scene_check_missing(p, rate, "5 Hz", ": contact.impacts.modulation.depth is above 0");
+        scene_part_missing(p, rate, "5 Hz", ": contact.impacts.modulation.depth is above 0");
     else if (scene_part_given(p, rate) && !isnan(m->rate))
         scene_part_refuse(
             p, rate, rate, "remove it, or give contact.impacts.modulation.depth",
@@ -174,7 +173,7 @@ static void custom_check(const struct scene_part *p, const struct impacts *m)
 {
     draws_missing(p, &m->amplitude, "amplitude", "0.3", "0.05");
     draws_missing(p, &m->interval, "interval", "5 ms", "1 ms");
-    scene_check_missing(p, "contact.impacts.duration.zeta", "0.4 ms", ": of custom nothing is known that is not given");
+    scene_part_missing(p, "contact.impacts.duration.zeta", "0.4 ms", ": of custom nothing is known that is not given");
     modulation_check(p, m);
 }
 

@@ -19,7 +19,7 @@
 #include "force/approach.h"
 #include "force/hertz.h"
 #include "scene/rows.h"
-#include "scene/scene_check.h"
+#include "scene/scene_part.h"
 #include "scene/scene_sense_parts.h"
 #include "stage.h"
 #include "trajectory/trajectory.h"
@@ -70,11 +70,11 @@ static void stiffness_check(const struct scene_part *p, const struct contact *c,
 {
     if (scene_part_given(p, "contact.strike.stiffness")) return;
     if (s->pulse == PULSE_HALF_SINE) {
-        scene_check_missing(p, "contact.strike.stiffness", "2 MN/m", ": a half_sine pulse needs it");
+        scene_part_missing(p, "contact.strike.stiffness", "2 MN/m", ": a half_sine pulse needs it");
         return;
     }
-    scene_check_missing(p, "scraper.radius", "5 mm",
-                        ": the stiffness of the impact follows from it, unless contact.strike.stiffness is given");
+    scene_part_missing(p, "scraper.radius", "5 mm",
+                       ": the stiffness of the impact follows from it, unless contact.strike.stiffness is given");
     scene_sense_model_moduli(p, c,
                              "the stiffness of the impact follows from it, unless contact.strike.stiffness is given");
 }

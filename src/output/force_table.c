@@ -10,8 +10,8 @@
 #include "force/strike.h"
 #include "num/decimal.h"
 #include "scene/ball.h"
+#include "scene/params.h"
 #include "scene/rules.h"
-#include "scene/scene_table.h"
 #include "stage.h"
 #include "surface/limiter.h"
 #include "trajectory/load.h"
@@ -170,7 +170,7 @@ static int column_find(const char *name)
 {
     const struct params *whose;
     const struct params_column *c;
-    for (int k = 0; (c = scene_table_column(k, &whose)); k++)
+    for (int k = 0; (c = params_column(k, &whose)); k++)
         if (strcmp(c->name, name) == 0) return k;
     return -1;
 }
@@ -183,7 +183,7 @@ static bool column_exists(const struct contact *c, int k)
 #include "scene/columns.def"
 #undef COLUMN
     };
-    return k < COLUMNS ? exists[k] : scene_table_column(k, &whose) && params_given(c, whose);
+    return k < COLUMNS ? exists[k] : params_column(k, &whose) && params_given(c, whose);
 }
 
 /* Does the scene ask for any column from `first` to `last`? */
@@ -209,7 +209,7 @@ static unsigned force_table_asks(const struct contact *c, const struct scene *s)
     if (load_varies(c) && column_asked(c, s, ALPHA, ALPHA) && column_exists(c, ALPHA)) items |= ITEM_BIT(ITEM_ALPHA);
     if (column_asked(c, s, MEAN, PEAK)) items |= ITEM_BIT(ITEM_FORCE);
     const struct params *whose;
-    for (int k = COLUMNS; scene_table_column(k, &whose); k++)
+    for (int k = COLUMNS; params_column(k, &whose); k++)
         if (column_asked(c, s, k, k)) items |= whose->gives;
     return items | ITEM_BIT(ITEM_MOTION); /* read at a row's own instant */
 }
@@ -232,7 +232,7 @@ static bool columns_choose(struct force_table *t, const struct stage_run *r, str
 {
     const char **names = r->scene->output.diagnostics.columns;
     const struct params *whose;
-    while (t->n < MOST && (t->of[t->n] = scene_table_column(t->n, &whose))) {
+    while (t->n < MOST && (t->of[t->n] = params_column(t->n, &whose))) {
         t->wanted[t->n] = !names && column_exists(r->contact, t->n);
         for (int i = 0; whose && i < r->board->n_stages; i++)
             if (r->board->stages[i].stage->params == whose) t->by[t->n] = &r->board->stages[i];

@@ -10,7 +10,7 @@
 #include "scene/ball.h"
 #include "scene/keys.h"
 #include "scene/scene_places.h"
-#include "scene/scene_write_inputs.h"
+#include "scene/scene_write.h"
 
 static const char *why_unreadable(const char *file)
 {
@@ -86,7 +86,7 @@ bool inputs_check(const struct scene *s, struct arena *a, struct err *e)
 struct watch inputs_watch(const struct scene *s, struct arena *a)
 {
     int n;
-    const char **files = scene_write_inputs_files(s, &n, a);
+    const char **files = scene_write_inputs(s, &n, a);
     return watch_begin(files, n, a);
 }
 

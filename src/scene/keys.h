@@ -63,7 +63,7 @@ struct key {
     const char *applies;  /* "key=word|word", "key", "!key" or NULL, see keys.def */
     const char *meaning;
     const struct choice *choices;
-    const char *example; /* where there is no default: a value that shows what is meant; NULL: scene_example.c has it */
+    const char *example; /* where there is no default: a value that shows what is meant; NULL: scene_values.c has it */
     const struct params *in; /* whose row it is (scene/params.h); NULL: of keys.def */
 };
 

@@ -1,8 +1,11 @@
-/* See keys_text.h: the phrases. keys_text_print.c lays them out. */
+/* See keys_text.h: the phrases, as the texts of `rasp explain KEY`, and as mdoc(7). */
 #include "scene/keys_text.h"
 
+#include <ctype.h>
 #include <string.h>
 
+#include "base/wrap.h"
+#include "scene/keys_yaml.h"
 #include "scene/units.h"
 
 const struct keys_text_frame keys_text_frames[] = {
@@ -194,4 +197,253 @@ const char *keys_text_plain(const char *path)
     if (strncmp(path, "contacts.", 9) != 0) return path;
     const char *rest = path + 9, *dot = strchr(rest, '.');
     return is_known(rest) || !dot ? rest : dot + 1;
+}
+
+/* ------------------------------------------------------------------ `rasp explain KEY` */
+
+#define MARGIN "            "
+
+static void print_fact(FILE *f, const char *name, const char *text)
+{
+    if (!text) return;
+    fprintf(f, "  %-10s", name);
+    wrap_print(f, text, 12, MARGIN);
+}
+
+static void print_words(FILE *f, const struct choice *choices)
+{
+    fputs("  words\n", f);
+    for (const struct choice *c = choices; c->word; c++) {
+        int n = fprintf(f, "    %-16s", c->word);
+        wrap_print(f, c->meaning, n, "                    ");
+    }
+}
+
+static void print_choose(FILE *f, const char *path, struct arena *a)
+{
+    for (const struct key_alternative *t = keys_alternatives; t->paths[0]; t++)
+        if (keys_text_has(t, path))
+            print_fact(f, "choose", arena_format(a, "%s%s", keys_text_rivals(t, a), keys_text_rivals_apply(t, a)));
+}
+
+void keys_text_print_key(FILE *f, const struct key *k, struct arena *a)
+{
+    int n = fprintf(f, "%s: ", k->path);
+    wrap_print(f, k->meaning, n, MARGIN);
+    print_fact(f, "type", keys_text_type(k));
+    print_fact(f, "range", keys_text_range(k, a));
+    print_fact(f, "default", keys_text_default(k));
+    print_fact(f, "applies", keys_text_applies(k, a));
+    print_choose(f, k->path, a);
+    print_fact(f, "belongs",
+               k->of == KEY_SCENE ? "to the scene" : "to a contact: at the top level, or in each entry of contacts");
+    if (k->choices) print_words(f, k->choices);
+}
+
+static const char *map_meaning(const char *path)
+{
+    for (const struct key_section *s = keys_sections; s->path; s++)
+        if (!strcmp(s->path, path)) return s->meaning;
+    for (const struct keys_text_frame *p = keys_text_frames; p->path; p++)
+        if (!strcmp(p->path, path)) return p->meaning;
+    return NULL;
+}
+
+void keys_text_print_map(FILE *f, const char *path, struct arena *a)
+{
+    const char *meaning = map_meaning(path);
+    size_t length = strlen(path);
+    fprintf(f, "%s%s", path, meaning ? ": " : "\n");
+    if (meaning) wrap_print(f, meaning, (int)length + 2, MARGIN);
+    for (const struct keys_text_frame *p = keys_text_frames; p->path; p++)
+        if (!strcmp(p->path, path)) print_fact(f, "type", p->type);
+    print_choose(f, path, a);
+    for (const struct key *k = keys_table; k->path; k++) {
+        if (strncmp(k->path, path, length) != 0 || k->path[length] != '.') continue;
+        int n = fprintf(f, "  %-33s ", k->path);
+        wrap_print(f, arena_format(a, "%s (%s)", k->meaning, keys_text_default(k)), n,
+                   "                                    ");
+    }
+}
+
+static void print_presets(FILE *f, const struct key_knob *k, struct arena *a)
+{
+    for (int i = 0; i < 4; i++)
+        fprintf(f, "  %10s", keys_yaml_number(k->preset[i], a));
+    fputc('\n', f);
+}
+
+static void print_preset_names(FILE *f, int width)
+{
+    fprintf(f, "  %-*s", width, "");
+    for (int i = 0; i < 4; i++)
+        fprintf(f, "  %10s", keys_presets[i]);
+    fputc('\n', f);
+}
+
+void keys_text_print_knob(FILE *f, const struct key_knob *k, struct arena *a)
+{
+    int n = fprintf(f, "accuracy.%s: ", k->name);
+    wrap_print(f, k->meaning, n, MARGIN);
+    print_fact(f, "type", k->whole ? "whole number" : "number");
+    print_fact(f, "range", arena_format(a, "%.6g to %.6g", k->low, k->high));
+    print_preset_names(f, 9);
+    fprintf(f, "  %-9s", "preset");
+    print_presets(f, k, a);
+}
+
+void keys_text_print_accuracy(FILE *f, struct arena *a)
+{
+    keys_text_print_map(f, "accuracy", a);
+    print_preset_names(f, 16);
+    for (const struct key_knob *k = keys_knobs; k->name; k++) {
+        fprintf(f, "  %-16s", k->name);
+        print_presets(f, k, a);
+    }
+    for (const struct key_knob *k = keys_knobs; k->name; k++) {
+        int n = fprintf(f, "  %-16s  ", k->name);
+        wrap_print(f, k->meaning, n, "                    ");
+    }
+}
+
+/* ------------------------------------------------------------------ man rasp-scene(5) */
+
+/* One .Ss for the scene's own keys and one for each top-level map; a sentence begins a line, as mdoc asks for. */
+
+/* Text with roff's own characters made harmless. */
+static void put_text(FILE *f, const char *text)
+{
+    if (*text == '.' || *text == '\'') fputs("\\&", f);
+    for (; *text; text++) {
+        if (*text == '\\')
+            fputs("\\e", f);
+        else if (*text == '-')
+            fputs("\\-", f);
+        else if (*text == '^')
+            fputs("\\(ha", f);
+        else
+            fputc(*text, f);
+    }
+}
+
+static void put_sentence(FILE *f, const char *text)
+{
+    put_text(f, text);
+    fputs(text[strlen(text) - 1] == '.' ? "\n" : ".\n", f);
+}
+
+/* The same with a capital letter, unless the first word is a name or a symbol. */
+static void put_opening(FILE *f, const char *text, struct arena *a)
+{
+    char *copy = arena_text(a, text);
+    size_t word = strcspn(copy, " :_,");
+    if (copy[word] == ' ' && word > 1 && strncmp(copy, "alpha ", 6) != 0)
+        copy[0] = (char)toupper((unsigned char)copy[0]);
+    put_sentence(f, copy);
+}
+
+static void put_words(FILE *f, const struct choice *choices)
+{
+    fputs(".Bl -tag -width Ds -compact\n", f);
+    for (const struct choice *c = choices; c->word; c++) {
+        fprintf(f, ".It Cm %s\n", c->word);
+        put_sentence(f, c->meaning);
+    }
+    fputs(".El\n", f);
+}
+
+static void put_rivals(FILE *f, const char *path, struct arena *a)
+{
+    for (const struct key_alternative *t = keys_alternatives; t->paths[0]; t++)
+        for (int i = 0; t->paths[i]; i++)
+            if (!strcmp(t->paths[i], path))
+                put_opening(f,
+                            arena_format(a, "%s %s be given%s", keys_text_rivals(t, a), t->least ? "must" : "may",
+                                         keys_text_rivals_apply(t, a)),
+                            a);
+}
+
+static void put_key(FILE *f, const struct key *k, struct arena *a)
+{
+    const char *range = keys_text_range(k, a), *when = keys_text_applies(k, a);
+    fprintf(f, ".It Ic %s\n", k->path);
+    put_opening(f, k->meaning, a);
+    if (keys_same_words(k))
+        put_sentence(f, arena_format(a, "Type: one of the words of %s", keys_same_words(k)->path));
+    else
+        put_sentence(f, arena_format(a, "Type: %s", keys_text_type(k)));
+    if (range) put_sentence(f, arena_format(a, "Range: %s", range));
+    put_sentence(f, arena_format(a, "Default: %s", k->standard ? keys_text_default(k) : "none, it must be given"));
+    if (when) put_opening(f, arena_format(a, "only %s", when), a);
+    put_rivals(f, k->path, a);
+    if (k->choices && !keys_same_words(k)) put_words(f, k->choices);
+}
+
+static void put_section(FILE *f, const struct key_section *s, struct arena *a)
+{
+    fprintf(f, ".It Ic %s\n", s->path);
+    put_opening(f, arena_format(a, "Section: %s", s->meaning), a);
+    put_rivals(f, s->path, a);
+}
+
+/* Does the section's item stand before this key: is the key the section's first? */
+static bool opens_section(const struct key *k, const struct key_section *s)
+{
+    size_t n = strlen(s->path);
+    if (strncmp(k->path, s->path, n) != 0 || k->path[n] != '.') return false;
+    return k == keys_table || strncmp(k[-1].path, s->path, n) != 0 || k[-1].path[n] != '.';
+}
+
+static bool same_group(const struct key *k, const char *map)
+{
+    size_t n = strcspn(k->path, ".");
+    return k->path[n] ? strlen(map) == n && !strncmp(k->path, map, n) : !*map;
+}
+
+static void put_group(FILE *f, const char *map, struct arena *a)
+{
+    fprintf(f, ".Ss %s\n.Bl -tag -width Ds\n", *map ? map : "The scene itself");
+    for (const struct key *k = keys_table; k->path; k++) {
+        if (!same_group(k, map)) continue;
+        for (const struct key_section *s = keys_sections; s->path; s++)
+            if (opens_section(k, s)) put_section(f, s, a);
+        put_key(f, k, a);
+    }
+    for (const struct keys_text_frame *p = keys_text_frames; !*map && p->path; p++) {
+        fprintf(f, ".It Ic %s\n", p->path);
+        put_opening(f, p->meaning, a);
+        put_sentence(f, arena_format(a, "Type: %s", p->type));
+    }
+    fputs(".El\n", f);
+}
+
+static void put_knobs(FILE *f, struct arena *a)
+{
+    fputs(".Ss accuracy\n.Bl -column \"oversampling\" \"draft\" \"standard\" \"high\" \"reference\"\n.It knob Ta draft "
+          "Ta standard Ta high Ta reference\n",
+          f);
+    for (const struct key_knob *k = keys_knobs; k->name; k++) {
+        fprintf(f, ".It Ic %s", k->name);
+        for (int i = 0; i < 4; i++)
+            fprintf(f, " Ta %s", keys_yaml_number(k->preset[i], a));
+        fputc('\n', f);
+    }
+    fputs(".El\n.Bl -tag -width Ds\n", f);
+    for (const struct key_knob *k = keys_knobs; k->name; k++) {
+        fprintf(f, ".It Ic accuracy.%s\n", k->name);
+        put_opening(f, k->meaning, a);
+        put_sentence(f, arena_format(a, "Range: %.6g to %.6g%s", k->low, k->high, k->whole ? ", a whole number" : ""));
+    }
+    fputs(".El\n", f);
+}
+
+void keys_text_man(FILE *f, struct arena *a)
+{
+    put_group(f, "", a);
+    for (const struct key *k = keys_table; k->path; k++) {
+        size_t n = strcspn(k->path, ".");
+        bool first = k->path[n] && (k == keys_table || strncmp(k[-1].path, k->path, n + 1) != 0);
+        if (first) put_group(f, arena_format(a, "%.*s", (int)n, k->path), a);
+    }
+    put_knobs(f, a);
 }

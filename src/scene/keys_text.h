@@ -35,4 +35,7 @@ void keys_text_print_map(FILE *f, const char *path, struct arena *a); /* what a 
 void keys_text_print_knob(FILE *f, const struct key_knob *k, struct arena *a);
 void keys_text_print_accuracy(FILE *f, struct arena *a); /* the table of presets                      */
 
+/* The keys, sections and accuracy knobs as mdoc(7), for man/rasp-scene.5. */
+void keys_text_man(FILE *f, struct arena *a);
+
 #endif

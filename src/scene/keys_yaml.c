@@ -3,6 +3,7 @@
 #include "scene/keys_yaml.h"
 
 #include <inttypes.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,6 +11,8 @@
 #include "base/text.h"
 #include "base/wrap.h"
 #include "scene/keys.h"
+#include "scene/keys_text.h"
+#include "scene/params.h"
 
 static bool under(const char *path, const char *map, size_t length)
 {
@@ -148,4 +151,232 @@ const char *keys_yaml_number(double x, struct arena *a)
         if (strtod(text, NULL) == x) break;
     }
     return arena_text(a, text);
+}
+
+/* ------------------------------------------------------------------ the reference scene */
+
+/* From the tables come keys, defaults, ranges, meanings; only what has no default is shown by an
+   example from here. A key is commented out when it stands for something else than the scene shows: a rival of a key
+   that is given, a section that is not, or a key that does not apply. */
+
+/* A path that begins with a dot stands for those of the surface, the scraper and the ball. */
+static const struct {
+    const char *path, *value;
+    bool off;
+} examples[] = {
+    {"rasp", "1", false},
+    {"title", "\"a tool scraped back and forth on a rough plank\"", false},
+    {"surface.recipe", "plank.yaml", true},
+    {"surface.height_map", "plank.npy", true},
+    {"surface.pitch", "5 um", true},
+    {"surface.height_range", "100 um", true},
+    {"surface.continuation.exponent", "-2.4", true},
+    {"surface.continuation.from", "50 um", true},
+    {"surface.roughness.like", "plank.gsf", true},
+    {"surface.roughness.like_pitch", "5 um", true},
+    {"surface.response", "plank.csv", true},
+    {"ablation.place", "[5 cm, 2 cm]", true},
+    {"output.duration", "3 s", true},
+    {".object.shape", "plate", true},
+    {".object.length", "30 cm", true},
+    {".object.width", "20 cm", true},
+    {".object.diameter", "10 cm", true},
+    {".object.thickness", "5 mm", true},
+    {".object.tension", "80 N", true},
+    {".object.surface_tension", "2 kN/m", true},
+    {".object.youngs_modulus", "12 GPa", true},
+    {".object.youngs_modulus_across", "0.8 GPa", true},
+    {".object.shear_modulus", "0.9 GPa", true},
+    {".object.poisson", "0.35", true},
+    {".object.density", "650 kg/m^3", true},
+    {".object.alpha", "10 1/s", true},
+    {".object.beta", "0.1 us", true},
+    {".object.loss", "0.01", true},
+    {"surface.space.to", "[-0.5, 0.86]", true},
+    {"surface.space.dimension_to", "3", true},
+    {"scraper.mass", "20 g", false},
+    {"scraper.radius", "1 mm", true},
+    {"scraper.response", "tool.csv", true},
+    {"ball.radius", "1 cm", true},
+    {"ball.mass", "11 g", true},
+    {"ball.wall", "2 mm", true},
+    {"ball.response", "ball.csv", true},
+    {"motion.path", "back_and_forth", false},
+    {"motion.to", "[4.5 cm, 0 cm]", false},
+    {"motion.radius", "2 cm", true},
+    {"motion.points", "[[0 cm, 0 cm], [3 cm, 1 cm], [6 cm, 0 cm]]", true},
+    {"motion.file", "recording.csv", true},
+    {"motion.rate", "2 Hz", false},
+    {"motion.speed", "10 cm/s", true},
+    {"motion.duration", "2 s", false},
+    {"motion.profile", "speed.csv", true},
+    {"load.constant", "1.5 N", true},
+    {"load.recorded", "force.csv", true},
+    {"contact.strike.speed", "1 m/s", true},
+    {"contact.strike.stiffness", "1e8 N/m^1.5", true},
+    {"contact.strike.interval", "0.5 s", true},
+    {"contact.strike.restitution", "0.7", true},
+    {"contact.given.file", "force.wav", true},
+    {"contact.given.scale", "10 N", true},
+    {"contact.given.rate", "48 kHz", true},
+    {"contact.roll.stiffness", "2e9 N/m^1.5", true},
+    {"contact.roll.kappa", "5e9 N/(m^1.5 kg)", true},
+    {"contact.roll.static_penetration", "8 um", true},
+    {"contact.impacts.prototype", "roll", true},
+    {"contact.impacts.amplitude.mean", "0.35", true},
+    {"contact.impacts.amplitude.deviation", "0.04", true},
+    {"contact.impacts.amplitude.a1", "-0.95", true},
+    {"contact.impacts.amplitude.b1", "0.2", true},
+    {"contact.impacts.amplitude.table", "amplitudes.csv", true},
+    {"contact.impacts.interval.mean", "5 ms", true},
+    {"contact.impacts.interval.deviation", "0.5 ms", true},
+    {"contact.impacts.interval.a1", "-0.95", true},
+    {"contact.impacts.interval.b1", "0", true},
+    {"contact.impacts.interval.table", "intervals.csv", true},
+    {"contact.impacts.duration.zeta", "0.4 ms", true},
+    {"contact.impacts.duration.theta", "0.29", true},
+    {"contact.impacts.modulation.depth", "0.3", true},
+    {"contact.impacts.modulation.rate", "3 Hz", true},
+    {"contact.impacts.floor.amplitude", "0.01", true},
+    {"contact.impacts.space.angle_to", "-120 deg", true},
+    {"contact.impacts.space.radius_to", "0.5", true},
+    {"contact.impacts.space.walk", "walk.csv", true},
+    {"contact.limiter.force_range", "[0.2 N, 5 N]", true},
+    {"output.listen.places", "[[0 m, 0 m, 1 m], [20 cm, 0 m, 1 m]]", true},
+    {"output.stems", "[force, surface, scraper]", true},
+    {"output.level.full_scale", "0.01", true},
+    {"output.level.peak", "-3 dB", true},
+    {"output.level.rms", "-20 dB", true},
+    {"output.level.lufs", "-23 LUFS", true},
+    {"output.level.dbfs_at_1_pa", "-20 dB", true},
+    {"output.diagnostics.columns", "[time_s, speed_m_per_s, normal_force_n]", true},
+    {NULL, NULL, false},
+};
+
+static const char *const sections_off[] = {
+    "surface.object", "surface.space", "scraper.object", "ball.object", "grip", "output.listen", NULL};
+
+static const char head[] =
+    "# Every key of a scene, with its default. It is a scene: rasp check takes it as it stands.\n"
+    "# A line that begins with #key: is an alternative or may be left out; remove the # to use it.\n"
+    "# A bare number is in SI units (m, s, kg, N, Hz, rad); with a unit it is what the unit says: 20 g, 5.6 um, 30 "
+    "deg.\n"
+    "\n";
+
+static const char tail[] =
+    "\n"
+    "# Several contacts, whose sounds add up, stand in a list instead of at the top level:\n"
+    "#contacts:\n"
+    "#  - name: rod\n"
+    "#    surface: {roughness: {rms: 4 um}}\n"
+    "#    scraper: {mass: 20 g}\n"
+    "#    motion: {path: line, to: [10 cm, 0 cm], speed: 5 cm/s}\n"
+    "#  - name: comb\n"
+    "#    start: 0.5 s\n"
+    "#    surface: {roughness: {rms: 9 um}}\n"
+    "#    scraper: {mass: 8 g}\n"
+    "#    motion: {path: line, to: [10 cm, 0 cm], speed: 20 cm/s}\n"
+    "\n"
+    "# Scene files to build on: maps merge, lists are replaced, this file wins. Names are as seen from this file.\n"
+    "#include: [plank.yaml, hand.yaml]\n";
+
+static int example(const char *path)
+{
+    const char *rest = path + strcspn(path, ".");
+    for (int i = 0; examples[i].path; i++)
+        if (!strcmp(examples[i].path, examples[i].path[0] == '.' ? rest : path)) return i;
+    return -1;
+}
+
+const char *keys_yaml_example(const char *path)
+{
+    int i = example(path);
+    const struct key *k = i < 0 ? keys_find(path) : NULL;
+    return i >= 0 ? examples[i].value : k ? k->example : NULL;
+}
+
+static const char *shown(const struct key *k)
+{
+    const char *value = keys_yaml_example(k->path);
+    return value ? value : k->standard ? k->standard : "";
+}
+
+static bool is_off(const struct key *k);
+
+static bool applies(const struct key *k)
+{
+    const struct key *decides = keys_decider(k);
+    if (!decides) return true;
+    return applies(decides) &&
+           (keys_words(k) ? keys_applies_with(k, shown(decides)) : keys_applies_beside(k, !is_off(decides)));
+}
+
+static bool is_off(const struct key *k)
+{
+    int i = example(k->path);
+    for (const char *const *s = sections_off; *s; s++)
+        if (!strncmp(k->path, *s, strlen(*s)) && k->path[strlen(*s)] == '.') return true;
+    if (k->in && !k->in->shown) return true;
+    return (i >= 0 && examples[i].off) || (i < 0 && k->standard && !*k->standard) || !applies(k);
+}
+
+static const char *rivals(const char *path, struct arena *a)
+{
+    for (const struct key_alternative *t = keys_alternatives; t->paths[0]; t++)
+        for (int i = 0; t->paths[i]; i++)
+            if (!strcmp(t->paths[i], path))
+                return arena_format(a, "; %s%s", keys_text_rivals(t, a), keys_text_rivals_apply(t, a));
+    return "";
+}
+
+static const char *comment(const struct key *k, struct arena *a)
+{
+    const char *range = keys_text_range(k, a), *when = keys_text_applies(k, a);
+    const char *all = arena_format(a, "%s%s%s%s%s%s", k->meaning, range ? "; " : "", range ? range : "",
+                                   when ? "; only " : "", when ? when : "", rivals(k->path, a));
+    if (keys_same_words(k)) return arena_format(a, "%s; words: see %s", all, keys_same_words(k)->path);
+    for (const struct choice *c = k->choices; c && c->word; c++)
+        all = arena_format(a, "%s\n- %s: %s", all, c->word, c->meaning);
+    return all;
+}
+
+static const char *knob_comment(const struct key_knob *k, struct arena *a)
+{
+    const char *all = arena_format(a, "%s; %.6g to %.6g;", k->meaning, k->low, k->high);
+    for (int i = 0; i < 4; i++)
+        all = arena_format(a, "%s %s %s%s", all, keys_presets[i], keys_yaml_number(k->preset[i], a), i < 3 ? "," : "");
+    return all;
+}
+
+static void print_knobs(FILE *f, struct arena *a)
+{
+    int n = 2, room = 2;
+    for (const struct key_knob *k = keys_knobs; k->name; k++)
+        room++;
+    struct keys_line *lines = ARENA_TAKE(a, struct keys_line, room);
+    lines[0] = (struct keys_line){.path = "accuracy.preset", .value = "standard"};
+    lines[1] = (struct keys_line){.path = "accuracy.error", .value = "-80 dB", .off = true};
+    for (const struct keys_text_frame *p = keys_text_frames; p->path; p++)
+        for (int i = 0; i < 2; i++)
+            if (!strcmp(p->path, lines[i].path)) lines[i].comment = p->meaning;
+    for (const struct key_knob *k = keys_knobs; k->name; k++)
+        lines[n++] = (struct keys_line){.path = arena_format(a, "accuracy.%s", k->name),
+                                        .value = keys_yaml_number(k->preset[1], a),
+                                        .comment = knob_comment(k, a)};
+    keys_yaml_print(f, lines, n, &(struct keys_style){.comments = true});
+}
+
+void keys_yaml_reference(FILE *f, struct arena *a)
+{
+    int n = 0;
+    while (keys_table[n].path)
+        n++;
+    struct keys_line *lines = ARENA_TAKE(a, struct keys_line, n);
+    for (int i = 0; i < n; i++)
+        lines[i] = (struct keys_line){keys_table[i].path, shown(&keys_table[i]), comment(&keys_table[i], a),
+                                      is_off(&keys_table[i])};
+    fputs(head, f);
+    keys_yaml_print(f, lines, n, &(struct keys_style){.comments = true});
+    print_knobs(f, a);
+    fputs(tail, f);
 }

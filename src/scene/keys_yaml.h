@@ -27,4 +27,10 @@ const char *keys_yaml_quoted(const char *text, struct arena *a);
 /* The shortest of %.15g, %.16g, %.17g that reads back as the same number. */
 const char *keys_yaml_number(double x, struct arena *a);
 
+/* The annotated reference scene: every key there is, in a scene that is valid as it stands. */
+void keys_yaml_reference(FILE *f, struct arena *a);
+
+/* The value that the reference scene shows for a key that has no default, or NULL. */
+const char *keys_yaml_example(const char *path);
+
 #endif

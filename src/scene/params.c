@@ -78,8 +78,18 @@ void params_check(const struct scene_part *p, const struct contact *c)
 
 /* ------------------------------------------------------------------ columns */
 
+static const struct params_column columns[] = {
+#define COLUMN(id, name, exists, needs, meaning) {name, meaning, NULL},
+#include "scene/columns.def"
+#undef COLUMN
+};
+enum { COLUMNS = sizeof columns / sizeof *columns };
+
 const struct params_column *params_column(int k, const struct params **whose)
 {
+    *whose = NULL;
+    if (k < COLUMNS) return &columns[k];
+    k -= COLUMNS;
     for (int i = 0; (*whose = stages_params(i)); i++)
         for (const struct params_column *c = (*whose)->columns; c && c->name; c++)
             if (k-- == 0) return c;

@@ -83,7 +83,8 @@ double params_kinked_span(const struct contact *c);
 /* Its rules, and those of its function, of all that are given. */
 void params_check(const struct scene_part *p, const struct contact *c);
 
-/* The k-th of the columns of all, and whose it is; NULL: there are no more. */
+/* The k-th of all columns there are, and whose it is: first those of columns.def, of nobody (NULL), then those of
+ * effects; NULL: there are no more. */
 const struct params_column *params_column(int k, const struct params **whose);
 
 #endif

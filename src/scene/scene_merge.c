@@ -1,10 +1,12 @@
-/* Includes: see scene_merge.h. `accuracy: high` counts as {preset: high} when knobs are laid over it; a preset laid
+/* A scene's tree: see scene_merge.h.
+   `accuracy: high` counts as {preset: high} when knobs are laid over it; a preset laid
    over knobs replaces them all. */
 #include "scene/scene_merge.h"
 
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/text.h"
 #include "file/bytes.h"
 #include "file/yaml.h"
 
@@ -28,7 +30,8 @@ const char *scene_merge_path(struct yaml *y, const struct diag_source *source, c
 
 /* ------------------------------------------------------------------ merging */
 
-void scene_merge_replace(struct yaml_node *in, struct yaml_node *old, struct yaml_node *value)
+/* Puts a value where an old one stands, in a map or a list. */
+static void replace(struct yaml_node *in, struct yaml_node *old, struct yaml_node *value)
 {
     struct yaml_node **link = &in->first;
     while (*link != old)
@@ -49,36 +52,40 @@ static struct yaml_node *preset_map(struct yaml *y, struct yaml_node *word)
     return map;
 }
 
-struct yaml_node *scene_merge_opened(struct yaml *y, struct yaml_node *map, struct yaml_node *item)
+/* An entry of the map as a map, if it has such a form: `accuracy: high` becomes {preset: high}. */
+static struct yaml_node *opened(struct yaml *y, struct yaml_node *map, struct yaml_node *item)
 {
     if (item->kind != YAML_SCALAR || yaml_null(item) || !item->key || strcmp(item->key->text, "accuracy") != 0)
         return item;
     struct yaml_node *made = preset_map(y, item);
-    scene_merge_replace(map, item, made);
+    replace(map, item, made);
     return made;
 }
+
+static void put(struct yaml *y, struct yaml_node *map, struct yaml_node *key, struct yaml_node *value);
 
 static void merge(struct yaml *y, struct yaml_node *under, struct yaml_node *over)
 {
     for (struct yaml_node *item = over->first, *next; item; item = next) {
         next = item->next;
-        scene_merge_put(y, under, item->key, item);
+        put(y, under, item->key, item);
     }
 }
 
-void scene_merge_put(struct yaml *y, struct yaml_node *map, struct yaml_node *key, struct yaml_node *value)
+/* Lays key: value over a map, as a file that includes the map's would. */
+static void put(struct yaml *y, struct yaml_node *map, struct yaml_node *key, struct yaml_node *value)
 {
     struct yaml_node *old = yaml_get(map, key->text);
     if (!old) {
         yaml_append(map, key, value);
         return;
     }
-    if (value->kind == YAML_MAP) old = scene_merge_opened(y, map, old);
+    if (value->kind == YAML_MAP) old = opened(y, map, old);
     if (value->kind == YAML_MAP && old->kind == YAML_MAP) {
         old->key = key;
         merge(y, old, value);
     } else {
-        scene_merge_replace(map, old, value);
+        replace(map, old, value);
         value->key = key;
     }
 }
@@ -180,4 +187,179 @@ struct yaml_node *scene_merge_text(struct yaml *y, const struct diag_source *sou
     struct chain chain = {.source = source};
     chain.on_disk = stat(source->name, &chain.status) == 0;
     return read_all(y, &chain);
+}
+
+/* ------------------------------------------------------------------ what the command line sets */
+
+struct assignment {
+    struct yaml *y;
+    struct diag_source *source;
+    size_t from, to; /* of the part of the path that is looked at */
+};
+
+static struct diag_place part_place(const struct assignment *s)
+{
+    const char *text = s->source->text;
+    int column = (int)text_utf8_count(text, s->from) + 1, width = (int)text_utf8_count(text + s->from, s->to - s->from);
+    return (struct diag_place){s->source, 1, column, width > 0 ? width : 1};
+}
+
+static struct yaml_node *part_key(const struct assignment *s)
+{
+    const char *word = arena_format(s->y->arena, "%.*s", (int)(s->to - s->from), s->source->text + s->from);
+    return yaml_make(s->y, YAML_SCALAR, part_place(s), word);
+}
+
+/* The entry of a list: by number from 0, or by its name. */
+static struct yaml_node *list_entry(struct yaml *y, struct yaml_node *list, const struct yaml_node *key)
+{
+    const char **names = ARENA_TAKE(y->arena, const char *, list->n + 1);
+    int index = -1, i = 0, n = 0;
+    text_int(key->text, 0, list->n - 1, &index);
+    for (struct yaml_node *item = list->first; item; item = item->next, i++) {
+        const struct yaml_node *name = yaml_get(item, "name");
+        if (i == index || (name && name->kind == YAML_SCALAR && strcmp(name->text, key->text) == 0)) return item;
+        if (name && name->kind == YAML_SCALAR) names[n++] = name->text;
+    }
+    const char *near = text_nearest(key->text, names);
+    const char *cure =
+        near ? arena_format(y->arena, "did you mean '%s'?", near)
+             : arena_format(y->arena, "entries are named by their name or by a number from 0 to %d", list->n - 1);
+    diag_add(y->diag, key->at, cure, "no entry '%s' in this list", diag_shown(y->diag, key->text));
+    return NULL;
+}
+
+/* One step down the path; what is not there, or is not a map, becomes one. */
+static struct yaml_node *step(struct yaml *y, struct yaml_node *at, struct yaml_node *key)
+{
+    if (at->kind == YAML_LIST) return list_entry(y, at, key);
+    struct yaml_node *child = yaml_get(at, key->text);
+    if (child) child = opened(y, at, child);
+    if (child && child->kind != YAML_SCALAR) return child;
+    child = yaml_make(y, YAML_MAP, key->at, NULL);
+    put(y, at, key, child);
+    return child;
+}
+
+static void put_at(struct yaml *y, struct yaml_node *at, struct yaml_node *key, struct yaml_node *value)
+{
+    struct yaml_node *old = at->kind == YAML_LIST ? list_entry(y, at, key) : NULL;
+    if (old)
+        replace(at, old, value);
+    else if (at->kind == YAML_MAP)
+        put(y, at, key, value);
+}
+
+static void path_put(struct yaml *y, struct yaml_node *root, struct yaml_node *const *path, struct yaml_node *value)
+{
+    for (struct yaml_node *at = root; at && *path; path++) {
+        if (!path[1]) {
+            put_at(y, at, *path, value);
+            return;
+        }
+        at = step(y, at, *path);
+    }
+}
+
+static bool part_next(struct assignment *s, size_t end)
+{
+    s->to = s->from + strcspn(s->source->text + s->from, ".");
+    if (s->to > end) s->to = end;
+    if (s->to > s->from) return true;
+    diag_add(s->y->diag, part_place(s), "write for instance: --set \"motion.rate=3 Hz\"",
+             "a part of the path is empty");
+    return false;
+}
+
+/* The parts of the path; NULL: one of them is empty. */
+static struct yaml_node **path_of(struct assignment *s, size_t equals)
+{
+    struct yaml_node **path = ARENA_TAKE(s->y->arena, struct yaml_node *, equals + 2);
+    for (int n = 0; part_next(s, equals); s->from = s->to + 1) {
+        path[n++] = part_key(s);
+        if (s->to == equals) return path;
+    }
+    return NULL;
+}
+
+static void assign(struct assignment *s, struct yaml_node *root, size_t equals)
+{
+    struct yaml_node *value = yaml_parse_value(s->y, s->source, equals + 1), **path = value ? path_of(s, equals) : NULL;
+    if (path) path_put(s->y, root, path, value);
+}
+
+void scene_merge_set(struct yaml *y, struct yaml_node *root, const char *text)
+{
+    size_t equals = strcspn(text, "=");
+    const char *name = arena_format(y->arena, "--set %.*s", (int)equals, text);
+    struct assignment s = {.y = y, .source = yaml_source(y, name, text, strlen(text))};
+    s.source->option = true;
+    if (!text[equals])
+        diag_add(y->diag, (struct diag_place){s.source, 1, 1, 0}, "write for instance: --set \"motion.rate=3 Hz\"",
+                 "has no '=VALUE'");
+    else if (strncmp(text, "include", equals) == 0 && equals == strlen("include"))
+        diag_add(y->diag, (struct diag_place){s.source, 1, 1, 0}, "write include: into a scene file",
+                 "include cannot be set here");
+    else
+        assign(&s, root, equals);
+}
+
+void scene_merge_seed(struct yaml *y, struct yaml_node *root, const char *number)
+{
+    struct diag_source *source = yaml_source(y, "--seed", number, strlen(number));
+    source->option = true;
+    struct yaml_node *value = yaml_parse_value(y, source, 0);
+    if (value) put(y, root, yaml_make(y, YAML_SCALAR, (struct diag_place){source, 1, 1, 0}, "seed"), value);
+}
+
+/* ------------------------------------------------------------------ layers */
+
+/* A tree takes its nodes in and changes them when it is merged: values are copied for each scene, keys are not changed
+ * and are shared. */
+
+static struct yaml_node *copied(struct yaml *y, const struct yaml_node *from)
+{
+    struct yaml_node *copy = yaml_make(y, from->kind, from->at, from->text);
+    copy->plain = from->plain;
+    for (const struct yaml_node *item = from->first; item; item = item->next)
+        yaml_append(copy, item->key, copied(y, item));
+    return copy;
+}
+
+void scene_merge_layer(struct yaml *y, struct yaml_node *root, const struct scene_layer *layer)
+{
+    for (int i = 0; i < layer->n; i++)
+        if (!y->missing ||
+            strcmp(layer->keys[i].path[0]->text, "contacts") != 0) /* they may stand in a file that is not there */
+            path_put(y, root, layer->keys[i].path, copied(y, layer->keys[i].value));
+}
+
+/* Of a key without quotes the place of the part alone. */
+static struct diag_place layer_place(const struct yaml_node *key, size_t from, size_t n)
+{
+    struct diag_place at = key->at;
+    if (!key->plain) return at;
+    at.column += (int)text_utf8_count(key->text, from);
+    at.width = (int)text_utf8_count(key->text + from, n);
+    return at;
+}
+
+struct yaml_node **scene_merge_layer_path(struct yaml *y, const struct yaml_node *key)
+{
+    int most = 2, n = 0;
+    for (const char *s = key->text; *s; s++)
+        most += *s == '.';
+    struct yaml_node **parts = ARENA_TAKE(y->arena, struct yaml_node *, most);
+    for (const char *s = key->text;; s++) {
+        size_t size = strcspn(s, ".");
+        if (size == 0) {
+            diag_add(y->diag, key->at, "write for instance: motion.rate", "a part of the path '%s' is empty",
+                     diag_shown(y->diag, key->text));
+            return NULL;
+        }
+        parts[n++] = yaml_make(y, YAML_SCALAR, layer_place(key, (size_t)(s - key->text), size),
+                               arena_format(y->arena, "%.*s", (int)size, s));
+        s += size;
+        if (!*s) return parts;
+    }
 }

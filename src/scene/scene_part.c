@@ -1,9 +1,15 @@
-/* Names and places of what a part of a scene holds: see scene_part.h. */
+/* A part of a scene: names and places of what it holds, unknown keys, and its struct filled: see scene_part.h. */
 #include "scene/scene_part.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "base/text.h"
+#include "scene/keys.h"
+#include "scene/keys_text.h"
+#include "scene/scene.h"
+#include "scene/scene_values.h"
 
 const char *scene_part_label(const struct scene_part *p, const char *path)
 {
@@ -67,4 +73,401 @@ void scene_part_refuse(const struct scene_part *p, const char *path, const char 
     vsnprintf(says, sizeof says, format, ap);
     va_end(ap);
     diag_add(p->yaml->diag, scene_part_later(p, path, other), cure, "%s%s", scene_part_label(p, path), says);
+}
+
+/* ------------------------------------------------------------------ unknown keys */
+
+enum { NAMES_MAX = 64, DEEP_MAX = 256 };
+enum role { ROLE_NONE, ROLE_VALUE, ROLE_SECTION };
+
+static const char *const top_names[] = {"include", "contacts", "accuracy", "inputs", NULL};
+
+struct walk {
+    struct yaml *y;
+    enum scene_part_where where;
+    const char *prefix;
+};
+
+/* Does dotted path `key` lie under `section` ("": everything does)? Gives what follows. */
+static const char *under(const char *key, const char *section)
+{
+    size_t n = strlen(section);
+    if (n == 0) return key;
+    return strncmp(key, section, n) == 0 && key[n] == '.' ? key + n + 1 : NULL;
+}
+
+static bool allowed(const struct walk *w, const struct key *k)
+{
+    return w->where == SCENE_PART_SINGLE || (k->of == KEY_CONTACT) == (w->where == SCENE_PART_ENTRY);
+}
+
+static enum role role_of(const char *path, const struct key **found)
+{
+    for (const struct key *k = keys_table; k->path; k++) {
+        *found = k;
+        if (strcmp(k->path, path) == 0) return ROLE_VALUE;
+        if (under(k->path, path)) return ROLE_SECTION;
+    }
+    return ROLE_NONE;
+}
+
+static bool is_top_name(const struct walk *w, const char *path)
+{
+    for (int i = 0; top_names[i]; i++)
+        if (w->where != SCENE_PART_ENTRY && strcmp(top_names[i], path) == 0) return true;
+    return false;
+}
+
+static bool has(const char *const *names, const char *word)
+{
+    for (; *names; names++)
+        if (strcmp(*names, word) == 0) return true;
+    return false;
+}
+
+/* The keys that may stand in a section, NULL-terminated. */
+static const char **names_in(const struct walk *w, const char *section)
+{
+    const char **names = ARENA_TAKE(w->y->arena, const char *, NAMES_MAX + 8);
+    int n = 0;
+    for (const struct key *k = keys_table; k->path && n < NAMES_MAX; k++) {
+        const char *rest = allowed(w, k) ? under(k->path, section) : NULL;
+        if (!rest) continue;
+        const char *name = arena_format(w->y->arena, "%.*s", (int)strcspn(rest, "."), rest);
+        if (!has(names, name)) names[n++] = name;
+    }
+    for (int i = 0; !*section && w->where != SCENE_PART_ENTRY && top_names[i]; i++)
+        names[n++] = top_names[i];
+    return names;
+}
+
+static const char *joined(struct arena *a, const char *const *names, const char *between)
+{
+    const char *all = "";
+    for (; *names; names++)
+        all = arena_format(a, "%s%s%s", all, *all ? between : "", *names);
+    return all;
+}
+
+/* Full paths of the keys whose last part is the word; NULL: there are none. */
+static const char *elsewhere(const struct walk *w, const char *word)
+{
+    const char *paths[5] = {NULL};
+    int n = 0;
+    for (const struct key *k = keys_table; k->path && n < 4; k++) {
+        const char *last = strrchr(k->path, '.');
+        if (allowed(w, k) && last && strcmp(last + 1, word) == 0) paths[n++] = k->path;
+    }
+    for (const struct key_knob *k = keys_knobs; k->name && n < 4; k++)
+        if (strcmp(k->name, word) == 0) paths[n++] = arena_format(w->y->arena, "accuracy.%s", word);
+    return n ? joined(w->y->arena, paths, " or ") : NULL;
+}
+
+/* Keys that scenes once had, and what took their place. */
+static const char *former(const char *section, const char *word)
+{
+    static const struct {
+        const char *section, *word, *cure;
+    } all[] = {{"contact.roll", "static_depth",
+                "it is gone: the stiffness follows from both materials and the ground's roughness; remove it, or give "
+                "contact.roll.static_penetration, a length"}};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if (strcmp(section, all[i].section) == 0 && strcmp(word, all[i].word) == 0) return all[i].cure;
+    return NULL;
+}
+
+static const char *unknown_cure(const struct walk *w, const char *word, const char *section)
+{
+    if (former(section, word)) return former(section, word);
+    const char *const *names = names_in(w, section);
+    const char *near = text_nearest(word, names), *other = elsewhere(w, word);
+    struct arena *a = w->y->arena;
+    if (strchr(word, ':')) return "put a space after the colon";
+    if (other) return arena_format(a, "'%s' belongs elsewhere: %s", word, other);
+    if (near) return arena_format(a, "did you mean '%s'?", near);
+    return arena_format(a, "keys here: %s", joined(a, names, ", "));
+}
+
+static void unknown(const struct walk *w, const struct yaml_node *key, const char *section)
+{
+    struct diag *d = w->y->diag;
+    if (d->n >= DIAG_STORED) {
+        d->n++;
+        return;
+    }
+    bool top = !*section && !*w->prefix;
+    const char *place = *section ? arena_format(d->arena, "%s%s", w->prefix, section)
+                                 : arena_format(d->arena, "%.*s", (int)strlen(w->prefix) - !top, w->prefix);
+    diag_add(d, key->at, unknown_cure(w, key->text, section), "unknown key '%s'%s%s", diag_shown(d, key->text),
+             top ? "" : " in ", place);
+}
+
+static void misplaced(const struct walk *w, const struct yaml_node *key, const struct key *k)
+{
+    struct diag *d = w->y->diag;
+    if (k->of == KEY_CONTACT)
+        diag_add(d, key->at,
+                 arena_format(d->arena,
+                              "move it into an entry of contacts (--set contacts.NAME.%s=...), or remove contacts",
+                              key->text),
+                 "'%s' describes one contact and must not stand beside contacts", key->text);
+    else
+        diag_add(d, key->at, "move it to the top level", "'%s' belongs to the whole scene, not to one contact",
+                 key->text);
+}
+
+static void walk_map(const struct walk *w, const struct yaml_node *map, const char *section)
+{
+    for (const struct yaml_node *item = map->first; item; item = item->next) {
+        const struct key *k;
+        char path[DEEP_MAX];
+        int n = snprintf(path, sizeof path, "%s%s%s", section, *section ? "." : "", item->key->text);
+        enum role role =
+            n < DEEP_MAX && *item->key->text && !strchr(item->key->text, '.') ? role_of(path, &k) : ROLE_NONE;
+        if (!*section && is_top_name(w, item->key->text)) continue;
+        if (role == ROLE_NONE)
+            unknown(w, item->key, section);
+        else if (!allowed(w, k))
+            misplaced(w, item->key, k);
+        else if (role == ROLE_SECTION && item->kind == YAML_MAP)
+            walk_map(w, item, path);
+        else if (role == ROLE_SECTION)
+            diag_add(w->y->diag, item->at,
+                     arena_format(w->y->arena, "keys here: %s", joined(w->y->arena, names_in(w, path), ", ")),
+                     "%s%s must be a map of keys, not %s", w->prefix, path, scene_values_kind(w->y, item));
+    }
+}
+
+void scene_part_names(struct yaml *y, const struct yaml_node *map, enum scene_part_where where, const char *prefix)
+{
+    struct walk w = {y, where, prefix};
+    walk_map(&w, map, "");
+}
+
+enum applies { APPLIES_NO, APPLIES_YES, APPLIES_UNKNOWN };
+
+/* ------------------------------------------------------------------ does a key apply? */
+
+/* Unknown: the value that decides it is itself in error, or may stand in a file that is not there. */
+static enum applies applies(const struct scene_part *p, const struct key *k)
+{
+    const struct key *decides = keys_decider(k);
+    if (!decides) return APPLIES_YES;
+    const struct yaml_node *node = yaml_find(p->map, decides->path);
+    if (k->applies[0] == '!' && applies(p, decides) == APPLIES_NO) return APPLIES_NO;
+    if (!keys_words(k))
+        return !node && p->yaml->missing              ? APPLIES_UNKNOWN
+               : keys_applies_beside(k, node != NULL) ? APPLIES_YES
+                                                      : APPLIES_NO;
+    if (applies(p, decides) != APPLIES_YES) return applies(p, decides);
+    if (!node && (!decides->standard || p->yaml->missing)) return APPLIES_UNKNOWN;
+    int i = node ? scene_values_choice(decides->choices, node) : -1;
+    if (node && i < 0) return APPLIES_UNKNOWN;
+    return keys_applies_with(k, node ? decides->choices[i].word : decides->standard) ? APPLIES_YES : APPLIES_NO;
+}
+
+/* Of a key that does not apply and those that decide it, in a chain: the one whose own decider has the wrong value. */
+static const struct key *barred(const struct scene_part *p, const struct key *k)
+{
+    while ((keys_words(k) || k->applies[0] == '!') && applies(p, keys_decider(k)) == APPLIES_NO)
+        k = keys_decider(k);
+    return k;
+}
+
+/* A ball's keys are called as a scraper's: of a key of one that is meant for the other, the line that says so; "" of
+ * all else. */
+static const char *twin(const struct scene_part *p, const struct key *k)
+{
+    static const char *const bodies[2] = {"scraper", "ball"};
+    for (int i = 0; i < 2; i++) {
+        size_t n = strlen(bodies[i]);
+        const char *other = strncmp(k->path, bodies[i], n) || k->path[n] != '.'
+                                ? NULL
+                                : arena_format(p->yaml->arena, "%s%s", bodies[!i], k->path + n);
+        if (other && keys_find(other) && applies(p, keys_find(other)) == APPLIES_YES)
+            return arena_format(p->yaml->arena, "%s is called %s here; or ", scene_part_label(p, k->path), other);
+    }
+    return "";
+}
+
+static void not_applicable(const struct scene_part *p, const struct key *k, const struct yaml_node *node)
+{
+    struct arena *a = p->yaml->arena;
+    const struct key *bar = barred(p, k);
+    const char *label = scene_part_label(p, k->path), *other = scene_part_label(p, keys_decider(bar)->path), *cure;
+    const struct yaml_node *now = yaml_find(p->map, keys_decider(bar)->path);
+    const char *when = keys_words(bar) ? arena_format(a, "where %s is %s", other, keys_text_words(bar, a))
+                       : now           ? arena_format(a, "where %s is not given", other)
+                                       : arena_format(a, "beside %s", other);
+    if (keys_words(bar))
+        cure = arena_format(a, "%sremove it, or set %s to %s (now it is %s)", twin(p, k), other,
+                            keys_text_words(bar, a), now ? now->text : keys_decider(bar)->standard);
+    else
+        cure = now ? arena_format(a, "remove it (a null takes away what another file says), or remove %s", other)
+                   : arena_format(a, "remove it, or give %s", other);
+    diag_add(p->yaml->diag, node->key->at, cure, "%s applies only %s", label, when);
+}
+
+/* ------------------------------------------------------------------ what is missing */
+
+/* The innermost map on the way to the path; NULL: something that is not a map is in the way (and told elsewhere). */
+static const struct yaml_node *innermost(const struct scene_part *p, const char *path, const char **rest)
+{
+    const struct yaml_node *at = p->map;
+    *rest = path;
+    for (const char *dot = strchr(path, '.'); dot; dot = strchr(dot + 1, '.')) {
+        const struct yaml_node *next = yaml_find(p->map, arena_format(p->yaml->arena, "%.*s", (int)(dot - path), path));
+        if (!next) break;
+        if (next->kind != YAML_MAP) return NULL;
+        at = next;
+        *rest = dot + 1;
+    }
+    return at;
+}
+
+/* "rate: 2 Hz", or "motion: {rate: 2 Hz}" where there is no motion yet. */
+static const char *line_for(const struct scene_part *p, const char *rest, const char *value)
+{
+    const char *line = value;
+    char path[128];
+    snprintf(path, sizeof path, "%s", rest);
+    for (char *dot = strrchr(path, '.'); dot; dot = strrchr(path, '.')) {
+        line = arena_format(p->yaml->arena, "{%s: %s}", dot + 1, line);
+        *dot = '\0';
+    }
+    return arena_format(p->yaml->arena, "%s: %s", path, line);
+}
+
+static const char *add_cure(const struct scene_part *p, const char *rest, const char *value)
+{
+    return arena_format(p->yaml->arena, "add for instance: %s", line_for(p, rest, value));
+}
+
+static const char *example_of(const struct scene_part *p, const char *path)
+{
+    const struct key *k = keys_find(path);
+    return k ? scene_values_example(p->yaml, k) : "{}";
+}
+
+void scene_part_missing(const struct scene_part *p, const char *path, const char *value, const char *because)
+{
+    const char *rest;
+    const struct yaml_node *map = innermost(p, path, &rest);
+    if (map && !p->yaml->missing && !yaml_find(p->map, path))
+        diag_add(p->yaml->diag, scene_part_place(p, map), add_cure(p, rest, value), "%s is missing%s",
+                 scene_part_label(p, path), because);
+}
+
+static void missing(const struct scene_part *p, const char *path)
+{
+    scene_part_missing(p, path, example_of(p, path), "");
+}
+
+static bool in_absent_section(const struct scene_part *p, const char *path)
+{
+    for (const struct key_section *s = keys_sections; s->path; s++) {
+        size_t n = strlen(s->path);
+        if (strncmp(path, s->path, n) == 0 && path[n] == '.' && !yaml_find(p->map, s->path)) return true;
+    }
+    return false;
+}
+
+/* ------------------------------------------------------------------ keys */
+
+static void key_fill(const struct scene_part *p, const struct key *k)
+{
+    const struct yaml_node *node = yaml_find(p->map, k->path);
+    enum applies a = applies(p, k);
+    scene_values_clear(p, k);
+    if (node && a == APPLIES_NO)
+        not_applicable(p, k, node);
+    else if (node)
+        scene_values_read(p, k, node);
+    else if (a == APPLIES_YES && k->standard)
+        scene_values_default(p, k);
+    else if (a == APPLIES_YES && !in_absent_section(p, k->path))
+        missing(p, k->path);
+}
+
+/* ------------------------------------------------------------------ alternatives */
+
+static enum key_struct owner_of(const char *path)
+{
+    const struct key *k = keys_find(path);
+    for (const struct key_section *s = keys_sections; !k && s->path; s++)
+        if (strcmp(s->path, path) == 0) return s->of;
+    return k ? k->of : KEY_CONTACT;
+}
+
+static enum applies path_applies(const struct scene_part *p, const char *path)
+{
+    const struct key *k = keys_find(path);
+    return k ? applies(p, k) : APPLIES_YES;
+}
+
+static void both_given(const struct scene_part *p, const struct yaml_node *const nodes[2], const char *const names[2])
+{
+    bool swap = scene_part_before(&nodes[1]->key->at, &nodes[0]->key->at);
+    const struct yaml_node *first = nodes[swap], *second = nodes[!swap];
+    const struct diag_source *other = first->key->at.source;
+    struct arena *a = p->yaml->arena;
+    const char *label = scene_part_label(p, names[swap]), *where = other->name;
+    if (!other->option) where = arena_format(a, "%s line %d", where, first->key->at.line);
+    const char *cure = arena_format(a, "%s stands in %s; remove one of them", label, where);
+    if (other != second->key->at.source)
+        cure = arena_format(a, "%s, or take that one away with %s: null (on the command line: --set %s=null)", cure,
+                            label, label);
+    diag_add(p->yaml->diag, second->key->at, cure, "%s and %s exclude each other", scene_part_label(p, names[!swap]),
+             label);
+}
+
+/* The alternatives that could be given, in words. */
+static void none_given(const struct scene_part *p, const char *const *candidates, int n)
+{
+    const char *rest, *all = "";
+    const struct yaml_node *map = innermost(p, candidates[0], &rest);
+    if (n == 1) {
+        missing(p, candidates[0]);
+        return;
+    }
+    for (int i = 0; i < n; i++)
+        all = arena_format(p->yaml->arena, "%s%s%s", all,
+                           i == 0       ? ""
+                           : i == n - 1 ? " or "
+                                        : ", ",
+                           scene_part_label(p, candidates[i]));
+    if (map && !p->yaml->missing)
+        diag_add(p->yaml->diag, scene_part_place(p, map), add_cure(p, rest, example_of(p, candidates[0])),
+                 "%s must be given", all);
+}
+
+static void alternative_check(const struct scene_part *p, const struct key_alternative *alternative)
+{
+    const char *candidates[KEYS_RIVALS], *given[2] = {NULL, NULL};
+    const struct yaml_node *nodes[2] = {NULL, NULL};
+    const struct key condition = keys_condition(alternative);
+    int n = 0, n_given = 0;
+    if (applies(p, &condition) != APPLIES_YES) return;
+    for (int i = 0; alternative->paths[i]; i++) {
+        const char *path = alternative->paths[i];
+        enum applies a = path_applies(p, path);
+        const struct yaml_node *node = yaml_find(p->map, path);
+        if (a == APPLIES_UNKNOWN) return;
+        if (a == APPLIES_YES) candidates[n++] = path;
+        if (!node || a == APPLIES_NO) continue;
+        nodes[n_given > 0] = node;
+        given[n_given > 0] = path;
+        if (++n_given > alternative->most) both_given(p, nodes, given);
+    }
+    if (n_given < alternative->least && n > 0) none_given(p, candidates, n);
+}
+
+void scene_part_fill(const struct scene_part *p)
+{
+    for (const struct key *k = keys_table; k->path; k++)
+        if (k->of == p->of) key_fill(p, k);
+    for (const struct key_section *s = keys_sections; s->path; s++)
+        if (s->of == p->of) *keys_given(s, p->to) = yaml_find(p->map, s->path) != NULL;
+    for (const struct key_alternative *x = keys_alternatives; x->paths[0]; x++)
+        if (owner_of(x->paths[0]) == p->of) alternative_check(p, x);
 }

@@ -44,4 +44,22 @@ bool scene_part_known(const struct scene_part *p, const char *path);
 /* Was a laid down before b? An included file's keys before the including file's, those before the command line's. */
 bool scene_part_before(const struct diag_place *a, const struct diag_place *b);
 
+enum scene_part_where {
+    SCENE_PART_SINGLE, /* the top level of a scene with one contact: keys of the scene and of the contact */
+    SCENE_PART_TOP,    /* the top level beside a list of contacts: a contact's key there is an error      */
+    SCENE_PART_ENTRY   /* an entry of contacts                                                            */
+};
+
+/* Tells every key of the map (and of the maps in it) that does not belong there, and sections that are not maps.
+   `prefix` stands before key names in messages. */
+void scene_part_names(struct yaml *y, const struct yaml_node *map, enum scene_part_where where, const char *prefix);
+
+/* Fills every field of the part's struct: given values, defaults, "not given", and sections' flags; tells what is
+   missing, does not apply, or excludes another. */
+void scene_part_fill(const struct scene_part *p);
+
+/* Where the path is not there (not even in error): "PATH is missing" and BECAUSE, told at the innermost map on its way,
+   with the line that adds the value. */
+void scene_part_missing(const struct scene_part *p, const char *path, const char *value, const char *because);
+
 #endif

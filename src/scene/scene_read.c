@@ -7,18 +7,259 @@
 
 #include "base/interrupt.h"
 #include "file/yaml.h"
+#include "scene/ablation.h"
 #include "scene/accuracy.h"
-#include "scene/scene_check.h"
-#include "scene/scene_contacts.h"
-#include "scene/scene_inputs.h"
+#include "scene/ball.h"
+#include "scene/keys.h"
+#include "scene/params.h"
 #include "scene/scene_merge.h"
+#include "scene/scene_part.h"
 #include "scene/scene_places.h"
-#include "scene/scene_recipe.h"
 #include "scene/scene_sense.h"
-#include "scene/scene_set.h"
-#include "scene/scene_table.h"
 #include "scene/scene_values.h"
 #include "scene/units.h"
+
+/* ------------------------------------------------------------------ recipes */
+
+/* surface.recipe: a file of surface keys, such as
+
+       title: sandpaper, grit 120
+       source: where the figures come from
+       grit: {density: 30 /mm^2, diameter: 125 um}
+       roughness: {rms: 2 um}
+
+   Title and source are for people. Paths in it are seen from its own folder. */
+
+static const char RECIPE[] = "a recipe holds what stands under surface: write for instance: roughness: {rms: 4 um}";
+
+static bool is_remark(const struct yaml_node *item)
+{
+    return strcmp(item->key->text, "title") == 0 || strcmp(item->key->text, "source") == 0;
+}
+
+/* May the item stand in a recipe? Whether it is a key of a surface is asked of the merged scene. */
+static bool item_good(struct yaml *y, const struct yaml_node *item)
+{
+    const char *name = item->key->text;
+    if (strcmp(name, "recipe") == 0)
+        return diag_add(y->diag, item->key->at, "put both recipes' keys into one file",
+                        "a recipe must not name a recipe itself");
+    if (is_remark(item) && item->kind != YAML_SCALAR)
+        return diag_add(y->diag, item->at, "write for instance: title: sandpaper, grit 120",
+                        "%s must be a text, not %s", name, scene_values_kind(y, item));
+    return true;
+}
+
+/* The recipe's keys of the surface. */
+static struct yaml_node *keys_of(struct yaml *y, struct yaml_node *recipe)
+{
+    struct yaml_node *keys = yaml_make(y, YAML_MAP, recipe->at, NULL);
+    for (struct yaml_node *item = recipe->first, *next; item; item = next) {
+        next = item->next;
+        if (item_good(y, item) && !is_remark(item)) yaml_append(keys, item->key, item);
+    }
+    return keys;
+}
+
+static bool surface_merge(struct yaml *y, struct yaml_node *surface)
+{
+    const struct yaml_node *name = yaml_get(surface, "recipe");
+    if (!name || name->kind != YAML_SCALAR || !*name->text || yaml_null(name)) return true;
+    const struct diag_source *source = yaml_bytes_read(y, scene_merge_path(y, name->at.source, name->text), name->at);
+    struct yaml_node *recipe = source ? yaml_parse(y, source) : NULL;
+    if (recipe && recipe->kind != YAML_MAP)
+        return diag_add(y->diag, recipe->at, RECIPE, "a recipe must be a map of keys, not %s",
+                        scene_values_kind(y, recipe));
+    if (recipe && yaml_get(recipe, "surface"))
+        return diag_add(y->diag, yaml_get(recipe, "surface")->key->at, RECIPE, "unknown key 'surface' in a recipe");
+    if (recipe) scene_merge_under(y, surface, keys_of(y, recipe));
+    return recipe || !source;
+}
+
+static bool recipe_merge(struct yaml *y, struct yaml_node *map)
+{
+    struct yaml_node *surface = yaml_get(map, "surface");
+    return !surface || surface_merge(y, surface);
+}
+
+static bool recipes_merge(struct yaml *y, struct yaml_node *root)
+{
+    const struct yaml_node *contacts = yaml_get(root, "contacts");
+    bool good = recipe_merge(y, root);
+    for (struct yaml_node *map = contacts ? contacts->first : NULL; map; map = map->next)
+        good = recipe_merge(y, map) && good;
+    return good;
+}
+
+/* ------------------------------------------------------------------ pinned inputs */
+
+static const char INPUTS[] = "write: - {file: modes.csv, sha256: 64 hexadecimal digits}";
+
+static bool is_sha256(const char *s) { return strlen(s) == 64 && s[strspn(s, "0123456789abcdef")] == '\0'; }
+
+static void file_read(struct yaml *y, const struct yaml_node *item, struct scene *s, struct input *input)
+{
+    input->file = scene_merge_path(y, item->at.source, item->text);
+    scene_places_input(y, input->file, &item->at, s);
+}
+
+static void item_read(struct yaml *y, const struct yaml_node *item, struct scene *s, struct input *input)
+{
+    bool text = item->kind == YAML_SCALAR && *item->text;
+    if (strcmp(item->key->text, "file") == 0 && text)
+        file_read(y, item, s, input);
+    else if (strcmp(item->key->text, "file") == 0)
+        diag_add(y->diag, item->at, INPUTS, "file must be a file name, not %s", scene_values_kind(y, item));
+    else if (strcmp(item->key->text, "sha256") != 0)
+        diag_add(y->diag, item->key->at, "keys here: file, sha256", "unknown key '%s' in inputs",
+                 diag_shown(y->diag, item->key->text));
+    else if (text && is_sha256(item->text))
+        input->sha256 = item->text;
+    else
+        diag_add(y->diag, item->at, INPUTS, "sha256 must be 64 hexadecimal digits in lower case, not %s",
+                 scene_values_kind(y, item));
+}
+
+static void input_read(struct yaml *y, const struct yaml_node *entry, struct scene *s, struct input *input)
+{
+    if (entry->kind != YAML_MAP) {
+        diag_add(y->diag, entry->at, INPUTS, "an entry of inputs must be a map of keys, not %s",
+                 scene_values_kind(y, entry));
+        return;
+    }
+    for (const struct yaml_node *item = entry->first; item; item = item->next)
+        item_read(y, item, s, input);
+    if (!yaml_get(entry, "file")) diag_add(y->diag, entry->at, INPUTS, "an entry of inputs has no file");
+}
+
+static void inputs_read(struct yaml *y, const struct yaml_node *list, struct scene *s)
+{
+    if (!list) return;
+    if (list->kind != YAML_LIST) {
+        diag_add(y->diag, list->at, INPUTS, "inputs must be a list, not %s", scene_values_kind(y, list));
+        return;
+    }
+    s->inputs = ARENA_TAKE(y->arena, struct input, list->n);
+    for (const struct yaml_node *entry = list->first; entry; entry = entry->next)
+        input_read(y, entry, s, &s->inputs[s->n_inputs++]);
+}
+
+/* ------------------------------------------------------------------ contacts */
+
+struct tree {
+    struct yaml *yaml;
+    struct yaml_node *root;
+    struct scene *scene;
+};
+
+static bool is_name(const char *s)
+{
+    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_0123456789";
+    return *s && !(*s >= '0' && *s <= '9') && s[strspn(s, letters)] == '\0';
+}
+
+static const char *name_of(const struct yaml_node *map)
+{
+    const struct yaml_node *name = yaml_get(map, "name");
+    return name && name->kind == YAML_SCALAR ? name->text : NULL;
+}
+
+static void name_check(struct yaml *y, const struct yaml_node *map)
+{
+    const char *name = name_of(map);
+    if (name && *name && !is_name(name))
+        diag_add(y->diag, yaml_get(map, "name")->at, "write for instance: name: left_hand",
+                 "a contact's name must be of letters, digits and _, and must not start with a digit, not '%s'",
+                 diag_shown(y->diag, name));
+}
+
+/* errors: how many had been told before this contact; -1: the scene's own keys are in error, so that nothing is known
+ * to be missing. */
+static void contact_read(const struct tree *t, struct yaml_node *map, const char *prefix, int errors, struct contact *c)
+{
+    struct scene_part part = {t->yaml, map, prefix, KEY_CONTACT, c};
+    name_check(t->yaml, map);
+    scene_part_fill(&part);
+    scene_places_note(&part, c->name, t->scene);
+    ball_apply(c);
+    ablation_apply(c);
+    if (t->yaml->missing) /* values may stand in a file that is not there */
+        return;
+    scene_sense_contact(&part);
+    if (t->yaml->diag->n == errors) scene_sense_asked(&part, t->scene);
+    scene_sense_output_columns(&part, t->root, t->scene);
+    scene_sense_output_audible(&part, t->root, t->scene);
+}
+
+static const char *prefix_of(struct yaml *y, const struct yaml_node *map, int index)
+{
+    const char *name = name_of(map);
+    return name && is_name(name) ? arena_format(y->arena, "contacts.%s.", name)
+                                 : arena_format(y->arena, "contacts.%d.", index);
+}
+
+/* Told at a contact whose name an earlier one has; a contact without a name is called "contact". */
+static void unique_check(struct yaml *y, const struct yaml_node *list, const struct yaml_node *map)
+{
+    const char *name = name_of(map);
+    for (const struct yaml_node *other = list->first; other != map; other = other->next) {
+        const char *taken = name_of(other);
+        if (other->kind != YAML_MAP || strcmp(taken ? taken : "contact", name ? name : "contact") != 0) continue;
+        diag_add(y->diag, name ? yaml_get(map, "name")->at : map->at,
+                 "give each contact a name of its own, such as: name: left_hand", "two contacts are named '%s'",
+                 name ? diag_shown(y->diag, name) : "contact");
+        return;
+    }
+}
+
+static void entry_read(const struct tree *t, const struct yaml_node *list, struct yaml_node *map, bool sound,
+                       struct contact *c)
+{
+    struct yaml *y = t->yaml;
+    int index = 0, errors = sound ? y->diag->n : -1;
+    for (const struct yaml_node *other = list->first; other != map; other = other->next)
+        index++;
+    const char *prefix = prefix_of(y, map, index);
+    if (map->kind != YAML_MAP) {
+        diag_add(y->diag, map->at, "write for instance: - name: left_hand",
+                 "an entry of contacts must be a map of keys, not %s", scene_values_kind(y, map));
+        return;
+    }
+    unique_check(y, list, map);
+    scene_part_names(y, map, SCENE_PART_ENTRY, prefix);
+    contact_read(t, map, prefix, errors, c);
+}
+
+static void list_read(const struct tree *t, struct yaml_node *list, struct scene *s)
+{
+    struct yaml *y = t->yaml;
+    bool sound = y->diag->n == 0;
+    if (list->kind != YAML_LIST || list->n == 0 || list->n > 1000) {
+        diag_add(y->diag, list->at, "write each contact as an entry: - name: left_hand",
+                 "contacts must be a list of 1 to 1000 contacts, not %s",
+                 list->kind == YAML_LIST ? arena_format(y->arena, "of %d", list->n) : scene_values_kind(y, list));
+        return;
+    }
+    s->contacts = params_contacts(y->arena, list->n);
+    for (struct yaml_node *map = list->first; map; map = map->next)
+        entry_read(t, list, map, sound, &s->contacts[s->n_contacts++]);
+}
+
+static void contacts_read(struct yaml *y, struct yaml_node *root, struct scene *s)
+{
+    struct yaml_node *list = yaml_get(root, "contacts");
+    const struct tree tree = {y, root, s};
+    scene_part_names(y, root, list ? SCENE_PART_TOP : SCENE_PART_SINGLE, "");
+    if (list) {
+        list_read(&tree, list, s);
+        return;
+    }
+    s->contacts = params_contacts(y->arena, 1);
+    s->n_contacts = 1;
+    contact_read(&tree, root, "", 0, s->contacts);
+}
+
+/* ------------------------------------------------------------------ the scene */
 
 /* Where the preset and the knobs stand, which are no rows of keys.def. */
 static void note_accuracy(struct yaml *y, const struct yaml_node *accuracy, struct scene *s)
@@ -33,17 +274,17 @@ static void note_accuracy(struct yaml *y, const struct yaml_node *accuracy, stru
 static void tree_read(struct yaml *y, struct yaml_node *root, struct scene *s)
 {
     struct scene_part top = {y, root, "", KEY_SCENE, s};
-    scene_check_fill(&top);
+    scene_part_fill(&top);
     scene_places_note(&top, NULL, s);
     if (!y->missing) {
-        scene_table_rate(&top);
+        scene_sense_output_rate(&top);
         scene_sense_output(&top);
     }
-    scene_table_names(y, root);
-    scene_contacts_read(y, root, s);
+    scene_sense_output_names(y, root);
+    contacts_read(y, root, s);
     accuracy_read(y, yaml_get(root, "accuracy"), &s->accuracy);
     note_accuracy(y, yaml_get(root, "accuracy"), s);
-    scene_inputs_read(y, yaml_get(root, "inputs"), s);
+    inputs_read(y, yaml_get(root, "inputs"), s);
     if (y->diag->n == 0 && !y->missing) {
         scene_sense_output_stems(&top);
         scene_sense_output_impacts(&top);
@@ -93,14 +334,14 @@ static void source_read(struct yaml *y, const struct diag_source *source, const 
     struct yaml_node *root = scene_merge_text(y, source);
     *s = (struct scene){.file = arena_text(y->arena, source->name)};
     if (!root) return;
-    if (over && over->layer) scene_layer_put(y, root, over->layer);
+    if (over && over->layer) scene_merge_layer(y, root, over->layer);
     for (int i = 0; over && i < over->n; i++)
         if (!y->missing || strncmp(over->set[i], "contacts.", strlen("contacts.")) !=
                                0) /* they may stand in a file that is not there */
-            scene_set(y, root, over->set[i]);
-    if (over && over->seed) scene_set_seed(y, root, over->seed);
+            scene_merge_set(y, root, over->set[i]);
+    if (over && over->seed) scene_merge_seed(y, root, over->seed);
     if (a_design(y, root) || another_version(y, root)) return;
-    bool readable = scene_recipe_merge(y, root);
+    bool readable = recipes_merge(y, root);
     scene_merge_drop_nulls(root);
     if (readable) tree_read(y, root, s);
 }

@@ -6,7 +6,7 @@
 #include "base/arena.h"
 #include "base/err.h"
 #include "scene/scene.h"
-#include "scene/scene_layer.h"
+#include "scene/scene_merge.h"
 
 /* What is added to a scene: keys of another file that builds on it, then what the command line says: `--set
    PATH=VALUE`, in the order given (a later one wins), then `--seed NUMBER`. */

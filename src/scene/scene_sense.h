@@ -19,4 +19,10 @@ void scene_sense_output_audible(const struct scene_part *p, struct yaml_node *ro
 void scene_sense_output_stems(const struct scene_part *top);
 void scene_sense_output_impacts(const struct scene_part *top);
 
+/* Columns of diagnostics that no contact has, and more rows than samples; columns that a filled contact does not have.
+ */
+void scene_sense_output_names(struct yaml *y, struct yaml_node *root);
+void scene_sense_output_rate(const struct scene_part *top);
+void scene_sense_output_columns(const struct scene_part *p, struct yaml_node *root, const struct scene *s);
+
 #endif

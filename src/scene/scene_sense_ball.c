@@ -4,7 +4,7 @@
 #include "scene/ball.h"
 #include "scene/keys.h"
 #include "scene/rules.h"
-#include "scene/scene_check.h"
+#include "scene/scene_part.h"
 #include "scene/scene_sense_parts.h"
 
 /* ------------------------------------------------------------------ sizes and mass */
@@ -52,7 +52,7 @@ static void mass_check(const struct scene_part *p, const struct contact *c)
 {
     const char *lacks = mass_lacks(p, &c->ball);
     if (isnan(c->scraper.mass) && lacks && scene_part_known(p, "ball.body") && scene_part_known(p, "ball.material"))
-        scene_check_missing(p, "ball.mass", "11 g", lacks);
+        scene_part_missing(p, "ball.mass", "11 g", lacks);
 }
 
 /* ------------------------------------------------------------------ stiffness */
@@ -77,9 +77,9 @@ static void unit_check(const struct scene_part *p, const struct roll *r)
 static void paper_check(const struct scene_part *p, const struct roll *r)
 {
     if (!stiffness_is_given(p))
-        scene_check_missing(p, "contact.roll.stiffness", "2 kN/m^1.5",
-                            " (or contact.roll.kappa): under penetration: paper rho is about the ball's radius, and "
-                            "the stiffness is chosen by hand");
+        scene_part_missing(p, "contact.roll.stiffness", "2 kN/m^1.5",
+                           " (or contact.roll.kappa): under penetration: paper rho is about the ball's radius, and "
+                           "the stiffness is chosen by hand");
     if (scene_part_given(p, "contact.roll.mu") && r->mu != 1)
         scene_part_refuse(p, "contact.roll.mu", "contact.roll.mu",
                           "give contact.roll.lambda in its place, or set contact.roll.penetration to deviation",

@@ -5,7 +5,7 @@
 #include "scene/ball.h"
 #include "scene/params.h"
 #include "scene/rules.h"
-#include "scene/scene_check.h"
+#include "scene/scene_part.h"
 #include "scene/scene_sense_parts.h"
 
 static const char *model(const struct contact *c) { return keys_find("contact.model")->choices[c->contact.model].word; }
@@ -74,7 +74,7 @@ static void moduli_missing(const struct scene_part *p, const char *body, const c
         diag_add(p->yaml->diag, custom->at, arena_format(a, "name a material, such as steel, or give %s", object),
                  "%s is custom, and %s are not given: %s", scene_part_label(p, material), object, because);
     else
-        scene_check_missing(p, material, "steel", arena_format(a, " (or %s): %s", object, because));
+        scene_part_missing(p, material, "steel", arena_format(a, " (or %s): %s", object, because));
 }
 
 /* Hertz's stiffness follows from the moduli of both. */

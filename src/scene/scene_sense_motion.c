@@ -5,7 +5,7 @@
 
 #include "scene/keys.h"
 #include "scene/rules.h"
-#include "scene/scene_check.h"
+#include "scene/scene_part.h"
 #include "scene/scene_sense_parts.h"
 
 #define SHORTEST_PATH 1e-9 /* m */
@@ -57,15 +57,15 @@ static void time_check(const struct scene_part *p, const struct motion *m)
     static const char duration[] = "motion.duration", example[] = "2 s";
     bool periodic = m->path == PATH_BACK_AND_FORTH || m->path == PATH_SCRIBBLE;
     if (m->path == PATH_SCRIBBLE || (periodic && m->law != SPEED_GIVEN))
-        scene_check_missing(p, "motion.rate", "2 Hz", "");
+        scene_part_missing(p, "motion.rate", "2 Hz", "");
     if (m->law == SPEED_GIVEN && m->path != PATH_STILL)
         profile_check(p, m);
     else if (periodic || m->path == PATH_STILL)
-        scene_check_missing(p, duration, example, "");
+        scene_part_missing(p, duration, example, "");
     else if (m->path == PATH_RECORDED && m->law != SPEED_AUTO)
-        scene_check_missing(p, duration, example,
-                            arena_format(p->yaml->arena, ": under the law %s a recording gives the path only",
-                                         word("motion.law", m->law)));
+        scene_part_missing(p, duration, example,
+                           arena_format(p->yaml->arena, ": under the law %s a recording gives the path only",
+                                        word("motion.law", m->law)));
     else if (m->path != PATH_RECORDED && m->path != PATH_INCLINE && !given(p, duration) && !given(p, "motion.speed"))
         diag_add(p->yaml->diag, motion_place(p), "add for instance: speed: 10 cm/s", "%s or %s must be given",
                  scene_part_label(p, "motion.speed"), scene_part_label(p, duration));

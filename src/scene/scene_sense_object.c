@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "scene/rules.h"
-#include "scene/scene_check.h"
+#include "scene/scene_part.h"
 #include "scene/scene_sense_parts.h"
 
 struct body {
@@ -39,7 +39,7 @@ static void thickness_check(const struct body *b)
     const char *thickness = path_of(b, "thickness");
     bool hollow = o->shape == OBJECT_ROD || o->shape == OBJECT_SHELL;
     if (o->shape != OBJECT_STRING && o->shape != OBJECT_ROD)
-        scene_check_missing(b->part, thickness, "5 mm", arena_format(b->part->yaml->arena, ": a %s has one", b->shape));
+        scene_part_missing(b->part, thickness, "5 mm", arena_format(b->part->yaml->arena, ": a %s has one", b->shape));
     if (hollow && 2 * o->thickness >= o->diameter)
         diag_add(b->part->yaml->diag, scene_part_later(b->part, thickness, path_of(b, "diameter")),
                  o->shape == OBJECT_ROD ? "lower thickness; a rod without one is solid" : "lower thickness",
@@ -66,8 +66,8 @@ static void needs(const struct body *b, const char *key, const char *example)
     struct arena *a = b->part->yaml->arena;
     const char *material = arena_format(a, "%s.material", b->name);
     const char *value = arena_format(a, "%s; or name a material, such as %s: steel", example, material);
-    scene_check_missing(b->part, path_of(b, key), value,
-                        arena_format(a, ": %s is custom", scene_part_label(b->part, material)));
+    scene_part_missing(b->part, path_of(b, key), value,
+                       arena_format(a, ": %s is custom", scene_part_label(b->part, material)));
 }
 
 static void material_check(const struct body *b)

@@ -1,11 +1,13 @@
 /* What is to be heard and written, and whether the contacts have it. */
+#include "scene/scene_sense.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/text.h"
 #include "scene/ball.h"
+#include "scene/params.h"
 #include "scene/rules.h"
-#include "scene/scene_sense.h"
 
 static const char *const stems[] = {"force", "surface", "scraper", "ball", NULL};
 
@@ -194,4 +196,81 @@ void scene_sense_output_impacts(const struct scene_part *top)
         if (s->output.impacts != LISTING_TABLE || rules_listed(&s->contacts[i], &s->output)) return;
     diag_add(top->yaml->diag, scene_part_later(top, path, path), "leave it out, or set contact.model to impacts",
              "%s is table, and no contact is of model impacts", path);
+}
+
+/* ------------------------------------------------------------------ the table of diagnostics */
+
+/* What a contact lacks for a column; "" if it lacks nothing. */
+static const char *column_needs(const struct contact *c, int column)
+{
+    const char *const lacking[] = {
+#define COLUMN(id, name, exists, needs, meaning) (exists) ? "" : needs,
+#include "scene/columns.def"
+#undef COLUMN
+    };
+    const struct params *whose;
+    params_column(column, &whose);
+    return !whose ? lacking[column] : params_given(c, whose) ? "" : whose->section;
+}
+
+static int column_find(const struct yaml_node *item)
+{
+    const struct params *whose;
+    const struct params_column *c;
+    for (int k = 0; item->kind == YAML_SCALAR && (c = params_column(k, &whose)); k++)
+        if (strcmp(c->name, item->text) == 0) return k;
+    return -1;
+}
+
+static const struct yaml_node *column_first(struct yaml_node *root)
+{
+    const struct yaml_node *list = yaml_find(root, "output.diagnostics.columns");
+    return list && list->kind == YAML_LIST ? list->first : NULL;
+}
+
+static const char *const *names_of(struct arena *a)
+{
+    const struct params *whose;
+    int n = 0;
+    while (params_column(n, &whose))
+        n++;
+    const char **names = ARENA_TAKE(a, const char *, n + 1);
+    for (int k = 0; k < n; k++)
+        names[k] = params_column(k, &whose)->name;
+    return names;
+}
+
+void scene_sense_output_names(struct yaml *y, struct yaml_node *root)
+{
+    for (const struct yaml_node *item = column_first(root); item; item = item->next) {
+        if (item->kind != YAML_SCALAR || !*item->text || yaml_null(item) || column_find(item) >= 0) continue;
+        const char *near = text_nearest(item->text, names_of(y->arena));
+        diag_add(y->diag, item->at,
+                 near ? arena_format(y->arena, "did you mean '%s'?", near)
+                      : "rasp explain output.diagnostics.columns lists them",
+                 "output.diagnostics.columns: there is no column '%s'", diag_shown(y->diag, item->text));
+    }
+}
+
+void scene_sense_output_columns(const struct scene_part *p, struct yaml_node *root, const struct scene *s)
+{
+    const struct contact *c = p->to;
+    for (const struct yaml_node *item = column_first(root); item && s->output.diagnostics.given; item = item->next) {
+        int k = column_find(item);
+        const char *needs = k < 0 ? "" : column_needs(c, k);
+        if (*needs)
+            diag_add(p->yaml->diag, item->at, "leave the column out, or give what it needs",
+                     "output.diagnostics.columns: %s has no %s: it needs %s", scene_part_contact(p, c->name),
+                     item->text, needs);
+    }
+}
+
+void scene_sense_output_rate(const struct scene_part *top)
+{
+    static const char *const rates[2] = {"output.diagnostics.rate", "output.sample_rate"};
+    const struct scene *s = top->to;
+    if (s->output.diagnostics.given && s->output.diagnostics.rate > s->output.sample_rate)
+        diag_add(top->yaml->diag, scene_part_later(top, rates[0], rates[1]), "lower output.diagnostics.rate",
+                 "%s, %.9g Hz, is above %s, %.9g Hz: some rows would have no samples of the force", rates[0],
+                 s->output.diagnostics.rate, rates[1], s->output.sample_rate);
 }

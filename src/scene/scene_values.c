@@ -6,10 +6,64 @@
 
 #include "base/text.h"
 #include "file/yaml.h"
-#include "scene/scene_example.h"
 #include "scene/scene_merge.h"
-#include "scene/scene_points.h"
 #include "scene/units.h"
+
+/* ------------------------------------------------------------------ examples */
+
+/* Of files and lists. */
+static const char *file_example(const char *path)
+{
+    static const char *const examples[][2] = {{"surface.recipe", "rough.yaml"},
+                                              {"surface.height_map", "profile.npy"},
+                                              {"surface.roughness.like", "map.gsf"},
+                                              {"motion.file", "recording.csv"},
+                                              {"motion.profile", "speed.csv"},
+                                              {"load.recorded", "force.csv"},
+                                              {"contact.given.file", "force.wav"},
+                                              {"output.stems", "[force, surface]"},
+                                              {"output.diagnostics.columns", "[speed_m_per_s, normal_force_n]"}};
+    for (size_t i = 0; i < sizeof examples / sizeof examples[0]; i++)
+        if (strcmp(examples[i][0], path) == 0) return examples[i][1];
+    return "modes.csv";
+}
+
+const char *scene_values_example(struct yaml *y, const struct key *k)
+{
+    const char *one = units_example(k->dimension);
+    if (k->standard && *k->standard) return k->standard;
+    if (k->example) return k->example;
+    switch (k->type) {
+    case KEY_NUMBER:
+    case KEY_TIME_OR_AUTO:
+        return one;
+    case KEY_WHOLE:
+        return "48 kHz";
+    case KEY_COUNT:
+    case KEY_SEED:
+        return arena_format(y->arena, "%.0f", k->low);
+    case KEY_TEXT:
+        return "some words";
+    case KEY_FILE:
+        return file_example(k->path);
+    case KEY_POINT:
+        return arena_format(y->arena, "[%s, 0]", one);
+    case KEY_POINTS:
+        return arena_format(y->arena, "[[0, 0], [%s, 0]]", one);
+    case KEY_PLACES:
+        return "[[0, 0, 1 m]]";
+    case KEY_RANGE:
+        return arena_format(y->arena, "[%s, %s]", units_text(1, k->dimension, y->arena),
+                            units_text(5, k->dimension, y->arena));
+    case KEY_LIST:
+        return file_example(k->path);
+    case KEY_CHOICE:
+        return k->choices[0].word;
+    }
+    return "";
+}
+
+/* ------------------------------------------------------------------ what is read */
 
 struct value {
     const struct scene_part *part;
@@ -31,7 +85,7 @@ static const char *example_cure(const struct value *v)
 {
     const char *last = strrchr(v->key->path, '.');
     return arena_format(v->part->yaml->arena, "write for instance: %s: %s", last ? last + 1 : v->key->path,
-                        scene_example(v->part->yaml, v->key));
+                        scene_values_example(v->part->yaml, v->key));
 }
 
 /* What stands where a list is needed, for "not ...": "of 3" for one of the wrong length. */
@@ -124,6 +178,84 @@ static bool seed_set(const struct value *v)
                     scene_values_kind(v->part->yaml, v->node));
 }
 
+/* ------------------------------------------------------------------ lists of points */
+
+#define DISTINCT 1e-9 /* m, of one point of a path from the next */
+
+static const struct kind {
+    int least, most;
+    const char *one, *many, *form, *example; /* example: of the coordinates after x */
+} kinds[] = {{2, 10000, "point", "points", "a pair [x, y]", "0"},
+             {1, 64, "place", "places", "three numbers [x, y, z]", "0, 1 m"}};
+
+struct points {
+    const struct scene_part *part;
+    const struct key *key;
+    const char *label;
+    const struct kind *kind;
+    int width;
+};
+
+static bool point_read(const struct points *p, const struct yaml_node *node, int number, double *point)
+{
+    struct yaml *y = p->part->yaml;
+    struct arena *a = y->arena;
+    const char *label = arena_format(a, "%s %d of %s", p->kind->one, number, p->label);
+    const struct yaml_node *item = node->first;
+    bool good = true;
+    if (node->kind != YAML_LIST || node->n != p->width)
+        return diag_add(
+            y->diag, node->at,
+            arena_format(a, "write for instance: [%s, %s]", units_example(p->key->dimension), p->kind->example),
+            "%s must be %s, not %s", label, p->kind->form,
+            node->kind == YAML_LIST ? arena_format(a, "a list of %d", node->n) : scene_values_kind(y, node));
+    for (int i = 0; i < p->width; i++, item = item->next)
+        good =
+            scene_values_number(p->part, p->key, item, arena_format(a, "%c of %s", "xyz"[i], label), &point[i]) && good;
+    return good;
+}
+
+static bool point_differs(const struct points *p, const struct yaml_node *node, int number, const double *point)
+{
+    double x = point[0] - point[-2], y = point[1] - point[-1];
+    return sqrt(x * x + y * y) >= DISTINCT ||
+           diag_add(p->part->yaml->diag, node->at, "remove one of the two", "point %d of %s lies where point %d does",
+                    number, p->label, number - 1);
+}
+
+static bool list_check(const struct points *p, const struct yaml_node *list)
+{
+    struct yaml *y = p->part->yaml;
+    if (list->kind == YAML_LIST && list->n >= p->kind->least && list->n <= p->kind->most) return true;
+    return diag_add(y->diag, list->at,
+                    arena_format(y->arena, "write for instance: %s", scene_values_example(y, p->key)),
+                    "%s must be a list of %d to %d %s %s, not %s", p->label, p->kind->least, p->kind->most,
+                    p->kind->many, strchr(p->kind->form, '['),
+                    list->kind == YAML_LIST ? arena_format(y->arena, "of %d", list->n) : scene_values_kind(y, list));
+}
+
+/* [*n][keys_points_width(k)] in the arena, in the key's SI unit, each number within its range; a point of KEY_POINTS
+   lies at least 1 nm from the one before. NULL: errors, each reported where it stands. `label` is the key's name in
+   messages. */
+static const double *points_read(const struct scene_part *part, const struct key *k, const struct yaml_node *list,
+                                 const char *label, int *n)
+{
+    const int width = keys_points_width(k);
+    const struct points p = {part, k, label, &kinds[width == 3], width};
+    bool good = true, before = false;
+    int i = 0;
+    *n = 0;
+    if (!list_check(&p, list)) return NULL;
+    double *all = ARENA_TAKE(part->yaml->arena, double, (size_t)width *(size_t)list->n);
+    for (const struct yaml_node *item = list->first; item; item = item->next, i++) {
+        bool read = point_read(&p, item, i + 1, all + width * i);
+        good = read && (!before || k->type == KEY_PLACES || point_differs(&p, item, i + 1, all + width * i)) && good;
+        before = read;
+    }
+    *n = good ? i : 0;
+    return good ? all : NULL;
+}
+
 /* ------------------------------------------------------------------ pairs */
 
 static bool pair_set(const struct value *v)
@@ -154,7 +286,7 @@ static bool range_set(const struct value *v)
 
 static bool points_set(const struct value *v)
 {
-    const double *points = scene_points_read(v->part, v->key, v->node, v->label, keys_points_count(v->field));
+    const double *points = points_read(v->part, v->key, v->node, v->label, keys_points_count(v->field));
     *(const double **)v->field = points;
     return points != NULL;
 }

@@ -26,4 +26,7 @@ int scene_values_choice(const struct choice *choices, const struct yaml_node *no
 /* "a map", "a list", "the text 'x'". */
 const char *scene_values_kind(struct yaml *y, const struct yaml_node *node);
 
+/* What one could write for the key, for the cure in a message: its default if it has one, such as 20 g. */
+const char *scene_values_example(struct yaml *y, const struct key *k);
+
 #endif

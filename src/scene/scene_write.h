@@ -8,4 +8,7 @@
    File names are written relative to the folder `beside` (where the text will stand). */
 const char *scene_write(const struct scene *s, const char *beside, struct arena *a);
 
+/* The files that it lists: every file of the scene once, first those of its keys. */
+const char **scene_write_inputs(const struct scene *s, int *n, struct arena *a);
+
 #endif

@@ -1,19 +1,165 @@
-/* Quantities with units: see units.h; the units themselves stand in units_table.c. */
+/* Quantities with units: see units.h. */
 #include "scene/units.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "base/text.h"
-#include "scene/units_table.h"
 
-enum { LONGEST = 200 /* characters */ };
+enum { LONGEST = 200 /* characters of a quantity */, DEGREES = 1000 /* in place of a power of ten */ };
 
-const char *units_name(enum key_dimension d) { return units_table_dimension(d)->name; }
+static const struct {
+    const char *name, *example;
+    const char *common[9]; /* units to name in messages; the first is SI's */
+} dimensions[] = {
+    [KEY_NONE] = {"a plain number", "0.5", {""}},
+    [KEY_LENGTH] = {"a length", "3 cm", {"m", "cm", "mm", "um", "nm"}},
+    [KEY_TIME] = {"a time", "10 ms", {"s", "ms", "us", "ns"}},
+    [KEY_FREQUENCY] = {"a frequency", "2 Hz", {"Hz", "kHz", "MHz", "mHz"}},
+    [KEY_MASS] = {"a mass", "20 g", {"kg", "g", "mg"}},
+    [KEY_FORCE] = {"a force", "1.5 N", {"N", "mN", "kN"}},
+    [KEY_SPEED] = {"a speed", "10 cm/s", {"m/s", "cm/s", "mm/s"}},
+    [KEY_ACCELERATION] = {"an acceleration", "9.81 m/s^2", {"m/s^2", "mm/s^2"}},
+    [KEY_ANGLE] = {"an angle", "30 deg", {"rad", "deg", "mrad"}},
+    [KEY_PER_AREA] = {"a number per area", "10 /mm^2", {"/m^2", "/cm^2", "/mm^2"}},
+    [KEY_DECIBEL] = {"a level in decibels", "-3 dB", {"dB"}},
+    [KEY_LUFS] = {"a loudness", "-23 LUFS", {"LUFS"}},
+    [KEY_FORCE_COEFFICIENT] = {"a force coefficient", "0.05 N s/m", {"N s/m", "N (s/m)^beta2"}},
+    [KEY_OUTPUT] = {"a length, speed, acceleration, pressure or force",
+                    "1 mm/s",
+                    {"", "m", "mm", "um", "m/s", "mm/s", "m/s^2", "Pa", "N"}},
+    [KEY_PRESSURE] = {"a pressure or modulus", "12 GPa", {"Pa", "kPa", "MPa", "GPa"}},
+    [KEY_DENSITY] = {"a density", "650 kg/m^3", {"kg/m^3", "g/cm^3"}},
+    [KEY_FORCE_PER_LENGTH] = {"a force per length", "2 kN/m", {"N/m", "kN/m", "N/mm"}},
+    [KEY_PER_TIME] = {"a rate per second", "10 1/s", {"1/s", "/s"}},
+    [KEY_STIFFNESS] = {"a stiffness", "2 MN/m", {"N/m", "kN/m", "MN/m", "N/m^1.5", "MN/m^1.5", "GN/m^1.5"}},
+    [KEY_STIFFNESS_PER_MASS] = {"a stiffness per mass", "5e9 N/(m^1.5 kg)", {"N/(m^1.5 kg)"}},
+    [KEY_PER_SPEED] = {"a number per speed", "1 s/m", {"s/m"}},
+    [KEY_DISSIPATION] = {"a dissipation of a Hunt-Crossley contact", "0.1 N s/m^2.5", {"N s/m^2.5"}},
+};
 
-const char *units_example(enum key_dimension d) { return units_table_dimension(d)->example; }
+static const struct units_unit units[] = {
+    {"m", KEY_LENGTH, 0, "numckMG"},
+    {"s", KEY_TIME, 0, "numkMG"},
+    {"Hz", KEY_FREQUENCY, 0, "numkMG"},
+    {"g", KEY_MASS, -3, "numkMG"},
+    {"N", KEY_FORCE, 0, "numkMG"},
+    {"m/s", KEY_SPEED, 0, "numckMG"},
+    {"m/s^2", KEY_ACCELERATION, 0, "numckMG"},
+    {"m/s2", KEY_ACCELERATION, 0, "numckMG"},
+    {"m/s\xc2\xb2", KEY_ACCELERATION, 0, "numckMG"},
+    {"rad", KEY_ANGLE, 0, "num"},
+    {"deg", KEY_ANGLE, DEGREES, ""},
+    {"\xc2\xb0", KEY_ANGLE, DEGREES, ""},
+    {"/m^2", KEY_PER_AREA, 0, ""},
+    {"/m2", KEY_PER_AREA, 0, ""},
+    {"/m\xc2\xb2", KEY_PER_AREA, 0, ""},
+    {"/cm^2", KEY_PER_AREA, 4, ""},
+    {"/cm2", KEY_PER_AREA, 4, ""},
+    {"/cm\xc2\xb2", KEY_PER_AREA, 4, ""},
+    {"/mm^2", KEY_PER_AREA, 6, ""},
+    {"/mm2", KEY_PER_AREA, 6, ""},
+    {"/mm\xc2\xb2", KEY_PER_AREA, 6, ""},
+    {"/um^2", KEY_PER_AREA, 12, ""},
+    {"dB", KEY_DECIBEL, 0, ""},
+    {"dBFS", KEY_DECIBEL, 0, ""},
+    {"LUFS", KEY_LUFS, 0, ""},
+    {"N s/m", KEY_FORCE_COEFFICIENT, 0, "numkMG"},
+    {"N*s/m", KEY_FORCE_COEFFICIENT, 0, "numkMG"},
+    {"N (s/m)^beta2", KEY_FORCE_COEFFICIENT, 0, "numkMG"},
+    {"Pa", KEY_PRESSURE, 0, "numkMG"},
+    {"g/m^3", KEY_DENSITY, -3, "mkM"},
+    {"g/m3", KEY_DENSITY, -3, "mkM"},
+    {"g/m\xc2\xb3", KEY_DENSITY, -3, "mkM"},
+    {"g/cm^3", KEY_DENSITY, 3, ""},
+    {"g/cm3", KEY_DENSITY, 3, ""},
+    {"g/cm\xc2\xb3", KEY_DENSITY, 3, ""},
+    {"N/m", KEY_FORCE_PER_LENGTH, 0, "numkMG"},
+    {"N/cm", KEY_FORCE_PER_LENGTH, 2, "mkM"},
+    {"N/mm", KEY_FORCE_PER_LENGTH, 3, "mkM"},
+    {"1/s", KEY_PER_TIME, 0, ""},
+    {"/s", KEY_PER_TIME, 0, ""},
+    {"N/m^1.5", KEY_STIFFNESS, 0, "mkMG"},
+    {"N/m^(3/2)", KEY_STIFFNESS, 0, "mkMG"},
+    {"N/(m^1.5 kg)", KEY_STIFFNESS_PER_MASS, 0, "kMG"},
+    {"N/m^1.5/kg", KEY_STIFFNESS_PER_MASS, 0, "kMG"},
+    {"s/m", KEY_PER_SPEED, 0, "m"},
+    {"N s/m^2.5", KEY_DISSIPATION, 0, "mkMG"},
+    {"N*s/m^2.5", KEY_DISSIPATION, 0, "mkMG"},
+};
+
+static const struct prefix {
+    const char *name;
+    char letter;
+    int power;
+} prefixes[] = {{"n", 'n', -9}, {"u", 'u', -6}, {"\xc2\xb5", 'u', -6}, {"\xce\xbc", 'u', -6}, {"m", 'm', -3},
+                {"c", 'c', -2}, {"k", 'k', 3},  {"M", 'M', 6},         {"G", 'G', 9}};
+
+static bool matches(const struct units_unit *u, const char *text, int *power)
+{
+    *power = u->power;
+    if (strcmp(u->name, text) == 0) return true;
+    for (size_t i = 0; i < sizeof prefixes / sizeof prefixes[0]; i++) {
+        size_t n = strlen(prefixes[i].name);
+        *power = u->power + prefixes[i].power;
+        if (strncmp(text, prefixes[i].name, n) == 0 && strcmp(text + n, u->name) == 0 &&
+            strchr(u->prefixes, prefixes[i].letter))
+            return true;
+    }
+    return false;
+}
+
+const struct units_unit *units_find(const char *text, int *power)
+{
+    for (size_t i = 0; i < sizeof units / sizeof units[0]; i++)
+        if (matches(&units[i], text, power)) return &units[i];
+    return NULL;
+}
+
+/* May a quantity of the dimension have the unit? KEY_OUTPUT takes those of four dimensions, KEY_STIFFNESS those of a
+ * force per length too. */
+static bool units_fits(const struct units_unit *u, enum key_dimension d)
+{
+    if (d == KEY_OUTPUT)
+        return u->dimension == KEY_LENGTH || u->dimension == KEY_SPEED || u->dimension == KEY_ACCELERATION ||
+               u->dimension == KEY_PRESSURE || u->dimension == KEY_FORCE;
+    if (d == KEY_STIFFNESS && u->dimension == KEY_FORCE_PER_LENGTH) return true;
+    return u->dimension == d;
+}
+
+/* A unit's prefixes as a class; micro has two more letters. */
+static const char *prefix_pattern(const struct units_unit *u, struct arena *a)
+{
+    if (!*u->prefixes) return "";
+    return arena_format(a, "[%s%s]?", u->prefixes, strchr(u->prefixes, 'u') ? "\xc2\xb5\xce\xbc" : "");
+}
+
+static const char *escaped(const char *name, struct arena *a)
+{
+    const char *all = "";
+    for (const char *p = name; *p; p++)
+        all = arena_format(a, "%s%s%c", all, strchr("^$.*+?()[]{}|\\", *p) ? "\\" : "", *p);
+    return all;
+}
+
+const char *units_pattern(enum key_dimension d, struct arena *a)
+{
+    const char *all = "";
+    for (size_t i = 0; i < sizeof units / sizeof units[0]; i++)
+        if (units_fits(&units[i], d))
+            all = arena_format(a, "%s%s%s%s", all, *all ? "|" : "", prefix_pattern(&units[i], a),
+                               escaped(units[i].name, a));
+    return all;
+}
+
+/* ------------------------------------------------------------------ reading */
+
+const char *units_name(enum key_dimension d) { return dimensions[d].name; }
+
+const char *units_example(enum key_dimension d) { return dimensions[d].example; }
 
 static bool fault_set(struct units_fault *f, const char *text, const char *cure)
 {
@@ -26,14 +172,11 @@ static const char *example_cure(enum key_dimension d, struct arena *a)
     return arena_format(a, "write for instance: %s", units_example(d));
 }
 
-static bool has_common(enum key_dimension d)
-{
-    return units_table_dimension(d)->common[0][0] || units_table_dimension(d)->common[1];
-}
+static bool has_common(enum key_dimension d) { return dimensions[d].common[0][0] || dimensions[d].common[1]; }
 
 static const char *unit_cure(const char *number, const char *unit, enum key_dimension d, struct arena *a)
 {
-    const char *const *common = units_table_dimension(d)->common;
+    const char *const *common = dimensions[d].common;
     const char *all = "";
     for (int i = 0; common[i]; i++) {
         if (common[i][0] && strcasecmp(common[i], unit) == 0)
@@ -49,7 +192,7 @@ static bool unit_fault(struct units_fault *f, const char *number, const char *un
                        struct arena *a)
 {
     int power;
-    const struct units_table_unit *other = units_table_find(unit, &power);
+    const struct units_unit *other = units_find(unit, &power);
     const char *needs = units_name(d);
     if (other && !has_common(d))
         return fault_set(f, arena_format(a, "needs %s without a unit, not %s", needs, units_name(other->dimension)),
@@ -133,7 +276,7 @@ static bool notation_fault(struct units_fault *f, const char *text, enum key_dim
         return !fault_set(f, "needs a number with a decimal point, not a comma",
                           arena_format(a, "write: %s", replaced(text, ',', '.', a)));
     if (text[n] == ':') return !fault_set(f, "needs one number, not a clock time or ratio", clock_cure(text, d, a));
-    if (strncmp(rest, "1/", 2) == 0 && units_table_find(rest, &power)) return false;
+    if (strncmp(rest, "1/", 2) == 0 && units_find(rest, &power)) return false;
     if ((*rest >= '0' && *rest <= '9') || *rest == '.' || *rest == '+' || *rest == '-')
         return !fault_set(f, arena_format(a, "needs one number; '%s' follows it", rest), example_cure(d, a));
     return false;
@@ -142,7 +285,7 @@ static bool notation_fault(struct units_fault *f, const char *text, enum key_dim
 static bool number_read(const char *text, size_t n, int power, double *x)
 {
     char copy[LONGEST + 1];
-    if (power != UNITS_TABLE_DEGREES) return text_scaled(text, n, power, x);
+    if (power != DEGREES) return text_scaled(text, n, power, x);
     if (!text_scaled(text, n, 0, x)) return false;
     memcpy(copy, text, n);
     copy[n] = '\0';
@@ -160,9 +303,57 @@ bool units_read(const char *text, enum key_dimension d, double *x, struct arena 
     if (n == 0) return word_fault(f, text, d, a);
     if (notation_fault(f, text, d, a)) return false;
     if (*unit) {
-        const struct units_table_unit *u = units_table_find(unit, &power);
-        if (!u || !units_table_fits(u, d)) return unit_fault(f, number, unit, d, a);
+        const struct units_unit *u = units_find(unit, &power);
+        if (!u || !units_fits(u, d)) return unit_fault(f, number, unit, d, a);
     }
     if (number_read(text, n, power, x)) return true;
     return fault_set(f, "is a number too large, too small or too long to be read", example_cure(d, a));
+}
+
+/* ------------------------------------------------------------------ writing */
+
+/* A value with the unit that suits it. Dimensions that stand for several (KEY_OUTPUT, KEY_STIFFNESS) get bare SI
+ * numbers. */
+
+/* 0.DIGITS * 10^e in plain notation where that is short. */
+static const char *decimal(const char *digits, int e, struct arena *a)
+{
+    int n = (int)strlen(digits);
+    if (e < -3 || e > 15) return arena_format(a, "%c%s%se%d", digits[0], n > 1 ? "." : "", digits + 1, e - 1);
+    if (e <= 0) return arena_format(a, "0.%.*s%s", -e, "000", digits);
+    if (e >= n) return arena_format(a, "%s%.*s", digits, e - n, "000000000000000");
+    return arena_format(a, "%.*s.%s", e, digits, digits + e);
+}
+
+/* The largest common unit that leaves at least 1, else the smallest; SI's for a zero. */
+static const struct units_unit *fitting_unit(enum key_dimension d, int exponent, int *power, const char **name)
+{
+    const struct units_unit *best = NULL;
+    for (int i = 0; dimensions[d].common[i]; i++) {
+        int p;
+        const struct units_unit *u = units_find(dimensions[d].common[i], &p);
+        if (!u || p == DEGREES || p == -2) continue;
+        bool has_rest = exponent - p >= 1, best_has_rest = best && exponent - *power >= 1;
+        if (!best || (has_rest && (!best_has_rest || p > *power)) || (!has_rest && !best_has_rest && p < *power)) {
+            best = u;
+            *power = p;
+            *name = dimensions[d].common[i];
+        }
+    }
+    return best;
+}
+
+const char *units_text(double x, enum key_dimension d, struct arena *a)
+{
+    char digits[20];
+    int exponent, power = 0;
+    const char *name = "";
+    text_digits(fabs(x), digits, &exponent);
+    bool known =
+        d != KEY_OUTPUT && d != KEY_STIFFNESS && d != KEY_NONE && fitting_unit(d, x == 0 ? 1 : exponent, &power, &name);
+    if (x == 0 && known) {
+        power = 0;
+        name = dimensions[d].common[0];
+    }
+    return arena_format(a, "%s%s%s%s", x < 0 ? "-" : "", decimal(digits, exponent - power, a), known ? " " : "", name);
 }

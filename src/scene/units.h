@@ -27,4 +27,17 @@ const char *units_example(enum key_dimension d);
 /* A value as a person would write it, such as 20 g, 1 nm or 50 us; reads back as the same double. */
 const char *units_text(double x, enum key_dimension d, struct arena *a);
 
+struct units_unit {
+    const char *name;
+    enum key_dimension dimension;
+    int power; /* of ten, to SI */
+    const char *prefixes;
+};
+
+/* The unit of that name, with a prefix or without, and the power of ten to SI; NULL: there is none. */
+const struct units_unit *units_find(const char *text, int *power);
+
+/* What may follow a number of the dimension, as a regular expression: "[numckMG]?m"; "": nothing. */
+const char *units_pattern(enum key_dimension d, struct arena *a);
+
 #endif

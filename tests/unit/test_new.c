@@ -1,11 +1,10 @@
-/* cmd/new.c and scene/keys_reference.c: what rasp itself writes for people to start from must be scenes, ask for
+/* cmd/new.c and scene/keys_yaml.c: what rasp itself writes for people to start from must be scenes, ask for
    something to be computed, name no file, and hide no mistake in what is commented out. */
 #include "unit.h"
 
 #include "cmd/cmd.h"
 #include "pipeline/stages.h"
 #include "scene/keys.h"
-#include "scene/keys_reference.h"
 #include "scene/keys_text.h"
 #include "scene/keys_yaml.h"
 #include "scene/params.h"
@@ -28,7 +27,7 @@ static char *reference_text(size_t *size)
 {
     char *text = NULL;
     FILE *f = open_memstream(&text, size);
-    keys_reference_print(f, a);
+    keys_yaml_reference(f, a);
     fclose(f);
     return text;
 }
@@ -120,8 +119,8 @@ START_TEST(test_reference_has_every_key)
     char *text = reference_text(&size);
     for (const struct key *k = keys_table; k->path; k++) {
         const char *dot = strrchr(k->path, '.'), *name = dot ? dot + 1 : k->path;
-        ck_assert_msg((k->standard && *k->standard) || keys_reference_example(k->path),
-                      "%s needs an example in keys_reference.c", k->path);
+        ck_assert_msg((k->standard && *k->standard) || keys_yaml_example(k->path),
+                      "%s needs an example in keys_yaml.c", k->path);
         ck_assert_msg(strstr(text, arena_format(a, "\n%s: ", name)) || strstr(text, arena_format(a, " %s: ", name)) ||
                           strstr(text, arena_format(a, "#%s: ", name)),
                       "%s is not in the reference", k->path);
@@ -224,7 +223,7 @@ START_TEST(test_examples_are_taken)
         "output: {diagnostics: {}}\n";
     a = arena_open();
     for (const struct key *k = keys_table; k->path; k++) {
-        const char *value = keys_reference_example(k->path), *set[12];
+        const char *value = keys_yaml_example(k->path), *set[12];
         struct scene_overrides over = {.set = set};
         if (!value || !strncmp(k->path, "motion.rate", 11) || !strcmp(k->path, "motion.path") ||
             !strcmp(k->path, "surface.recipe")) /* it would be read */
