@@ -50,7 +50,7 @@ static double score(struct modal_fit *f)
         for (long from = 0; from + PART <= b->n; from += PART) {
             double power = 1e-290;
             for (long k = from; k < from + PART; k++)
-                power += b->nr[k] * b->nr[k] + b->ni[k] * b->ni[k];
+                power += cplx_square(b->noise[k]);
             sum += 2.0 * PART * real_log(power);
         }
     }
@@ -109,8 +109,8 @@ static void redraw(struct modal_block *b, const struct modal_block *was, uint64_
         for (long k = 0; k < bins; k++) {
             const struct modal_bins *of = &f->bins[s];
             double size = sqrt(0.5 * was->noise[s] * of->variance[b->from[s] + k]);
-            b->r[s][k] = was->r[s][k] - of->rr[b->from[s] + k] + size * x[2 * k];
-            b->r[s][bins + k] = was->r[s][bins + k] - of->ri[b->from[s] + k] + size * x[2 * k + 1];
+            b->rest[s][k] = cplx_add(cplx_sub(was->rest[s][k], of->rest[b->from[s] + k]),
+                                     cplx_scale(size, (cplx){x[2 * k], x[2 * k + 1]}));
         }
         arena_close(a);
     }
@@ -120,12 +120,12 @@ static bool survives(struct modal_fit *f, int i, double limit)
 {
     int surviving = 0;
     struct arena *a = arena_open();
-    struct modal_block *was = ARENA_TAKE(a, struct modal_block, 1), *b = ARENA_TAKE(a, struct modal_block, 1);
     struct noise source = noise_make(1, "modes that survive");
-    modal_converge_open(was, f, i, 8, a);
+    int at;
+    struct modal_block *was = modal_converge_open(f, i, 8, &at, a);
     modal_block_gains(was);
     for (int k = 0; k < DRAWS; k++) {
-        int at = modal_converge_open(b, f, i, 8, a);
+        struct modal_block *b = modal_converge_open(f, i, 8, &at, a);
         redraw(b, was, (uint64_t)k << 20 | (uint64_t)i << 32, source);
         modal_block_polish(b, 4);
         double chi = b->chi;
@@ -161,7 +161,7 @@ static double product(const struct modal_fit *f)
     for (int s = 0; s < f->data->stretches; s++) {
         const struct modal_bins *b = &f->bins[s];
         for (long k = 0; f->data->stretch[s].fitted && k < b->n; k++)
-            sum += b->yr[k] * b->rr[k] + b->yi[k] * b->ri[k];
+            sum += b->y[k].re * b->rest[k].re + b->y[k].im * b->rest[k].im;
     }
     return sum;
 }
@@ -180,8 +180,9 @@ static void errors(struct modal_fit *f, int i, struct modal_mode *m)
 {
     double se[2];
     struct arena *a = arena_open();
-    struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
-    modal_block_errors(b, modal_converge_open(b, f, i, 16, a), se, m->gain_se, m->gain_shared);
+    int at;
+    struct modal_block *b = modal_converge_open(f, i, 16, &at, a);
+    modal_block_errors(b, at, se, m->gain_se, m->gain_shared);
     m->frequency_se = se[0] / (2.0 * REAL_PI);
     m->decay_se = se[1] * m->decay;
     arena_close(a);
@@ -239,8 +240,8 @@ static struct energies *energies(struct modal_fit *f, struct arena *a)
     for (int s = 0; s < f->data->stretches; s++) {
         const struct modal_bins *b = &f->bins[s];
         for (long k = 0; k < b->n; k++) {
-            to[s].all += b->rr[k] * b->rr[k] + b->ri[k] * b->ri[k];
-            to[s].ringing += b->nr[k] * b->nr[k] + b->ni[k] * b->ni[k];
+            to[s].all += cplx_square(b->rest[k]);
+            to[s].ringing += cplx_square(b->noise[k]);
             to[s].noise += b->variance[k];
         }
     }
@@ -277,8 +278,8 @@ static void sounds(struct modal_fit *f, const struct energies *fit, struct modal
         const struct modal_stretch *st = &d->stretch[s];
         double *re = ARENA_TAKE(a, double, st->n / 2 + 1), *im = ARENA_TAKE(a, double, st->n / 2 + 1);
         for (long k = 0; k < b->n; k++) {
-            re[b->first + k] = (b->yr[k] - b->rr[k]) / sqrt((double)st->n);
-            im[b->first + k] = (b->yi[k] - b->ri[k]) / sqrt((double)st->n);
+            re[b->first + k] = (b->y[k].re - b->rest[k].re) / sqrt((double)st->n);
+            im[b->first + k] = (b->y[k].im - b->rest[k].im) / sqrt((double)st->n);
         }
         if (st->fitted || st->strike < 0) {
             r->noise[st->place] += 2.0 * fit[s].noise;
@@ -299,9 +300,8 @@ static void fit_gains(struct modal_fit *f)
     const struct modal_data *d = f->data;
     for (int i = 0; i < GAIN_ROUNDS * f->m; i++) {
         struct arena *a = arena_open();
-        struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
         int of[MODAL_BLOCK], n = modal_converge_near(f, i % f->m, 12, of);
-        modal_block_open(b, f, n, of, NULL, 0, a);
+        struct modal_block *b = modal_block_open(f, n, of, NULL, 0, a);
         modal_block_gains(b);
         for (int k = 0; k < n; k++)
             modal_fit_replace(f, of[k], f->c[of[k]].s, b->part + k * d->stretches);

@@ -6,7 +6,7 @@
 #include "analysis/modal_fit.h"
 #include "num/lanes.h"
 
-enum { CHUNK = 64, ROWS = 2 * CHUNK, TRIES = 3 };
+enum { CHUNK = MODAL_CHUNK, ROWS = 2 * CHUNK, TRIES = 3 };
 
 static const double known = 20.0; /* degrees of freedom that the noise of the wider band counts as in a block's own */
 static const double rounded = 1e-10; /* of a column's squares: what the others leave of it is rounding */
@@ -92,11 +92,9 @@ void modal_block_products(const double *x, int n, double *sum)
 /* Columns of one mode on n bins: v (X + C) and v j (X - C), C of the mirror pole, for its gain; the same of dX/ds for
    gain times pole's step (p; NULL: not wanted). What the mode makes with its gain B goes off r. */
 LANES_CLONES
-void modal_block_columns(cplx gain, const double *const x[8], const double *weight, long n, double *g, double *p,
-                         double *r);
+void modal_block_columns(cplx gain, double (*x)[CHUNK], const double *weight, long n, double *g, double *p, double *r);
 LANES_CLONES
-void modal_block_columns(cplx gain, const double *const x[8], const double *weight, long n, double *g, double *p,
-                         double *r)
+void modal_block_columns(cplx gain, double (*x)[CHUNK], const double *weight, long n, double *g, double *p, double *r)
 {
     const double *xr = x[0], *xi = x[1], *sr = x[2], *si = x[3], *cr = x[4], *ci = x[5], *mr = x[6], *mi = x[7],
                  br = gain.re, bi = gain.im;
@@ -147,26 +145,24 @@ static bool sums_make(struct modal_block *b, int s, bool full, struct sums *g)
     const struct modal_fit *f = b->fit;
     const struct modal_bins *bins = &f->bins[s];
     int stretches = f->data->stretches;
-    double room[8][CHUNK], weight[CHUNK], *x[8], *columns = ARENA_TAKE(b->a, double, (MODAL_COLUMNS + 3) * ROWS),
-                                                 *r = columns + (g->n - 1) * ROWS,
-                                                 *sum = ARENA_TAKE(b->a, double, (g->n + 3) * (g->n + 3) * LANES);
+    double x[8][CHUNK], weight[CHUNK], *columns = ARENA_TAKE(b->a, double, (MODAL_COLUMNS + 3) * ROWS),
+                                       *r = columns + (g->n - 1) * ROWS,
+                                       *sum = ARENA_TAKE(b->a, double, (g->n + 3) * (g->n + 3) * LANES);
     struct modal_line line[MODAL_BLOCK];
-    for (int c = 0; c < 8; c++)
-        x[c] = room[c];
     for (int i = 0; i < b->m; i++)
         line[i] = modal_fit_line(f, s, b->part[i * stretches + s].pole);
     for (long from = b->from[s]; from < b->to[s]; from += CHUNK) {
-        long n = from + CHUNK < b->to[s] ? CHUNK : b->to[s] - from, at = from - b->from[s], all = b->to[s] - b->from[s];
+        long n = from + CHUNK < b->to[s] ? CHUNK : b->to[s] - from;
         if (n < CHUNK) memset(columns, 0, (size_t)(g->n * size));
         for (long k = 0; k < n; k++) {
             weight[k] = sqrt(2.0 / bins->variance[from + k]);
-            r[k] = weight[k] * b->r[s][at + k];
-            r[CHUNK + k] = weight[k] * b->r[s][all + at + k];
+            r[k] = weight[k] * b->rest[s][from - b->from[s] + k].re;
+            r[CHUNK + k] = weight[k] * b->rest[s][from - b->from[s] + k].im;
         }
         for (int i = 0; i < b->m; i++) {
-            modal_fit_basis(bins, &line[i], from, from + n, x);
-            modal_block_columns(b->part[i * stretches + s].gain, (const double *const *)x, weight, n,
-                                columns + 2 * i * ROWS, full ? columns + (g->linear + 2 * i) * ROWS : NULL, r);
+            modal_fit_basis(bins, &line[i], from, n, x);
+            modal_block_columns(b->part[i * stretches + s].gain, x, weight, n, columns + 2 * i * ROWS,
+                                full ? columns + (g->linear + 2 * i) * ROWS : NULL, r);
         }
         smooth_columns(bins, b, weight, from, n, columns + 2 * b->m * ROWS);
         modal_block_products(columns, g->n, sum);
@@ -362,19 +358,19 @@ static double reach(const struct modal_fit *f, cplx s)
 
 /* (1 + r)/(1 - r), r the correlation of what is left in neighbouring bins, as of an autoregressive series. Of white
    noise |r|^2 n is exponential: what is less than chance makes it in one of 50 is taken for 0. */
-static double alike(const struct modal_bins *bins, long from, long n, const double *re, const double *im)
+static double alike(const struct modal_bins *bins, long from, long n)
 {
     static const double chance = 4.0, most = 0.9;
     struct arena *a = arena_open();
-    double *x = ARENA_TAKE(a, double, n), *y = ARENA_TAKE(a, double, n), power = 0.0;
-    cplx product = {0};
-    modal_fit_take_smooth_off(bins, from, n, re, im, x, y);
+    double power = 0.0;
+    cplx *x = ARENA_TAKE(a, cplx, n), product = {0};
+    modal_fit_take_smooth_off(bins, from, n, bins->rest + from, x);
     for (long k = 0; k < n; k++) {
         double weight = 1.0 / bins->variance[from + k];
-        power += weight * (x[k] * x[k] + y[k] * y[k]);
+        power += weight * cplx_square(x[k]);
         if (k)
-            product = cplx_add(product, cplx_scale(sqrt(weight / bins->variance[from + k - 1]),
-                                                   cplx_mul((cplx){x[k], y[k]}, (cplx){x[k - 1], -y[k - 1]})));
+            product = cplx_add(
+                product, cplx_scale(sqrt(weight / bins->variance[from + k - 1]), cplx_mul(x[k], cplx_conj(x[k - 1]))));
     }
     arena_close(a);
     double square = power > 0.0 ? cplx_square(product) / (power * power) - chance / (double)n : 0.0,
@@ -382,19 +378,25 @@ static double alike(const struct modal_bins *bins, long from, long n, const doub
     return (1.0 + r) / (1.0 - r);
 }
 
-void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, const int *of, const cplx *extra,
-                      int extras, struct arena *a)
+struct modal_block *modal_block_room(const struct modal_fit *f, struct arena *a)
+{
+    struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
+    b->part = ARENA_TAKE(a, struct modal_part, MODAL_BLOCK * f->data->stretches);
+    b->each = ARENA_TAKE(a, struct modal_normal, f->data->stretches);
+    b->noise = ARENA_TAKE(a, double, f->data->stretches);
+    return b;
+}
+
+struct modal_block *modal_block_open(const struct modal_fit *f, int m, const int *of, const cplx *extra, int extras,
+                                     struct arena *a)
 {
     const struct modal_data *d = f->data;
     double low = HUGE_VAL, high = -HUGE_VAL;
-    memset(b, 0, sizeof *b);
+    struct modal_block *b = modal_block_room(f, a);
     b->fit = f;
     b->a = a;
     b->fastest = f->fastest;
     b->m = m + extras;
-    b->part = ARENA_TAKE(a, struct modal_part, MODAL_BLOCK * d->stretches);
-    b->each = ARENA_TAKE(a, struct modal_normal, d->stretches);
-    b->noise = ARENA_TAKE(a, double, d->stretches);
     b->degrees = ARENA_TAKE(a, double, d->stretches);
     b->alike = ARENA_TAKE(a, double, d->stretches);
     for (int i = 0; i < m + extras; i++) {
@@ -412,7 +414,7 @@ void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, c
     b->half = 0.5 * (high - low);
     b->from = ARENA_TAKE(a, long, d->stretches);
     b->to = ARENA_TAKE(a, long, d->stretches);
-    b->r = arena_take(a, (size_t)d->stretches, sizeof *b->r);
+    b->rest = arena_take(a, (size_t)d->stretches, sizeof *b->rest);
     for (int s = 0; s < d->stretches; s++) {
         const struct modal_bins *bins = &f->bins[s];
         double from = ceil(low / bins->width) - (double)bins->first,
@@ -424,13 +426,12 @@ void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, c
             b->to[s] = b->from[s];
             continue;
         }
-        b->r[s] = ARENA_TAKE(a, double, 2 * n);
-        memcpy(b->r[s], bins->rr + b->from[s], (size_t)n * sizeof(double));
-        memcpy(b->r[s] + n, bins->ri + b->from[s], (size_t)n * sizeof(double));
+        b->rest[s] = ARENA_TAKE(a, cplx, n);
+        memcpy(b->rest[s], bins->rest + b->from[s], (size_t)n * sizeof(cplx));
         for (int i = 0; i < m; i++) {
             const struct modal_part *mine = &b->part[i * d->stretches + s];
             struct modal_line line = modal_fit_line(f, s, mine->pole);
-            modal_fit_add_line(bins, &line, mine->gain, b->from[s], b->to[s], b->r[s], b->r[s] + n);
+            modal_fit_add_line(bins, &line, mine->gain, b->from[s], n, b->rest[s]);
         }
     }
     for (int g = 0; g < d->stretches; g++) {
@@ -438,10 +439,9 @@ void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, c
         b->degrees[g] += 2.0 * (double)(b->to[g] - b->from[g]);
         b->degrees[g] = fmax(b->degrees[g], known);
         long n = b->to[g] - b->from[g];
-        b->alike[g] = extras || n < 2
-                          ? 1.0
-                          : alike(&f->bins[g], b->from[g], n, f->bins[g].rr + b->from[g], f->bins[g].ri + b->from[g]);
+        b->alike[g] = extras || n < 2 ? 1.0 : alike(&f->bins[g], b->from[g], n);
     }
+    return b;
 }
 
 void modal_block_gains(struct modal_block *b) { pass(b, false, NULL); }
@@ -486,15 +486,6 @@ static cplx stepped(const struct modal_block *b, cplx s, const double *step)
     double wide = -3.0 * s.re + 10.0 / f->longest;
     return (cplx){-clamp(-s.re * real_exp(clamp(step[1], -0.7, 0.7)), f->slowest, b->fastest),
                   clamp(s.im + clamp(step[0], -wide, wide), f->low, f->high)};
-}
-
-struct modal_block *modal_block_room(const struct modal_fit *f, struct arena *a)
-{
-    struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
-    b->part = ARENA_TAKE(a, struct modal_part, MODAL_BLOCK * f->data->stretches);
-    b->each = ARENA_TAKE(a, struct modal_normal, f->data->stretches);
-    b->noise = ARENA_TAKE(a, double, f->data->stretches);
-    return b;
 }
 
 void modal_block_copy(struct modal_block *to, const struct modal_block *from)

@@ -43,22 +43,20 @@ int modal_converge_near(const struct modal_fit *f, int i, int most, int *of)
     return n;
 }
 
-int modal_converge_open(struct modal_block *b, const struct modal_fit *f, int i, int most, struct arena *a)
+struct modal_block *modal_converge_open(const struct modal_fit *f, int i, int most, int *at, struct arena *a)
 {
-    int of[MODAL_BLOCK], n = modal_converge_near(f, i, most, of), at = 0;
-    modal_block_open(b, f, n, of, NULL, 0, a);
-    while (b->of[at] != i)
-        at++;
-    return at;
+    int of[MODAL_BLOCK], n = modal_converge_near(f, i, most, of);
+    for (*at = 0; of[*at] != i;)
+        ++*at;
+    return modal_block_open(f, n, of, NULL, 0, a);
 }
 
 double modal_converge_refine(struct modal_fit *f, int n, const int *of, int steps)
 {
     struct arena *a = arena_open();
-    struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
+    struct modal_block *b = modal_block_open(f, n, of, NULL, 0, a);
     double most = 0.0, moved[MODAL_BLOCK];
     int stretches = f->data->stretches;
-    modal_block_open(b, f, n, of, NULL, 0, a);
     bool converged = modal_block_polish(b, steps);
     for (int i = 0; i < n; i++) {
         double by[2] = {b->s[i].im - f->c[of[i]].s.im, real_log(b->s[i].re / f->c[of[i]].s.re)};
@@ -123,8 +121,8 @@ double modal_converge_limit(const struct modal_fit *f, double chi4)
 double modal_converge_rise(struct modal_fit *f, int i)
 {
     struct arena *a = arena_open();
-    struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
-    int at = modal_converge_open(b, f, i, NEIGHBOURS, a);
+    int at;
+    struct modal_block *b = modal_converge_open(f, i, NEIGHBOURS, &at, a);
     modal_block_gains(b);
     double chi = b->chi;
     modal_block_drop(b, at);
@@ -170,19 +168,13 @@ void modal_converge_eliminate(struct modal_fit *f, double limit)
 static double loudness(const struct modal_fit *f, int i)
 {
     struct arena *a = arena_open();
-    struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
+    struct modal_block *b = modal_block_open(f, 1, &i, NULL, 0, a);
     double mine = 0.0, all = 0.0;
-    modal_block_open(b, f, 1, &i, NULL, 0, a);
-    for (int s = 0; s < f->data->stretches; s++) {
-        const struct modal_bins *bins = &f->bins[s];
-        long n = b->to[s] - b->from[s];
-        for (long k = 0; k < n; k++) {
-            double re = b->r[s][k] - bins->rr[b->from[s] + k], im = b->r[s][n + k] - bins->ri[b->from[s] + k],
-                   yr = bins->yr[b->from[s] + k], yi = bins->yi[b->from[s] + k];
-            mine += re * re + im * im;
-            all += yr * yr + yi * yi;
+    for (int s = 0; s < f->data->stretches; s++)
+        for (long k = b->from[s]; k < b->to[s]; k++) {
+            mine += cplx_square(cplx_sub(b->rest[s][k - b->from[s]], f->bins[s].rest[k]));
+            all += cplx_square(f->bins[s].y[k]);
         }
-    }
     arena_close(a);
     return all > 0.0 ? mine / all : 0.0;
 }

@@ -6,56 +6,59 @@
 #include "num/fft.h"
 #include "num/lanes.h"
 
-enum { GROUP = 8, CHUNK = 256, PATCH = 256 };
+enum { GROUP = 8, PATCH = 256 };
 
 static const double quietest = 1e-9; /* of a stretch's rms: no noise of a bin is less, as phases are not known better */
 
 /* ------------------------------------------------------------------ spectra */
 
-static void spectrum(const double *x, long n, const struct modal_bins *b, double *re, double *im)
+static void spectrum(const double *x, long n, struct arena *a, double **re, double **im)
 {
-    struct arena *a = arena_open();
     struct fft *fft = fft_open((size_t)n);
-    double *all[2] = {ARENA_TAKE(a, double, n / 2 + 1), ARENA_TAKE(a, double, n / 2 + 1)}, size = 1.0 / sqrt((double)n);
-    fft_forward(fft, x, all[0], all[1]);
-    for (long k = 0; k < b->n; k++) {
-        re[k] = size * all[0][b->first + k];
-        im[k] = size * all[1][b->first + k];
-    }
+    double size = 1.0 / sqrt((double)n);
+    *re = ARENA_TAKE(a, double, n / 2 + 1);
+    *im = ARENA_TAKE(a, double, n / 2 + 1);
+    fft_forward(fft, x, *re, *im);
     fft_close(fft);
-    arena_close(a);
+    for (long k = 0; k <= n / 2; k++) {
+        (*re)[k] *= size;
+        (*im)[k] *= size;
+    }
 }
 
 static void open_bins(const struct modal_fit *f, const struct modal_stretch *s, struct modal_bins *b)
 {
-    double rate = f->data->rate, *force = ARENA_TAKE(f->a, double, s->n), sum = 0.0;
-    b->width = 2.0 * REAL_PI * rate / (double)s->n;
+    double *force = ARENA_TAKE(f->a, double, s->n), *re, *im, sum = 0.0,
+           rounding = f->data->rounding ? f->data->rounding[s->place] : 0.0;
+    b->width = 2.0 * REAL_PI * f->data->rate / (double)s->n;
     b->first = (long)ceil(f->low / b->width);
     b->first = b->first > 1 ? b->first : 1;
     b->n = (long)floor(f->high / b->width) - b->first + 1;
     b->n = b->first + b->n > s->n / 2 ? s->n / 2 - b->first : b->n;
     b->n = b->n > 0 ? b->n : 0;
-    double **to[] = {&b->er, &b->ei,       &b->fr,    &b->fi,    &b->yr, &b->yi, &b->rr,
-                     &b->ri, &b->variance, &b->floor, &b->scale, &b->nr, &b->ni};
-    for (size_t i = 0; i < sizeof to / sizeof *to; i++)
-        *to[i] = ARENA_TAKE(f->a, double, b->n + 1);
+    double **reals[] = {&b->er, &b->ei, &b->variance, &b->floor, &b->scale};
+    cplx **complexes[] = {&b->y, &b->rest, &b->noise};
+    for (size_t i = 0; i < sizeof reals / sizeof *reals; i++)
+        *reals[i] = ARENA_TAKE(f->a, double, b->n + 1);
+    for (size_t i = 0; i < sizeof complexes / sizeof *complexes; i++)
+        *complexes[i] = ARENA_TAKE(f->a, cplx, b->n + 1);
+    for (long i = 0; i < s->n; i++)
+        sum += s->y[i] * s->y[i] / (double)s->n;
+    for (long i = 0; i < s->pulse.n; i++)
+        if (s->pulse.at + i >= s->first && s->pulse.at + i < s->first + s->n)
+            force[s->pulse.at + i - s->first] = s->pulse.f[i];
+    spectrum(force, s->n, f->a, &re, &im);
+    b->fr = re + b->first;
+    b->fi = im + b->first;
+    spectrum(s->y, s->n, f->a, &re, &im);
     for (long k = 0; k < b->n; k++) {
         double turn = 2.0 * (double)(b->first + k) / (double)s->n;
         b->er[k] = real_cospi(turn);
         b->ei[k] = -real_sinpi(turn);
-    }
-    for (long i = 0; i < s->pulse.n; i++)
-        if (s->pulse.at + i >= s->first && s->pulse.at + i < s->first + s->n)
-            force[s->pulse.at + i - s->first] = s->pulse.f[i];
-    spectrum(force, s->n, b, b->fr, b->fi);
-    spectrum(s->y, s->n, b, b->yr, b->yi);
-    for (long i = 0; i < s->n; i++)
-        sum += s->y[i] * s->y[i] / (double)s->n;
-    double rounding = f->data->rounding ? f->data->rounding[s->place] : 0.0;
-    for (long k = 0; k < b->n; k++)
+        b->y[k] = (cplx){re[b->first + k], im[b->first + k]};
         b->floor[k] = fmax(fmax(quietest * quietest * sum, rounding * rounding), 1e-290);
-    for (long k = 0; k < b->n; k++)
         b->scale[k] = 1.0;
+    }
 }
 
 /* ------------------------------------------------------------------ noise */
@@ -77,7 +80,7 @@ static void running_median(const double *x, long n, long half, double *to)
 
 /* Of |x|^2: medians of means of 8 bins (of chi squared of 16 degrees the median is 0.9586 of the mean), linear in
  * between. */
-static void smooth_power(const double *re, const double *im, long n, long half, double *to)
+static void smooth_power(const cplx *x, long n, long half, double *to)
 {
     struct arena *a = arena_open();
     long groups = n / GROUP;
@@ -86,7 +89,7 @@ static void smooth_power(const double *re, const double *im, long n, long half, 
     for (long k = 0; k < groups; k++) {
         long count = 0;
         for (long i = k * GROUP; i < (k + 1) * GROUP && i < n; i++, count++)
-            mean[k] += re[i] * re[i] + im[i] * im[i];
+            mean[k] += cplx_square(x[i]);
         mean[k] = count ? mean[k] / ((double)count * 0.9586) : 0.0;
     }
     running_median(mean, groups, half < (groups - 1) / 2 ? half : (groups - 1) / 2, median);
@@ -99,21 +102,19 @@ static void smooth_power(const double *re, const double *im, long n, long half, 
     arena_close(a);
 }
 
-void modal_fit_take_smooth_off(const struct modal_bins *b, long from, long n, const double *re, const double *im,
-                               double *to_re, double *to_im)
+void modal_fit_take_smooth_off(const struct modal_bins *b, long from, long n, const cplx *x, cplx *to)
 {
     enum { TERMS = 3, N = TERMS + 2 };
-    const double *fr = b->fr + from, *fi = b->fi + from;
     double a[N * N] = {0}, scale[TERMS];
     bool swept[TERMS];
     for (long k = 0; k < n; k++) {
-        double power = fr[k] * fr[k] + fi[k] * fi[k], u = 2.0 * (double)k / (double)n - 1.0,
-               row[TERMS] = {1.0, u, u * u};
+        cplx force = {b->fr[from + k], b->fi[from + k]}, product = cplx_mul(cplx_conj(force), x[k]);
+        double power = cplx_square(force), u = 2.0 * (double)k / (double)n - 1.0, row[TERMS] = {1.0, u, u * u};
         for (int i = 0; i < TERMS; i++) {
             for (int j = 0; j < TERMS; j++)
                 a[i * N + j] += power * row[i] * row[j];
-            a[i * N + TERMS] += row[i] * (fr[k] * re[k] + fi[k] * im[k]);
-            a[i * N + TERMS + 1] += row[i] * (fr[k] * im[k] - fi[k] * re[k]);
+            a[i * N + TERMS] += row[i] * product.re;
+            a[i * N + TERMS + 1] += row[i] * product.im;
         }
     }
     for (int i = 0; i < TERMS; i++)
@@ -124,8 +125,7 @@ void modal_fit_take_smooth_off(const struct modal_bins *b, long from, long n, co
         cplx c = {0};
         for (int i = 0; i < TERMS; i++)
             if (swept[i]) c = cplx_add(c, cplx_scale(row[i], (cplx){a[i * N + TERMS], a[i * N + TERMS + 1]}));
-        to_re[k] = re[k] - (fr[k] * c.re - fi[k] * c.im);
-        to_im[k] = im[k] - (fr[k] * c.im + fi[k] * c.re);
+        to[k] = cplx_sub(x[k], cplx_mul((cplx){b->fr[from + k], b->fi[from + k]}, c));
     }
 }
 
@@ -137,10 +137,10 @@ void modal_fit_noise(struct modal_fit *f, double width)
         patch = patch > PATCH ? patch : PATCH;
         for (long from = 0, n; from < b->n; from += n) {
             n = from + 2 * patch <= b->n ? patch : b->n - from;
-            modal_fit_take_smooth_off(b, from, n, b->rr + from, b->ri + from, b->nr + from, b->ni + from);
+            modal_fit_take_smooth_off(b, from, n, b->rest + from, b->noise + from);
         }
         long half = (long)(0.5 * 2.0 * REAL_PI * width / (b->width * GROUP));
-        smooth_power(b->nr, b->ni, b->n, half > 25 ? half : 25, b->variance);
+        smooth_power(b->noise, b->n, half > 25 ? half : 25, b->variance);
         for (long k = 0; k < b->n; k++)
             b->variance[k] = fmax(b->variance[k], b->floor[k]);
     }
@@ -155,7 +155,7 @@ static void floors_of_leads(struct modal_fit *f)
         if (d->stretch[l].strike >= 0 || lead->n < 100) continue;
         struct arena *a = arena_open();
         double *level = ARENA_TAKE(a, double, lead->n);
-        smooth_power(lead->yr, lead->yi, lead->n, 6, level);
+        smooth_power(lead->y, lead->n, 6, level);
         for (int s = 0; s < d->stretches; s++)
             for (long k = 0; d->stretch[s].place == d->stretch[l].place && s != l && k < f->bins[s].n; k++) {
                 long i = (long)rint((double)(f->bins[s].first + k) * f->bins[s].width / lead->width) - lead->first;
@@ -221,20 +221,19 @@ struct modal_line modal_fit_line(const struct modal_fit *f, int stretch, cplx s)
     double rate = f->data->rate, size = 1.0 / sqrt((double)st->n);
     cplx value, slope, p = cplx_exp(s, 1.0 / rate);
     carried(st, rate, s, &value, &slope);
-    return (struct modal_line){p.re,       p.im, size * value.re, size * value.im, size * slope.re, size * slope.im,
-                               1.0 / rate, 1.0};
+    return (struct modal_line){p, cplx_scale(size, value), cplx_scale(size, slope), 1.0 / rate, 1.0};
 }
 
 LANES_CLONES
 void modal_fit_half(const struct modal_bins *b, const struct modal_line *l, double sign, long from, long n,
-                    double *const x[4]);
+                    double (*x)[MODAL_CHUNK]);
 LANES_CLONES
 void modal_fit_half(const struct modal_bins *b, const struct modal_line *l, double sign, long from, long n,
-                    double *const x[4])
+                    double (*x)[MODAL_CHUNK])
 {
     const double *er = b->er + from, *ei = b->ei + from, *fr = b->fr + from, *fi = b->fi + from;
-    const double pr = l->pr, pi = sign * l->pi, gr = l->gr, gi = sign * l->gi, sr = l->dr, si = sign * l->di, t = l->t,
-                 force = l->force;
+    const double pr = l->p.re, pi = sign * l->p.im, gr = l->g.re, gi = sign * l->g.im, sr = l->d.re,
+                 si = sign * l->d.im, t = l->t, force = l->force;
     double *xr = x[0], *xi = x[1], *dr = x[2], *di = x[3];
 #pragma omp simd
     for (long k = 0; k < n; k++) {
@@ -249,118 +248,101 @@ void modal_fit_half(const struct modal_bins *b, const struct modal_line *l, doub
     }
 }
 
-void modal_fit_basis(const struct modal_bins *b, const struct modal_line *l, long from, long to, double *const x[8])
+void modal_fit_basis(const struct modal_bins *b, const struct modal_line *l, long from, long n,
+                     double (*x)[MODAL_CHUNK])
 {
-    modal_fit_half(b, l, 1.0, from, to - from, x);
-    modal_fit_half(b, l, -1.0, from, to - from, x + 4);
+    modal_fit_half(b, l, 1.0, from, n, x);
+    modal_fit_half(b, l, -1.0, from, n, x + 4);
 }
 
 /* ------------------------------------------------------------------ components */
 
-void modal_fit_add_line(const struct modal_bins *b, const struct modal_line *line, cplx gain, long from, long to,
-                        double *re, double *im)
+void modal_fit_add_line(const struct modal_bins *b, const struct modal_line *line, cplx gain, long from, long n,
+                        cplx *to)
 {
-    double room[8][CHUNK], *x[8];
+    double x[8][MODAL_CHUNK];
     cplx g = cplx_scale(0.5, gain);
-    for (int c = 0; c < 8; c++)
-        x[c] = room[c];
-    for (long n; from < to; from += n, re += n, im += n) {
-        n = from + CHUNK < to ? CHUNK : to - from;
-        modal_fit_basis(b, line, from, from + n, x);
-        for (long k = 0; k < n; k++) {
-            re[k] += g.re * (x[0][k] + x[4][k]) - g.im * (x[1][k] - x[5][k]);
-            im[k] += g.re * (x[1][k] + x[5][k]) + g.im * (x[0][k] - x[4][k]);
+    for (long done = 0; done < n; done += MODAL_CHUNK) {
+        long more = n - done < MODAL_CHUNK ? n - done : MODAL_CHUNK;
+        modal_fit_basis(b, line, from + done, more, x);
+        for (long k = 0; k < more; k++) {
+            to[done + k].re += g.re * (x[0][k] + x[4][k]) - g.im * (x[1][k] - x[5][k]);
+            to[done + k].im += g.re * (x[1][k] + x[5][k]) + g.im * (x[0][k] - x[4][k]);
         }
     }
 }
 
-static void add_to_rest(struct modal_bins *b, const struct modal_line *line, cplx gain)
-{
-    modal_fit_add_line(b, line, gain, 0, b->n, b->rr, b->ri);
-}
-
-/* What rings on into a stretch: the state x that earlier strikes of its place have left at its first sample makes x (1
- * - p^n)/(1 - p e^(-jw)). */
-static void add_ringing(const struct modal_fit *f, int s, cplx pole, cplx state, double sign)
-{
-    const struct modal_stretch *st = &f->data->stretch[s];
-    double rate = f->data->rate, size = 1.0 / sqrt((double)st->n);
-    cplx p = cplx_exp(pole, 1.0 / rate), left = cplx_sub(state, cplx_mul(state, cplx_exp(pole, (double)st->n / rate)));
-    struct modal_line line = {p.re, p.im, size, 0.0, 0.0, 0.0, 1.0 / rate, 0.0};
-    add_to_rest(&f->bins[s], &line, cplx_scale(sign, left));
-}
-
-/* The state at a strike's pulse that its force makes with a gain of 1, and how a state grows from the stretch's first
- * sample to there. */
-static cplx forced(const struct modal_fit *f, const struct modal_stretch *st, cplx pole, cplx *grown)
+/* The state at a strike's pulse that its force makes with a gain of 1. */
+static cplx forced(const struct modal_fit *f, const struct modal_pulse *q, cplx pole)
 {
     cplx sum = {0}, back = cplx_exp(pole, -1.0 / f->data->rate);
-    for (long k = st->pulse.n - 1; k >= 0; k--) {
+    for (long k = q->n - 1; k >= 0; k--) {
         sum = cplx_mul(sum, back);
-        sum.re += st->pulse.f[k];
+        sum.re += q->f[k];
     }
-    *grown = cplx_exp(pole, (double)(st->pulse.at - st->first) / f->data->rate);
     return sum;
 }
 
-/* What rings from strike s on, `after` at its pulse, at the first sample of the next stretch of its place; 0: there is
- * none. */
-static cplx rings_on(const struct modal_fit *f, int s, cplx pole, cplx after)
+/* The gain with which a strike would make what rings on at its pulse; 0 where the force hardly drives the pole. In a
+   mode's window the two are alike. */
+static cplx ringing_gain(const struct modal_pulse *q, cplx force, cplx rings)
 {
-    const struct modal_stretch *st = &f->data->stretch[s];
-    bool next = s + 1 < f->data->stretches && st[1].place == st->place && st->strike >= 0;
-    return next ? cplx_mul(after, cplx_exp(pole, (double)(st[1].first - st->pulse.at) / f->data->rate)) : (cplx){0};
+    static const double blind = 1e-3; /* of the pulse's momentum */
+    double momentum = 0.0;
+    for (long k = 0; k < q->n; k++)
+        momentum += fabs(q->f[k]);
+    return cplx_abs(force) > blind * momentum ? cplx_div(rings, force) : (cplx){0};
 }
 
-/* state[stretches] at their first samples, of what earlier strikes have left. */
-static void states(const struct modal_fit *f, int i, cplx *state)
+/* A component from stretch to stretch: what rings on at the first sample of each, of earlier strikes of its place, and
+   what rings at its pulse's end (NULL: not wanted). The gains of what rings on, as if the strike had made it, are put
+   into (total 1) its own, or taken out (-1). */
+static void ring(const struct modal_fit *f, struct modal_part *part, int total, cplx *on, cplx *after)
 {
     const struct modal_data *d = f->data;
-    state[0] = (cplx){0};
-    for (int s = 0; s + 1 < d->stretches; s++) {
-        const struct modal_part *p = &f->part[i * d->stretches + s];
-        cplx grown, force = forced(f, &d->stretch[s], p->pole, &grown);
-        state[s + 1] = rings_on(f, s, p->pole, cplx_add(cplx_mul(state[s], grown), cplx_mul(p->gain, force)));
+    on[0] = (cplx){0};
+    for (int s = 0; s < d->stretches; s++) {
+        const struct modal_stretch *st = &d->stretch[s];
+        struct modal_part *p = &part[s];
+        cplx force = forced(f, &st->pulse, p->pole),
+             rings = cplx_mul(on[s], cplx_exp(p->pole, (double)(st->pulse.at - st->first) / d->rate)),
+             extra = ringing_gain(&st->pulse, force, rings);
+        if (total < 0) p->gain = cplx_sub(p->gain, extra);
+        cplx now = cplx_add(rings, cplx_mul(p->gain, force));
+        if (total > 0) p->gain = cplx_add(p->gain, extra);
+        if (after) after[s] = now;
+        if (s + 1 == d->stretches) break;
+        bool next = st[1].place == st->place && st->strike >= 0;
+        on[s + 1] = next ? cplx_mul(now, cplx_exp(p->pole, (double)(st[1].first - st->pulse.at) / d->rate)) : (cplx){0};
     }
 }
 
+/* What rings on makes x (1 - p^n)/(1 - p e^(-jw)) of a state x at a stretch's first sample. */
 void modal_fit_put(struct modal_fit *f, int i, double sign)
 {
     const struct modal_data *d = f->data;
-    cplx state[MODAL_STRETCHES];
-    states(f, i, state);
+    struct modal_part *part = f->part + i * d->stretches;
+    cplx on[MODAL_STRETCHES];
+    ring(f, part, 0, on, NULL);
     for (int s = 0; s < d->stretches; s++) {
-        const struct modal_part *p = &f->part[i * d->stretches + s];
-        struct modal_line line = modal_fit_line(f, s, p->pole);
-        if (cplx_square(p->gain) > 0.0) add_to_rest(&f->bins[s], &line, cplx_scale(sign, p->gain));
-        if (d->stretch[s].strike >= 0 && cplx_square(state[s]) > 1e-24 * cplx_square(p->gain))
-            add_ringing(f, s, p->pole, state[s], sign);
+        const struct modal_part *p = &part[s];
+        const struct modal_stretch *st = &d->stretch[s];
+        struct modal_bins *b = &f->bins[s];
+        struct modal_line line = modal_fit_line(f, s, p->pole),
+                          free = {line.p, {1.0 / sqrt((double)st->n), 0.0}, {0.0, 0.0}, line.t, 0.0};
+        cplx left = cplx_sub(on[s], cplx_mul(on[s], cplx_exp(p->pole, (double)st->n / d->rate)));
+        if (cplx_square(p->gain) > 0.0) modal_fit_add_line(b, &line, cplx_scale(sign, p->gain), 0, b->n, b->rest);
+        if (st->strike >= 0 && cplx_square(on[s]) > 1e-24 * cplx_square(p->gain))
+            modal_fit_add_line(b, &free, cplx_scale(sign, left), 0, b->n, b->rest);
     }
-}
-
-/* The gain with which strike s would make what rings on at its pulse from the state at the stretch's first sample; 0
-   where the force hardly drives the pole. In a mode's window the two are alike. */
-static cplx ringing_gain(const struct modal_fit *f, int s, cplx pole, cplx state)
-{
-    static const double blind = 1e-3; /* of the pulse's momentum */
-    const struct modal_stretch *st = &f->data->stretch[s];
-    cplx grown, force = forced(f, st, pole, &grown);
-    double momentum = 0.0;
-    for (long k = 0; k < st->pulse.n; k++)
-        momentum += fabs(st->pulse.f[k]);
-    return st->strike >= 0 && cplx_abs(force) > blind * momentum ? cplx_div(cplx_mul(state, grown), force) : (cplx){0};
 }
 
 void modal_fit_sizes(const struct modal_fit *f, int i, double *size)
 {
-    const struct modal_data *d = f->data;
-    cplx state[MODAL_STRETCHES];
-    states(f, i, state);
-    for (int s = 0; s < d->stretches; s++) {
-        const struct modal_part *p = &f->part[i * d->stretches + s];
-        cplx grown, force = forced(f, &d->stretch[s], p->pole, &grown);
-        size[s] = cplx_abs(cplx_add(cplx_mul(state[s], grown), cplx_mul(p->gain, force)));
-    }
+    cplx on[MODAL_STRETCHES], after[MODAL_STRETCHES];
+    ring(f, f->part + i * f->data->stretches, 0, on, after);
+    for (int s = 0; s < f->data->stretches; s++)
+        size[s] = cplx_abs(after[s]);
 }
 
 double modal_fit_lead(const struct modal_fit *f, int stretch, cplx s)
@@ -369,45 +351,32 @@ double modal_fit_lead(const struct modal_fit *f, int stretch, cplx s)
     double wide = 2.0 * b->width - s.re, sum = 0.0;
     long from = (long)ceil((s.im - wide) / b->width) - b->first, to = (long)floor((s.im + wide) / b->width) - b->first;
     for (long k = from > 0 ? from : 0; k <= to && k < b->n; k++)
-        sum += b->yr[k] * b->yr[k] + b->yi[k] * b->yi[k] - b->variance[k];
+        sum += cplx_square(b->y[k]) - b->variance[k];
     return 2.0 * sqrt(fmax(sum, 0.0) / (double)f->data->stretch[stretch].n);
 }
 
 void modal_fit_totals(const struct modal_fit *f, int i, struct modal_part *total)
 {
-    const struct modal_data *d = f->data;
-    cplx state[MODAL_STRETCHES];
-    states(f, i, state);
-    memcpy(total, f->part + i * d->stretches, (size_t)d->stretches * sizeof *total);
-    for (int s = 0; s < d->stretches; s++) {
-        struct modal_part *p = &total[s];
-        p->gain = cplx_add(p->gain, ringing_gain(f, s, p->pole, state[s]));
-    }
+    cplx on[MODAL_STRETCHES];
+    memcpy(total, f->part + i * f->data->stretches, (size_t)f->data->stretches * sizeof *total);
+    ring(f, total, 1, on, NULL);
 }
 
 void modal_fit_replace(struct modal_fit *f, int i, cplx pole, const struct modal_part *total)
 {
-    const struct modal_data *d = f->data;
-    struct modal_part *mine = f->part + i * d->stretches;
-    cplx state = {0};
+    cplx on[MODAL_STRETCHES];
+    struct modal_part *part = f->part + i * f->data->stretches;
     modal_fit_put(f, i, 1.0);
     f->c[i].s = pole;
-    memcpy(mine, total, (size_t)d->stretches * sizeof *total);
-    for (int s = 0; s < d->stretches; s++) {
-        struct modal_part *p = &mine[s];
-        cplx grown, force = forced(f, &d->stretch[s], p->pole, &grown);
-        p->gain = cplx_sub(p->gain, ringing_gain(f, s, p->pole, state));
-        state = rings_on(f, s, p->pole, cplx_add(cplx_mul(state, grown), cplx_mul(p->gain, force)));
-    }
+    memcpy(part, total, (size_t)f->data->stretches * sizeof *total);
+    ring(f, part, -1, on, NULL);
     modal_fit_put(f, i, -1.0);
 }
 
 void modal_fit_rest(struct modal_fit *f)
 {
-    for (int s = 0; s < f->data->stretches; s++) {
-        memcpy(f->bins[s].rr, f->bins[s].yr, (size_t)f->bins[s].n * sizeof(double));
-        memcpy(f->bins[s].ri, f->bins[s].yi, (size_t)f->bins[s].n * sizeof(double));
-    }
+    for (int s = 0; s < f->data->stretches; s++)
+        memcpy(f->bins[s].rest, f->bins[s].y, (size_t)f->bins[s].n * sizeof(cplx));
     for (int i = 0; i < f->m; i++)
         modal_fit_put(f, i, -1.0);
 }

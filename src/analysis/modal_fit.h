@@ -33,6 +33,7 @@
 enum {
     MODAL_REACH = 12,
     MODAL_BLOCK = 24,
+    MODAL_CHUNK = 64, /* bins that a basis is made of at once */
     MODAL_SMOOTH = 6,
     MODAL_STRETCHES = 256,
     MODAL_COLUMNS = 4 * MODAL_BLOCK + MODAL_SMOOTH + 1
@@ -49,16 +50,17 @@ struct modal_bins { /* of one stretch: its DFT over sqrt(n), bins first ... firs
     double width;     /* rad/s from bin to bin */
     double *er, *ei;  /* e^(-jw) */
     double *fr, *fi;  /* the force */
-    double *yr, *yi;  /* the recording */
-    double *rr, *ri;  /* ... less all modes of the fit */
-    double *nr, *ni;  /* ... and less what is smooth but for the force: noise, and modes that are missing */
+    cplx *y;          /* the recording */
+    cplx *rest;       /* ... less all modes of the fit */
+    cplx *noise;      /* ... and less what is smooth but for the force: noise, and modes that are missing */
     double *variance; /* E |noise|^2 */
     double *floor;    /* the same at least: of the recording where nothing rings, of its rounding */
     double *scale;    /* the lead's noise; 1: there is none */
 };
 
 struct modal_line {
-    double pr, pi, gr, gi, dr, di, t, force; /* t: 1/rate; force 1, of what rings on 0 */
+    cplx p, g, d;
+    double t, force; /* t: 1/rate; force 1, of what rings on 0 */
 };
 
 struct modal_component {
@@ -102,7 +104,7 @@ struct modal_block {
     struct modal_part *part; /* [MODAL_BLOCK][stretches] */
     double centre, half;     /* rad/s of the window */
     long *from, *to;         /* [stretches] bins of it, counted from bins.first */
-    double **r;              /* [stretches][2 (to - from)]: real parts, then imaginary ones */
+    cplx **rest;             /* [stretches][to - from] */
     double fastest;          /* 1/s */
     double chi; /* -2 log likelihood: sum of degrees log noise, and the squares of strikes' poles off the shared ones */
     double *noise;   /* [stretches] what a strike's window leaves, over the variance: its noise, and what is no mode */
@@ -117,10 +119,9 @@ struct modal_block {
 void modal_fit_open(struct modal_fit *f, const struct modal_data *d, const struct modal_options *o, struct arena *a);
 void modal_fit_noise(struct modal_fit *f,
                      double width); /* variance: a running median over that many Hz of what is left */
-/* re, im[n] - F (c0 + c1 u + c2 u^2), c by least squares: what goes straight from the force to the sound, and the
- * skirts of modes that are far away. */
-void modal_fit_take_smooth_off(const struct modal_bins *b, long from, long n, const double *re, const double *im,
-                               double *to_re, double *to_im);
+/* x[n] - F (c0 + c1 u + c2 u^2), c by least squares: what goes straight from the force to the sound, and the skirts of
+ * modes that are far away. */
+void modal_fit_take_smooth_off(const struct modal_bins *b, long from, long n, const cplx *x, cplx *to);
 void modal_fit_add(struct modal_fit *f, cplx s, const struct modal_part *part); /* part NULL: no gains */
 void modal_fit_drop(struct modal_fit *f, int i);
 /* What a block fits: gains with what rings on from earlier strikes of the place, as if the strike had made it. Of a
@@ -135,15 +136,16 @@ void modal_fit_put(struct modal_fit *f, int i, double sign); /* rest += sign (co
 void modal_fit_rest(struct modal_fit *f);                    /* rest anew */
 /* What X of a pole needs on a stretch's bins: p, H - G and its derivative over sqrt(n). */
 struct modal_line modal_fit_line(const struct modal_fit *f, int stretch, cplx s);
-/* X, dX/ds and the same of the mirror pole at bins [from, to): x[0 ... 7][to - from], re and im each. */
-void modal_fit_basis(const struct modal_bins *b, const struct modal_line *l, long from, long to, double *const x[8]);
-/* re, im[to - from] += the real part of gain times what the line makes. */
-void modal_fit_add_line(const struct modal_bins *b, const struct modal_line *line, cplx gain, long from, long to,
-                        double *re, double *im);
+/* X, dX/ds and the same of the mirror pole at n bins, re and im each. */
+void modal_fit_basis(const struct modal_bins *b, const struct modal_line *l, long from, long n,
+                     double (*x)[MODAL_CHUNK]);
+/* to[n] += the real part of gain times what the line makes. */
+void modal_fit_add_line(const struct modal_bins *b, const struct modal_line *line, cplx gain, long from, long n,
+                        cplx *to);
 
 /* modal_block.c */
-void modal_block_open(struct modal_block *b, const struct modal_fit *f, int m, const int *of, const cplx *extra,
-                      int extras, struct arena *a);
+struct modal_block *modal_block_open(const struct modal_fit *f, int m, const int *of, const cplx *extra, int extras,
+                                     struct arena *a);
 /* A block that modal_block_copy can make like another; both of one fit. */
 struct modal_block *modal_block_room(const struct modal_fit *f, struct arena *a);
 void modal_block_copy(struct modal_block *to, const struct modal_block *from);
@@ -164,8 +166,8 @@ int modal_block_sweep(double *a, int n, int from, int to, const double *scale, b
 /* modal_converge.c */
 int modal_converge_near(const struct modal_fit *f, int i, int most,
                         int *of); /* components whose bands touch i's, i too, by frequency */
-/* Opens a block of those; returns where i is in it. */
-int modal_converge_open(struct modal_block *b, const struct modal_fit *f, int i, int most, struct arena *a);
+/* Opens a block of those; *at: where i is in it. */
+struct modal_block *modal_converge_open(const struct modal_fit *f, int i, int most, int *at, struct arena *a);
 double modal_converge_refine(struct modal_fit *f, int n, const int *of,
                              int steps); /* fits them anew, the greatest move in standard errors */
 void modal_converge_sweeps(struct modal_fit *f, int most, int rounds);

@@ -36,8 +36,10 @@ static void residual_make(const struct modal_fit *f, struct arena *a, struct res
         if (!st->fitted) continue;
         struct fft *own = fft_open((size_t)st->n);
         double *re = ARENA_TAKE(a, double, st->n / 2 + 1), *im = ARENA_TAKE(a, double, st->n / 2 + 1);
-        memcpy(re + b->first, b->rr, (size_t)b->n * sizeof *re);
-        memcpy(im + b->first, b->ri, (size_t)b->n * sizeof *im);
+        for (long k = 0; k < b->n; k++) {
+            re[b->first + k] = b->rest[k].re;
+            im[b->first + k] = b->rest[k].im;
+        }
         memset(x, 0, (size_t)r->n * sizeof *x);
         fft_inverse(own, re, im, x);
         r->re[s] = ARENA_TAKE(a, double, r->n / 2 + 1);
@@ -187,7 +189,7 @@ double modal_search_round(struct modal_fit *f, double *noise)
     for (int s = 0; s < f->data->stretches; s++) {
         struct modal_bins *b = &f->bins[s];
         for (long k = 0; k < b->n && f->data->stretch[s].fitted; k++) {
-            most = fmax(most, (b->nr[k] * b->nr[k] + b->ni[k] * b->ni[k]) / b->scale[k]);
+            most = fmax(most, cplx_square(b->noise[k]) / b->scale[k]);
             *noise = fmin(*noise, b->variance[k] / b->scale[k]);
         }
     }
@@ -197,15 +199,13 @@ double modal_search_round(struct modal_fit *f, double *noise)
 /* The greatest power that a component has in any bin, over the lead's. */
 static double power_of(const struct modal_fit *f, cplx s, const struct modal_part *part)
 {
-    double most = 0.0, room[8][1], *x[8];
-    for (int c = 0; c < 8; c++)
-        x[c] = room[c];
+    double most = 0.0, x[8][MODAL_CHUNK];
     for (int k = 0; k < f->data->stretches; k++) {
         const struct modal_bins *b = &f->bins[k];
         long at = (long)rint(s.im / b->width) - b->first;
         if (!f->data->stretch[k].fitted || at < 0 || at >= b->n) continue;
         struct modal_line line = modal_fit_line(f, k, s);
-        modal_fit_basis(b, &line, at, at + 1, x);
+        modal_fit_basis(b, &line, at, 1, x);
         most = fmax(most, 0.25 * cplx_square(part[k].gain) * (x[0][0] * x[0][0] + x[1][0] * x[1][0]) / b->scale[at]);
     }
     return most;
@@ -220,7 +220,7 @@ static double stands_out(const struct modal_fit *f, double low, double high)
         if (!f->data->stretch[s].fitted) continue;
         long from = (long)ceil(low / b->width) - b->first, to = (long)floor(high / b->width) - b->first;
         for (long k = from > 0 ? from : 0; k <= to && k < b->n; k++) {
-            double q = (b->nr[k] * b->nr[k] + b->ni[k] * b->ni[k]) / b->variance[k];
+            double q = cplx_square(b->noise[k]) / b->variance[k];
             excess += q - 1.0;
             count++;
             most = fmax(most, q);
@@ -300,7 +300,6 @@ static bool accepted(const struct modal_block *b, int i, double low, double high
 static int take(struct modal_fit *f, cplx *pole, int n, double low, double high, double limit, double least)
 {
     struct arena *a = arena_open();
-    struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
     int came = 0, there = 0, of[NEIGHBOURS + 1], stretches = f->data->stretches;
     double quarter = 0.25 * (high - low), at = 0.5 * (low + high);
     for (int i = 0; i < f->m; i++) { /* the nearest to the band's middle */
@@ -311,7 +310,7 @@ static int take(struct modal_fit *f, cplx *pole, int n, double low, double high,
         of[k] = i;
         there += there < NEIGHBOURS;
     }
-    modal_block_open(b, f, there, of, pole, n, a);
+    struct modal_block *b = modal_block_open(f, there, of, pole, n, a);
     b->fastest = fmin(f->fastest, high - low);
     for (int i = 0; i < there; i++) /* those that are there may be faster than the band lets new ones be */
         b->fastest = fmax(b->fastest, -f->c[of[i]].s.re);

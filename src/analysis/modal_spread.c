@@ -19,10 +19,11 @@ static struct moments moments(const struct modal_fit *f, int i, int q)
 {
     struct moments m = {0, 0.0, 0.0};
     struct arena *a = arena_open();
-    struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
+    int at;
+    struct modal_block *b = modal_converge_open(f, i, 8, &at, a);
     double *by = ARENA_TAKE(a, double, f->data->stretches), *variance = ARENA_TAKE(a, double, f->data->stretches),
            all = 0.0, mean = 0.0, scatter = 0.0, noise = 0.0, share = 0.0;
-    m.n = modal_block_deviations(b, modal_converge_open(b, f, i, 8, a), q, by, variance);
+    m.n = modal_block_deviations(b, at, q, by, variance);
     for (int k = 0; k < m.n; k++) {
         double w = 1.0 / (variance[k] + f->c[i].spread[q] * f->c[i].spread[q]);
         all += w;

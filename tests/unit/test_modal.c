@@ -66,7 +66,7 @@ START_TEST(basis)
     const double force[3] = {0.3, 1.0, 0.4};
     struct arena *a = arena_open();
     for (long at = 40; at <= 540; at += 250) {
-        double *y = ARENA_TAKE(a, double, 2000), room[3][8][8], *x[8];
+        double *y = ARENA_TAKE(a, double, 2000), room[3][8][MODAL_CHUNK];
         struct modal_stretch s = {.y = y, .first = 300, .n = 960, .fitted = true, .pulse = {at, 3, force}};
         struct modal_data d = {.rate = RATE, .places = 1, .stretches = 1, .stretch = &s};
         struct modal_options o = {.low = 900, .high = 1100, .fastest = 300};
@@ -75,9 +75,7 @@ START_TEST(basis)
         modal_fit_open(&f, &d, &o, a);
         for (int k = 0; k < 3; k++) {
             struct modal_line line = modal_fit_line(&f, 0, (cplx){pole.re + 1e-4 * (k - 1), pole.im});
-            for (int c = 0; c < 8; c++)
-                x[c] = room[k][c];
-            modal_fit_basis(&f.bins[0], &line, 0, 8, x);
+            modal_fit_basis(&f.bins[0], &line, 0, 8, room[k]);
         }
         cplx p = cplx_exp(pole, 1.0 / RATE), state = {0}, sum[8] = {{0}};
         double largest = 0.0;
