@@ -11,8 +11,7 @@
 
 enum { ROUNDS = 10, DRAWS = 8, SURVIVES = 7, SEARCHED = 2, GAIN_ROUNDS = 4 };
 
-static const double stable = 23.5;   /* chi squared of 4 degrees that a mode must keep under noise drawn anew */
-static const double certain = 100.0; /* ... above which all draws do */
+static const double certain = 100.0; /* chi squared of 4 degrees with which all draws of noise leave a mode */
 static const double step = 300.0;    /* of power, from round to round */
 static const double samples = 128.0; /* of a band's envelope in the longest stretch, in the narrowest bands */
 
@@ -23,15 +22,10 @@ long modal_length(long n)
     return 0;
 }
 
-static void note(struct modal_result *r, struct arena *a, const char *text)
-{
-    r->note = r->note ? arena_format(a, "%s\n%s", r->note, text) : text;
-}
-
 /* A note about n of them, if there are any: its text behind the number, of one and of several. */
 static void note_number(struct modal_result *r, struct arena *a, int n, const char *one, const char *several)
 {
-    if (n) note(r, a, arena_format(a, "%d %s", n, n == 1 ? one : several));
+    if (n) r->note = arena_line(a, r->note, arena_format(a, "%d %s", n, n == 1 ? one : several));
 }
 
 /* ------------------------------------------------------------------ search */
@@ -41,7 +35,7 @@ static void note_number(struct modal_result *r, struct arena *a, int n, const ch
 static double score(struct modal_fit *f)
 {
     enum { PART = 64 };
-    double sum = modal_converge_limit(f, stable) * f->m;
+    double sum = modal_converge_limit(f, modal_converge_leave) * f->m;
     modal_fit_rest(f);
     modal_fit_noise(f, 0.0);
     for (int s = 0; s < f->data->stretches; s++) {
@@ -78,9 +72,7 @@ static void search(struct modal_fit *f)
         if (modal_converge_runaways(f)) modal_converge_sweeps(f, 8, 2);
         modal_converge_runaways(f);
         modal_converge_sweeps(f, 16, 4);
-        modal_fit_rest(f);
-        modal_fit_noise(f, 0.0);
-        modal_converge_eliminate(f, modal_converge_limit(f, stable));
+        modal_converge_eliminate(f);
         double now = score(f);
         bool better = now < best;
         size_t n = (size_t)(better ? f->m : surviving), size = n * (size_t)f->data->stretches * sizeof *part;
@@ -139,13 +131,13 @@ static bool survives(struct modal_fit *f, int i, double limit)
 
 static int drop_unstable(struct modal_fit *f)
 {
-    double limit = modal_converge_limit(f, stable), sure = modal_converge_limit(f, certain);
+    double limit = modal_converge_limit(f, modal_converge_leave), sure = modal_converge_limit(f, certain);
     int dropped = 0;
     for (int i = 0; i < f->m;)
         if (modal_converge_rise(f, i) > sure || survives(f, i, limit)) {
             i++;
         } else {
-            modal_converge_drop(f, i, 11);
+            modal_converge_drop(f, i);
             dropped++;
         }
     if (dropped) modal_converge(f);
@@ -182,7 +174,7 @@ static void errors(struct modal_fit *f, int i, struct modal_mode *m)
     struct arena *a = arena_open();
     int at;
     struct modal_block *b = modal_converge_open(f, i, 16, &at, a);
-    modal_block_errors(b, at, se, m->gain_se, m->gain_shared);
+    modal_block_errors(b, at, se, m->gain);
     m->frequency_se = se[0] / (2.0 * REAL_PI);
     m->decay_se = se[1] * m->decay;
     arena_close(a);
@@ -224,9 +216,9 @@ static void number(struct modal_result *r, struct arena *a)
     }
     for (int k = 1; k <= r->modes; k++)
         if (slopes[k] > 1)
-            note(r, a,
-                 arena_format(a, "%.6g Hz decays with %s slopes: %s", r->mode[first[k]].frequency,
-                              slopes[k] == 2 ? "two" : arena_format(a, "%d", slopes[k]), decays[k]));
+            r->note = arena_line(a, r->note,
+                                 arena_format(a, "%.6g Hz decays with %s slopes: %s", r->mode[first[k]].frequency,
+                                              slopes[k] == 2 ? "two" : arena_format(a, "%d", slopes[k]), decays[k]));
 }
 
 struct energies {               /* of a stretch's rest */
@@ -309,16 +301,7 @@ static void fit_gains(struct modal_fit *f)
     }
 }
 
-/* What decays faster than is wanted goes, the fastest first. */
-static bool drop_fastest(struct modal_fit *f)
-{
-    int fastest = -1;
-    for (int i = 0; i < f->m; i++)
-        if (fastest < 0 || f->c[i].s.re < f->c[fastest].s.re) fastest = i;
-    bool any = fastest >= 0 && -f->c[fastest].s.re > f->options->fastest;
-    if (any) modal_converge_drop(f, fastest, 9);
-    return any;
-}
+static double fast(struct modal_fit *f, int i) { return -f->c[i].s.re > f->options->fastest ? f->c[i].s.re : HUGE_VAL; }
 
 /* Is it a hum? It is as loud in all strikes, within 12 dB, as nothing is that they strike; or before the first strike
    at least half as loud as after most. */
@@ -336,56 +319,29 @@ static bool is_hum(const struct modal_fit *f, int i, bool undamped)
 }
 
 /* What does not decay by more than chance, or has no gain of more, is no mode: a hum, which stays in the fit, or what a
-   fit of noise needs. Of those the weakest goes first, the others fitted anew: they may decay without it. Returns how
-   many there were. */
-static int drop_uncertain(struct modal_fit *f)
+   fit of noise needs. Of those the weakest goes first, the others fitted anew: they may decay without it. */
+static double uncertain(struct modal_fit *f, int i)
 {
-    struct arena *a = arena_open();
-    const int stretches = f->data->stretches;
-    struct modal_mode m = {.gain_se = ARENA_TAKE(a, double, stretches),
-                           .gain_shared = ARENA_TAKE(a, double, stretches)};
-    int dropped = 0;
-    for (;; dropped++) {
-        double least = HUGE_VAL;
-        int weakest = -1;
-        for (int i = 0; i < f->m; i++) {
-            if (f->c[i].hum) continue;
-            m.decay = -f->c[i].s.re;
-            errors(f, i, &m);
-            bool slow = m.decay < 2.0 / f->longest, gains = false,
-                 undamped = slow ? m.decay <= 2.0 * fmax(m.decay_se, f->slowest) : m.decay <= m.decay_se;
-            for (int g = 0; g < stretches; g++)
-                gains =
-                    gains || (f->data->stretch[g].fitted && cplx_abs(f->part[i * stretches + g].gain) > m.gain_se[g]);
-            f->c[i].hum = is_hum(f, i, slow && undamped);
-            if (f->c[i].hum || (!undamped && gains)) continue;
-            double share = projected(f, i);
-            weakest = share < least ? i : weakest;
-            least = fmin(least, share);
-        }
-        if (weakest < 0) break;
-        modal_converge_drop(f, weakest, 9);
-    }
-    if (dropped) modal_converge_sweeps(f, 8, 4);
-    arena_close(a);
-    return dropped;
+    struct modal_gain gain[MODAL_STRETCHES];
+    struct modal_mode m = {.decay = -f->c[i].s.re, .gain = gain};
+    if (f->c[i].hum) return HUGE_VAL;
+    errors(f, i, &m);
+    bool slow = m.decay < 2.0 / f->longest, gains = false,
+         undamped = slow ? m.decay <= 2.0 * fmax(m.decay_se, f->slowest) : m.decay <= m.decay_se;
+    for (int s = 0; s < f->data->stretches; s++)
+        gains =
+            gains || (f->data->stretch[s].fitted && cplx_abs(f->part[i * f->data->stretches + s].gain) > gain[s].se);
+    f->c[i].hum = is_hum(f, i, slow && undamped);
+    return f->c[i].hum || (!undamped && gains) ? HUGE_VAL : projected(f, i);
 }
 
 /* The weakest beyond those that are wanted. */
-static int drop_weakest(struct modal_fit *f)
+static double surplus(struct modal_fit *f, int i)
 {
-    for (int dropped = 0;; dropped++) {
-        int modes = 0, weakest = -1;
-        double least = HUGE_VAL;
-        for (int i = 0; i < f->m; i++) {
-            double share = f->c[i].hum ? HUGE_VAL : projected(f, i);
-            modes += !f->c[i].hum;
-            if (share < least) weakest = i;
-            least = fmin(least, share);
-        }
-        if (modes <= f->options->most) return dropped;
-        modal_converge_drop(f, weakest, 9);
-    }
+    int modes = 0;
+    for (int k = 0; k < f->m; k++)
+        modes += !f->c[k].hum;
+    return f->c[i].hum || modes <= f->options->most ? HUGE_VAL : projected(f, i);
 }
 
 static void report(struct modal_fit *f, struct arena *a, struct modal_result *r)
@@ -407,15 +363,12 @@ static void report(struct modal_fit *f, struct arena *a, struct modal_result *r)
                                  .frequency = f->c[i].s.im / (2.0 * REAL_PI),
                                  .decay = -f->c[i].s.re,
                                  .share = projected(f, i)};
-        m->re = ARENA_TAKE(a, double, d->stretches);
-        m->im = ARENA_TAKE(a, double, d->stretches);
-        m->gain_se = ARENA_TAKE(a, double, d->stretches);
-        m->gain_shared = ARENA_TAKE(a, double, d->stretches);
-        for (int g = 0; g < d->stretches; g++) {
-            m->re[g] = -f->part[i * d->stretches + g].gain.im;
-            m->im[g] = f->part[i * d->stretches + g].gain.re;
-        }
+        m->gain = ARENA_TAKE(a, struct modal_gain, d->stretches);
         errors(f, i, m);
+        for (int g = 0; g < d->stretches; g++) {
+            cplx gain = f->part[i * d->stretches + g].gain;
+            m->gain[g].a = (cplx){-gain.im, gain.re};
+        }
         all += m->share;
     }
     for (int j = 0; j < r->n; j++)
@@ -487,24 +440,23 @@ bool modal_find(const struct modal_data *d, const struct modal_options *o, struc
         while (drop_unstable(&f) > 0)
             ;
     }
-    int fast = 0;
-    while (drop_fastest(&f))
-        fast++;
-    int uncertain = 0, weakest;
-    for (int n = 1; n; uncertain += n)
-        n = drop_uncertain(&f);
+    int too_fast = modal_converge_drop_least(&f, fast), chance = 0;
+    for (int n = 1; n; chance += n) {
+        n = modal_converge_drop_least(&f, uncertain);
+        if (n) modal_converge_sweeps(&f, 8, 4);
+    }
     r->explained = ARENA_TAKE(a, double, d->stretches);
     r->fitted = ARENA_TAKE(a, double, d->stretches);
     r->direct = ARENA_TAKE(a, double, d->stretches);
     explain(&f, r->fitted, r->direct, inner);
-    weakest = drop_weakest(&f);
+    int more = modal_converge_drop_least(&f, surplus);
     report(&f, a, r);
-    note_number(r, a, fast,
+    note_number(r, a, too_fast,
                 arena_format(a, "component that decays faster than %.4g/s is left out (--fastest)", o->fastest),
                 arena_format(a, "components that decay faster than %.4g/s are left out (--fastest)", o->fastest));
-    note_number(r, a, uncertain, "component is left out, whose decay or gain may be chance",
+    note_number(r, a, chance, "component is left out, whose decay or gain may be chance",
                 "components are left out, whose decays or gains may be chance");
-    note_number(r, a, weakest, arena_format(a, "more mode than the %d strongest was found", o->most),
+    note_number(r, a, more, arena_format(a, "more mode than the %d strongest was found", o->most),
                 arena_format(a, "more modes than the %d strongest were found", o->most));
     arena_close(inner);
     return true;

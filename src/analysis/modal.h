@@ -3,6 +3,7 @@
 #define ANALYSIS_MODAL_H
 #include <stdbool.h>
 
+#include "analysis/modal_complex.h"
 #include "base/arena.h"
 #include "base/err.h"
 
@@ -18,6 +19,7 @@ struct modal_stretch {        /* part of a recording, after a strike, or before 
     int place, strike;        /* strike -1: a lead */
     bool fitted;              /* false: its poles are those of the fitted ones, its gains its own; a lead has neither */
     bool idle;                /* not even gains */
+    double rounding;          /* rms of the file's steps; no noise is less */
     struct modal_pulse pulse; /* none: n 0 */
 };
 
@@ -25,7 +27,6 @@ struct modal_data {
     double rate; /* Hz */
     int places, stretches;
     const struct modal_stretch *stretch;
-    const double *rounding; /* [places] rms of the file's steps; no noise is less */
 };
 
 struct modal_options {
@@ -34,14 +35,17 @@ struct modal_options {
     double fastest;   /* 1/s, of decays */
     bool spectrogram; /* candidates from peaks of the power spectrogram (papers/003 section B) instead of sub-band
                          ESPRIT */
-    double threshold; /* of the spectrogram's local fit: greatest error, share of its energy; 0.1 */
+};
+
+struct modal_gain { /* h(t) = Im A e^(s t), t from the force's sample, or from the stretch's first */
+    cplx a;
+    double se, shared; /* of |A|: a strike's own standard error, and by the poles, of all strikes alike */
 };
 
 struct modal_mode {
-    double frequency, decay; /* Hz, 1/s */
-    double *re, *im; /* [stretches] A, h(t) = Im A e^(s t), t from the force's sample, or from the stretch's first */
-    double frequency_se, decay_se; /* standard errors from noise */
-    double *gain_se, *gain_shared; /* [stretches] of |A|: a strike's own, and by the poles, of all strikes alike */
+    double frequency, decay;                 /* Hz, 1/s */
+    double frequency_se, decay_se;           /* standard errors from noise */
+    struct modal_gain *gain;                 /* [stretches] */
     double frequency_between, decay_between; /* standard deviations from strike to strike */
     double share;                            /* of the energy of all modes together */
     int component;                           /* of the fit */

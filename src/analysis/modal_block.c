@@ -561,7 +561,7 @@ int modal_block_deviations(struct modal_block *b, int i, int q, double *by, doub
 
 /* Of the poles as all strikes together tell them, were they one object at rest, and of each strike's gain with what its
  * own poles are uncertain by. */
-void modal_block_errors(struct modal_block *b, int i, double se[2], double *gain_se, double *gain_shared)
+void modal_block_errors(struct modal_block *b, int i, double se[2], struct modal_gain *gain)
 {
     int p = 2 * b->m, n = p + 1, stretches = b->fit->data->stretches;
     struct arena *inner = arena_open();
@@ -586,8 +586,7 @@ void modal_block_errors(struct modal_block *b, int i, double se[2], double *gain
         double size = fmax(cplx_abs(at), 1e-300), u[2] = {at.re / size, at.im / size}, sum = 0.0, row[POLES],
                through[POLES] = {0};
         int wide = g[k].n;
-        gain_se[k] = HUGE_VAL;
-        gain_shared[k] = 0.0;
+        gain[k] = (struct modal_gain){.se = HUGE_VAL};
         if (wide == 0 || !g[k].swept[2 * i] || !g[k].swept[2 * i + 1]) continue;
         for (int c = 0; c < 2; c++)
             for (int e = 0; e < 2; e++)
@@ -609,9 +608,9 @@ void modal_block_errors(struct modal_block *b, int i, double se[2], double *gain
             }
         for (int j = 0; j < p; j++)
             for (int l = 0; l < p; l++)
-                if (shared[j] && shared[l]) gain_shared[k] += through[j] * b->normal[j * p + l] * through[l];
-        gain_se[k] = sqrt(fmax(sum, 0.0));
-        gain_shared[k] = sqrt(fmax(gain_shared[k], 0.0));
+                if (shared[j] && shared[l]) gain[k].shared += through[j] * b->normal[j * p + l] * through[l];
+        gain[k].se = sqrt(fmax(sum, 0.0));
+        gain[k].shared = sqrt(fmax(gain[k].shared, 0.0));
     }
     arena_close(inner);
 }

@@ -10,7 +10,7 @@ static const double touches = 6.0; /* of the sum of two widths: nearer modes are
 static const double still = 0.05;  /* standard errors: what moved less has not moved */
 static const double cancels =
     10.0; /* of the recording's energy in a mode's window: a louder mode is one of several that cancel */
-static const double leave = 23.5; /* chi squared of 4 degrees, chance 1e-4 */
+const double modal_converge_leave = 23.5; /* chance 1e-4 */
 
 static double width_of(const struct modal_fit *f, int i) { return -f->c[i].s.re + 4.0 * REAL_PI / f->longest; }
 
@@ -132,36 +132,46 @@ double modal_converge_rise(struct modal_fit *f, int i)
     return rise;
 }
 
-void modal_converge_drop(struct modal_fit *f, int i, int most)
+void modal_converge_drop(struct modal_fit *f, int i)
 {
-    int of[MODAL_BLOCK], n = modal_converge_near(f, i, most, of), others = 0;
-    for (int k = 0; k < n; k++)
+    int of[MODAL_BLOCK], n = modal_converge_near(f, i, NEIGHBOURS + 1, of), others = 0;
+    for (int k = 0; k < n; k++) {
+        f->c[of[k]].rise = NAN;
         if (of[k] != i) of[others++] = of[k] - (of[k] > i);
+    }
     modal_fit_drop(f, i);
     if (others) modal_converge_refine(f, others, of, 20);
 }
 
-void modal_converge_eliminate(struct modal_fit *f, double limit)
+int modal_converge_drop_least(struct modal_fit *f, double (*worth)(struct modal_fit *f, int i))
 {
-    struct arena *a = arena_open();
-    double *rise = ARENA_TAKE(a, double, f->m + 1);
-    for (int i = 0; i < f->m; i++)
-        rise[i] = NAN;
-    for (;;) {
-        int least = -1, near[MODAL_BLOCK];
+    for (int dropped = 0;; dropped++) {
+        int which = -1;
+        double least = HUGE_VAL;
         for (int i = 0; i < f->m; i++) {
-            if (isnan(rise[i])) rise[i] = modal_converge_rise(f, i);
-            if (least < 0 || rise[i] < rise[least] || (rise[i] == rise[least] && f->c[i].s.im < f->c[least].s.im))
-                least = i;
+            double mine = worth(f, i);
+            which = mine < least ? i : which;
+            least = fmin(least, mine);
         }
-        if (least < 0 || rise[least] >= limit) break;
-        int n = modal_converge_near(f, least, NEIGHBOURS + 1, near);
-        for (int i = 0; i < n; i++)
-            rise[near[i]] = NAN;
-        memmove(rise + least, rise + least + 1, (size_t)(f->m - least - 1) * sizeof *rise);
-        modal_converge_drop(f, least, NEIGHBOURS + 1);
+        if (which < 0) return dropped;
+        modal_converge_drop(f, which);
     }
-    arena_close(a);
+}
+
+static double needless(struct modal_fit *f, int i)
+{
+    struct modal_component *c = &f->c[i];
+    if (isnan(c->rise)) c->rise = modal_converge_rise(f, i);
+    return c->rise < modal_converge_limit(f, modal_converge_leave) ? c->rise : HUGE_VAL;
+}
+
+void modal_converge_eliminate(struct modal_fit *f)
+{
+    modal_fit_rest(f);
+    modal_fit_noise(f, 0.0);
+    for (int i = 0; i < f->m; i++)
+        f->c[i].rise = NAN;
+    modal_converge_drop_least(f, needless);
 }
 
 /* Energy of a component in its own window over that of what there is without it. */
@@ -180,26 +190,16 @@ static double loudness(const struct modal_fit *f, int i)
 }
 
 /* One after the other, the loudest first: without it what it cancelled with may be right. */
-int modal_converge_runaways(struct modal_fit *f)
+static double runaway(struct modal_fit *f, int i)
 {
-    for (int dropped = 0;; dropped++) {
-        double most = -1.0;
-        int loudest = -1;
-        for (int i = 0; i < f->m; i++) {
-            double size = loudness(f, i);
-            if ((-f->c[i].s.re > 0.99 * f->fastest || size > cancels) && size > most) {
-                most = size;
-                loudest = i;
-            }
-        }
-        if (loudest < 0) return dropped;
-        modal_converge_drop(f, loudest, NEIGHBOURS + 1);
-    }
+    double size = loudness(f, i);
+    return -f->c[i].s.re > 0.99 * f->fastest || size > cancels ? -size : HUGE_VAL;
 }
+
+int modal_converge_runaways(struct modal_fit *f) { return modal_converge_drop_least(f, runaway); }
 
 void modal_converge(struct modal_fit *f)
 {
-    double limit = modal_converge_limit(f, leave);
     f->tolerance = 1e-4;
     for (int k = 0, m = -1; k < 4 && m != f->m; k++) {
         for (int i = 0; i < f->m; i++)
@@ -208,9 +208,7 @@ void modal_converge(struct modal_fit *f)
         do /* at first once: many leave, and need not be converged before */
             modal_converge_sweeps(f, 8, k ? ROUNDS : 1);
         while (modal_converge_runaways(f));
-        modal_fit_rest(f);
-        modal_fit_noise(f, 0.0);
-        modal_converge_eliminate(f, limit);
+        modal_converge_eliminate(f);
     }
     modal_converge_sweeps(f, 8, ROUNDS);
     modal_fit_rest(f);

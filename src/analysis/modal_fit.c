@@ -28,8 +28,7 @@ static void spectrum(const double *x, long n, struct arena *a, double **re, doub
 
 static void open_bins(const struct modal_fit *f, const struct modal_stretch *s, struct modal_bins *b)
 {
-    double *force = ARENA_TAKE(f->a, double, s->n), *re, *im, sum = 0.0,
-           rounding = f->data->rounding ? f->data->rounding[s->place] : 0.0;
+    double *force = ARENA_TAKE(f->a, double, s->n), *re, *im, sum = 0.0;
     b->width = 2.0 * REAL_PI * f->data->rate / (double)s->n;
     b->first = (long)ceil(f->low / b->width);
     b->first = b->first > 1 ? b->first : 1;
@@ -56,7 +55,7 @@ static void open_bins(const struct modal_fit *f, const struct modal_stretch *s, 
         b->er[k] = real_cospi(turn);
         b->ei[k] = -real_sinpi(turn);
         b->y[k] = (cplx){re[b->first + k], im[b->first + k]};
-        b->floor[k] = fmax(fmax(quietest * quietest * sum, rounding * rounding), 1e-290);
+        b->floor[k] = fmax(fmax(quietest * quietest * sum, s->rounding * s->rounding), 1e-290);
         b->scale[k] = 1.0;
     }
 }
@@ -393,7 +392,7 @@ void modal_fit_add(struct modal_fit *f, cplx s, const struct modal_part *part)
         if (i) memcpy(f->c, c, (size_t)i * sizeof *c);
         if (i) memcpy(f->part, parts, (size_t)(i * stretches) * sizeof *parts);
     }
-    f->c[i] = (struct modal_component){s, false, {f->typical[0], f->typical[1]}, 1e9};
+    f->c[i] = (struct modal_component){s, false, {f->typical[0], f->typical[1]}, 1e9, NAN};
     for (int g = 0; g < stretches; g++)
         f->part[i * stretches + g] = (struct modal_part){{0}, s};
     if (part) modal_fit_replace(f, i, s, part);

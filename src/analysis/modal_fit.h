@@ -27,7 +27,6 @@
 #include <stdbool.h>
 
 #include "analysis/modal.h"
-#include "analysis/modal_complex.h"
 
 /* A window reaches MODAL_REACH half-widths and 2 MODAL_REACH bins to each side of its modes. */
 enum {
@@ -68,6 +67,7 @@ struct modal_component {
     bool hum;         /* does not decay, and is no mode */
     double spread[2]; /* standard deviations of strikes' own poles: of omega/omega, of log d */
     double moved;     /* how far the pole went since its neighbours were last fitted, in its standard errors */
+    double rise;      /* of chi squared without it; NAN: not known */
 };
 
 struct modal_part { /* of a component in a stretch */
@@ -156,8 +156,8 @@ void modal_block_worth(
 void modal_block_drop(struct modal_block *b, int i);
 bool modal_block_polish(struct modal_block *b,
                         int steps); /* poles and gains; true: converged to 0.01 standard errors */
-/* Standard errors of omega and log d, and of each strike's |gain|: of its own, and by the poles that strikes share. */
-void modal_block_errors(struct modal_block *b, int i, double se[2], double *gain_se, double *gain_shared);
+/* Standard errors of omega and log d, and of each strike's |gain|. */
+void modal_block_errors(struct modal_block *b, int i, double se[2], struct modal_gain *gain);
 /* How far pole i of each strike is from the shared one by the strike alone (q 0: omega/omega, 1: log d), and the
  * variance of that; returns how many strikes there are. */
 int modal_block_deviations(struct modal_block *b, int i, int q, double *by, double *variance);
@@ -172,10 +172,13 @@ double modal_converge_refine(struct modal_fit *f, int n, const int *of,
                              int steps); /* fits them anew, the greatest move in standard errors */
 void modal_converge_sweeps(struct modal_fit *f, int most, int rounds);
 double modal_converge_rise(struct modal_fit *f, int i); /* of chi when i goes and its neighbours are fitted anew */
-void modal_converge_drop(struct modal_fit *f, int i, int most); /* component i; the others of `most` are fitted anew */
-void modal_converge_eliminate(struct modal_fit *f, double limit);
+void modal_converge_drop(struct modal_fit *f, int i);   /* the others beside it are fitted anew */
+/* Drops the component of least worth until that is HUGE_VAL; returns how many went. */
+int modal_converge_drop_least(struct modal_fit *f, double (*worth)(struct modal_fit *f, int i));
+void modal_converge_eliminate(struct modal_fit *f); /* what the others do without */
 void modal_converge(struct modal_fit *f);
 int modal_converge_runaways(struct modal_fit *f); /* components at the bound of decays, or far louder than there is */
+extern const double modal_converge_leave;         /* chi squared of 4 degrees that a component must be worth to stay */
 double modal_converge_limit(const struct modal_fit *f,
                             double chi4); /* of chi squared of 2 + 2 stretches degrees, as likely
                                                                       as chi4 of four */

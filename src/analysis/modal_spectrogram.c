@@ -6,7 +6,7 @@
    W the window's own transform of a decaying sinusoid, closed for Hann's window (three geometric sums). f, d and |A| by
    least squares of log P (GSL, Levenberg and Marquardt), each bin weighted by its amplitude over its frame's greatest
    (far bins hold the neighbours' skirts) and by 1/(TRUST^2 + N/P)^(1/2), what noise does to log P. A peak whose fit
-   leaves more than `threshold` of its energy, sum (sqrt P - sqrt model)^2/sum P, is none. The paper says neither window
+   leaves more than a tenth of its energy, sum (sqrt P - sqrt model)^2/sum P, is none. The paper says neither window
    nor patch: here Hann of about 0.09 s, hop a quarter, 5 bins. Later frames are searched too: a mode may show only when
    a stronger, faster one has gone. Phases, which the power does not hold, and gains come from the same least squares as
    all modes', the poles as they are. It is the loudest stretch that is looked at, from the hammer's end on. Two modes
@@ -24,7 +24,8 @@ enum { SIDE = 2, FRAMES = 40, LEAST = 4, STEPS = 100 };
 #define SECONDS 0.08
 #define STANDS 30.0 /* power of a peak over the noise */
 #define TRUST 0.01
-#define FALLEN 8.0 /* ... of the last frame of its patch */
+#define MOST_LEFT 0.1 /* share of its energy that a patch's fit leaves, else it is none */
+#define FALLEN 8.0    /* ... of the last frame of its patch */
 
 struct spectrogram {
     long size, hop, frames, bins;
@@ -145,7 +146,7 @@ static double left(const struct patch *p, const double at[3])
 }
 
 /* The fit; pole: decay in 1/s, omega in rad/s. */
-static bool patch_fit(const struct patch *p, double threshold, double pole[2])
+static bool patch_fit(const struct patch *p, double pole[2])
 {
     const gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
     double ratio = measured(p, p->frames - 1, p->bin) / measured(p, 0, p->bin),
@@ -165,7 +166,7 @@ static bool patch_fit(const struct patch *p, double threshold, double pole[2])
     gsl_multifit_nlinear_free(w);
     pole[0] = real_exp(at[1]) * p->s->rate;
     pole[1] = 2 * REAL_PI * ((double)p->bin + at[0]) * p->s->rate / (double)p->s->size;
-    return good && fabs(at[0]) < 1.5 && pole[0] < p->s->rate && left(p, at) < threshold;
+    return good && fabs(at[0]) < 1.5 && pole[0] < p->s->rate && left(p, at) < MOST_LEFT;
 }
 
 static bool peak(const struct spectrogram *s, long m, long k)
@@ -189,8 +190,8 @@ static void frame_search(const struct spectrogram *s, long m, struct modal_fit *
         if (!peak(s, m, k) || taken(f, bin * (double)k, 2 * bin)) continue;
         while (p.frames < FRAMES && m + p.frames < s->frames && measured(&p, p.frames, k) > FALLEN * s->noise[k])
             p.frames++;
-        if (p.frames >= LEAST && patch_fit(&p, f->options->threshold, pole) && pole[0] < f->fastest &&
-            pole[1] > f->low && pole[1] < f->high && !taken(f, pole[1], bin))
+        if (p.frames >= LEAST && patch_fit(&p, pole) && pole[0] < f->fastest && pole[1] > f->low && pole[1] < f->high &&
+            !taken(f, pole[1], bin))
             modal_fit_add(f, (cplx){-pole[0], pole[1]}, NULL);
     }
 }

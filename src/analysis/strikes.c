@@ -45,12 +45,7 @@ static const double considerable = 1e-3;  /* of the greatest sample: an offset *
 enum { BESIDE = 4 }; /* samples to each side of a pulse that are force too: what a converter's low-pass makes of it */
 enum { ROW = 3, STEPS = 4 }; /* of clipping: samples in a row, steps by which it is left */
 
-static void note(struct strikes *s, struct arena *a, const char *text)
-{
-    s->note = s->note ? arena_format(a, "%s\n%s", s->note, text) : text;
-}
-
-#define NOTE(s, a, ...) note(s, a, arena_format(a, __VA_ARGS__))
+#define NOTE(s, a, ...) (s)->note = arena_line(a, (s)->note, arena_format(a, __VA_ARGS__))
 
 static double greatest(const double *x, long from, long to)
 {

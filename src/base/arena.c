@@ -113,4 +113,9 @@ char *arena_format(struct arena *a, const char *format, ...)
     return s;
 }
 
+const char *arena_line(struct arena *a, const char *lines, const char *line)
+{
+    return lines ? arena_format(a, "%s\n%s", lines, line) : line;
+}
+
 size_t arena_bytes(const struct arena *a) { return a->bytes; }

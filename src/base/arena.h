@@ -16,6 +16,8 @@ void *arena_take(struct arena *a, size_t count, size_t size);
 /* A copy of a string, or of printf's text. */
 char *arena_text(struct arena *a, const char *s);
 char *arena_format(struct arena *a, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* Lines of text (NULL: none yet) and another one. */
+const char *arena_line(struct arena *a, const char *lines, const char *line);
 
 /* Bytes handed out so far (what was asked for, rounded up to the alignment). */
 size_t arena_bytes(const struct arena *a);

@@ -34,7 +34,7 @@ static bool within(const struct compute *k, const char *option, double x, struct
 
 static void note(struct compute *k, const char *text)
 {
-    k->note = k->note ? arena_format(k->c->arena, "%s\n%s", k->note, text) : text;
+    k->note = arena_line(k->c->arena, k->note, text);
 }
 
 static bool check_solid(struct compute *k, struct err *e)

@@ -15,7 +15,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "analysis/modal_complex.h"
 #include "cmd/modes_extract.h"
 #include "num/fft.h"
 #include "num/real.h"
@@ -123,7 +122,7 @@ static void add_stretches(struct modes_extract *x, struct modal_stretch *list, s
          longest = (long)(strikes_ringing(r, s) * x->rate);
     p->first = x->data.stretches;
     for (int k = -1; k < s->n; k++) {
-        struct modal_stretch st = {.place = (int)(p - x->place), .strike = k};
+        struct modal_stretch st = {.place = (int)(p - x->place), .strike = k, .rounding = r->rounding};
         long end = k + 1 < s->n ? s->strike[k + 1].onset + (force && k >= 0 ? late - early : -early) : r->n;
         if (k < 0 && (response || end <= (long)(lead_least * x->rate))) continue;
         if (k >= 0) {
@@ -196,8 +195,7 @@ static bool stretches(struct modes_extract *x, struct err *e)
     for (int k = 0; k < x->n; k++)
         room += x->place[k].strikes.n + 1;
     struct modal_stretch *list = ARENA_TAKE(x->arena, struct modal_stretch, room);
-    double *rounding = ARENA_TAKE(x->arena, double, x->n);
-    x->data = (struct modal_data){.rate = x->rate, .places = x->n, .stretch = list, .rounding = rounding};
+    x->data = (struct modal_data){.rate = x->rate, .places = x->n, .stretch = list};
     x->high = 0.49 * x->rate;
     for (int k = 0; k < x->n; k++) {
         struct modes_extract_place *p = &x->place[k];
@@ -205,7 +203,6 @@ static bool stretches(struct modes_extract *x, struct err *e)
         if (!p->strikes.used)
             return err_set(e, ERR_SCENE, "%s: no strike has %.3g ms of sound behind it", p->shown, 1e3 * shortest);
         p->high = g->force_channel ? reach_of_force(x, p) : 0.49 * x->rate;
-        rounding[k] = p->recording.rounding;
         x->high = fmin(x->high, p->high);
     }
     if (x->data.stretches > STRIKES)
@@ -266,8 +263,8 @@ static bool alone(const struct modes_extract *x)
         double most = 0.0, sum = 0.0;
         for (int s = 0; s < x->data.stretches; s++) {
             if (!x->data.stretch[s].fitted) continue;
-            most = fmax(most, m->re[s] * m->re[s] + m->im[s] * m->im[s]);
-            sum += m->re[s] * m->re[s] + m->im[s] * m->im[s];
+            most = fmax(most, cplx_square(m->gain[s].a));
+            sum += cplx_square(m->gain[s].a);
         }
         all += m->share;
         common += most / sum <= single ? m->share : 0.0;
@@ -334,18 +331,18 @@ static struct modes_extract_gain place_gain(const struct modes_extract *x, const
     int n = 0, best = 0;
     for (int k = p->first; k < p->first + p->stretches; k++) {
         const struct modal_stretch *st = &x->data.stretch[k];
-        double se = m->gain_se[k], back = 0.0, unit = x->given.impulse ? 1.0 : x->rate;
+        double se = m->gain[k].se, back = 0.0, unit = x->given.impulse ? 1.0 : x->rate;
         if (!st->fitted || !isfinite(se) || se <= 0.0) continue;
         if (!x->given.impulse && !x->given.force_channel) {
             back = (double)(st->pulse.at - p->strikes.strike[st->strike].onset) / x->rate;
             unit = 1.0 / p->strikes.strike[st->strike].peak;
         }
-        cplx a = cplx_mul((cplx){m->re[k], m->im[k]}, cplx_exp((cplx){-m->decay, 2.0 * REAL_PI * m->frequency}, -back));
+        cplx a = cplx_mul(m->gain[k].a, cplx_exp((cplx){-m->decay, 2.0 * REAL_PI * m->frequency}, -back));
         double scale = unit * real_exp(m->decay * back);
         a = cplx_scale(unit, a);
         g[n].size = cplx_abs(a);
         g[n].se = scale * se;
-        g[n].shared = scale * m->gain_shared[k];
+        g[n].shared = scale * m->gain[k].shared;
         g[n++].phase = real_atan2(a.im, a.re);
     }
     double mean = 0.0, between = 0.0, noise = 0.0, weights = 0.0, size = 0.0, shared = 0.0;
@@ -452,8 +449,7 @@ bool modes_extract_find(struct modes_extract *x, struct err *e)
                               .low = x->low,
                               .high = x->high,
                               .fastest = isnan(g->fastest) ? fmin(fastest[0], fastest[1] * x->rate) : g->fastest,
-                              .spectrogram = g->spectrogram,
-                              .threshold = 0.1};
+                              .spectrogram = g->spectrogram};
     if (!modal_find(&x->data, &o, x->arena, &x->found, e)) return err_at(e, "%s", x->place[0].shown);
     if (x->found.n == 0)
         return err_set(e, ERR_SCENE, "%s: no mode stands out of the noise between %.6g and %.6g Hz", x->place[0].shown,

@@ -421,7 +421,7 @@ bool mesh_tetgen_read(const char *path, double unit, struct arena *a, struct mes
 
 void mesh_note(struct mesh *m, struct arena *a, const char *text)
 {
-    m->note = m->note ? arena_format(a, "%s\n%s", m->note, text) : text;
+    m->note = arena_line(a, m->note, text);
 }
 
 bool mesh_read(const char *path, double unit, struct arena *a, struct mesh *m, struct err *e)

@@ -510,11 +510,6 @@ static void sort_by_frequency(struct object *o, struct arena *a)
 
 /* ------------------------------------------------------------------ what must be said */
 
-static const char *joined(struct arena *a, const char *before, const char *more)
-{
-    return before ? arena_format(a, "%s\n%s", before, more) : more;
-}
-
 /* Of the modes below `audible`, Hz; 0: of all. */
 static const char *reach(const struct object_inside *in, double audible, struct arena *a)
 {
@@ -544,12 +539,12 @@ static const char *notes(const struct object_inside *in, double audible, struct 
     const char *text = reach(in, audible, a), *key = in->body->key;
     int dropped = in->list.dropped;
     if (dropped > 0)
-        text = joined(a, text,
-                      arena_format(a, "%s: %d mode%s so damped that %s not ring, and %s left out", key, dropped,
-                                   dropped > 1 ? "s are" : " is", dropped > 1 ? "they do" : "it does",
-                                   dropped > 1 ? "are" : "is"));
+        text = arena_line(a, text,
+                          arena_format(a, "%s: %d mode%s so damped that %s not ring, and %s left out", key, dropped,
+                                       dropped > 1 ? "s are" : " is", dropped > 1 ? "they do" : "it does",
+                                       dropped > 1 ? "are" : "is"));
     if (in->list.capped)
-        text = joined(
+        text = arena_line(
             a, text,
             arena_format(a, "%s: of an object of these proportions and edges only the lowest %d modes are computed",
                          key, in->list.n));
