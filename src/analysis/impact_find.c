@@ -6,7 +6,7 @@
                side; its prominence) by at least
              `prominence` of the greatest force within 24 samples, and if it is at least `threshold` of the greatest of
                all. What is left out is counted.
-   Place.    The signal is taken as band-limited (num/between.h): the greatest value in steps of 1/32 of a sample, and a
+   Place.    The signal is taken as band-limited (num/filter.h): the greatest value in steps of 1/32 of a sample, and a
              parabola through it and those
              a quarter of a sample beside it. Times are right within 0.01 of a sample of forces that rasp brought to
                their rate, and of point samples of
@@ -37,7 +37,7 @@
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 
-#include "num/between.h"
+#include "num/filter.h"
 #include "num/real.h"
 
 #define BLUR_AMPLITUDE 0.005 /* of them: those of impacts that stand alone are nearer, but tails of neighbours add */
@@ -50,7 +50,7 @@ const struct impact_options impact_find_options = {0.001, 0.02, 0.01, false};
 struct search {
     const struct impact_signal *s;
     const struct impact_options *o;
-    struct between between;
+    struct filter_between between;
     struct impact_found *f;
     long n;       /* maxima */
     long *at;     /* [n] samples */
@@ -136,7 +136,7 @@ struct one {
 
 static double between_value(const struct one *p, long k)
 {
-    return p->sign * between_at(&p->q->between, p->q->s->force, p->q->s->n, k);
+    return p->sign * filter_between_at(&p->q->between, p->q->s->force, p->q->s->n, k);
 }
 
 static void one_place(struct one *p)
@@ -318,7 +318,7 @@ bool impact_find(const struct impact_signal *s, const struct impact_options *o, 
         f->greatest = fmax(f->greatest, s->force[i]);
         f->least = fmin(f->least, s->force[i]);
     }
-    q.between = between_make(a);
+    q.between = filter_between_make(a);
     maxima_list(&q);
     maxima_choose(&q, a);
     if (q.n == 0)

@@ -22,7 +22,7 @@
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 
-#include "num/between.h"
+#include "num/filter.h"
 #include "num/real.h"
 
 enum { PARAMETERS = 3, ROUNDS = 2, STEPS = 400 };
@@ -213,13 +213,13 @@ static void fit_one(const struct impact_signal *s, const struct impact_found *f,
     }
 }
 
-static void mean_add(const struct impact_signal *s, const struct between *b, const struct impact_found *f, long k,
-                     struct impact_shape *h)
+static void mean_add(const struct impact_signal *s, const struct filter_between *b, const struct impact_found *f,
+                     long k, struct impact_shape *h)
 {
     const struct impact_events *v = &f->events;
     for (int j = 0; j < IMPACT_SHAPE_POINTS; j++) {
         double at = (v->time[k] - s->start + h->q[j] * v->duration[k]) * s->rate;
-        double y = between_at(b, s->force, s->n, (long)rint(at * BETWEEN_PHASES)) / v->amplitude[k];
+        double y = filter_between_at(b, s->force, s->n, (long)rint(at * BETWEEN_PHASES)) / v->amplitude[k];
         h->mean[j] += y;
         h->deviation[j] += y * y;
     }
@@ -279,7 +279,7 @@ void impact_shape_make(const struct impact_signal *s, const struct impact_found 
 {
     long *list = ARENA_TAKE(a, long, f->events.n);
     struct ratios r;
-    struct between b = between_make(a);
+    struct filter_between b = filter_between_make(a);
     *h = (struct impact_shape){.fitted = 0};
     long n = fit_list(s, f, list, h);
     h->fitted = n < IMPACT_SHAPE_MOST ? n : IMPACT_SHAPE_MOST;

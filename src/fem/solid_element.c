@@ -16,7 +16,7 @@
 #include <string.h>
 
 #include "fem/topology.h"
-#include "num/gauss.h"
+#include "num/special.h"
 
 /* Hooke's law, stress = C strain, in the order xx yy zz yz zx xy with engineering shear (twice the tensor's).
 
@@ -251,7 +251,7 @@ static void rule_14(struct rule *r)
 static void rule_collapsed(int across, struct rule *r)
 {
     double g[ACROSS], w[ACROSS];
-    gauss_legendre(across, g, w);
+    special_gauss_legendre(across, g, w);
     r->n = 0;
     for (int p = 0; p < across * across * across; p++) {
         int i = p % across, j = p / across % across, k = p / (across * across);

@@ -7,7 +7,7 @@
    nothing through: at 4 sub-intervals a sample and 50 us 100 taps a sample in place of 349 and 4 times 117. What is cut
    off is a twentieth of what the low-pass's gain is allowed to be off by.
 
-   What the kernel spreads to before frame 0 is folded into the first frames (num/lead.h), whatever the contact: the
+   What the kernel spreads to before frame 0 is folded into the first frames (num/filter.h), whatever the contact: the
    momentum of any force, the sum of the samples over the rate, is what the sub-intervals hold, within 2e-7 (the
    kernel's phases do not have quite the same sum). Contacts that start later than the scene begin as causally: nothing
    is heard of them before. */
@@ -17,7 +17,6 @@
 #include "force/smooth.h"
 #include "num/filter.h"
 #include "num/lanes.h"
-#include "num/lead.h"
 #include "stage.h"
 
 #define JOINED_LEFT 1e-7 /* of a sum of 1: -140 dB */
@@ -133,7 +132,7 @@ static void decimate_lead(struct decimate *d, const double *x)
         d->lead[i] = d->lead[k];
         d->lead[k] = swap;
     }
-    lead_fold(d->lead, d->leads, d->smooths ? 0 : 1);
+    filter_fold_lead(d->lead, d->leads, d->smooths ? 0 : 1);
 }
 
 static bool decimate_run(struct stage_run *r, long from, long to, struct err *e)

@@ -9,8 +9,8 @@
 #include <math.h>
 
 #include "file/csv.h"
-#include "num/normal.h"
 #include "num/real.h"
+#include "num/special.h"
 
 /* ------------------------------------------------------------------ a table */
 
@@ -194,7 +194,7 @@ double impact_density_quantile(const struct impact_density *d, double w)
 {
     switch (d->kind) {
     case IMPACT_DENSITY_GAUSSIAN:
-        return d->deviation * normal_quantile(w);
+        return d->deviation * special_normal_quantile(w);
     case IMPACT_DENSITY_EXPONENTIAL:
         return -d->mean * (w <= 0.5 ? real_log1p(-w) : real_log(1 - w));
     case IMPACT_DENSITY_TABLE:
@@ -209,7 +209,7 @@ double impact_density_beyond(const struct impact_density *d, bool upper, double 
     double e;
     switch (d->kind) {
     case IMPACT_DENSITY_GAUSSIAN:
-        e = normal_cdf_density((upper ? -x : x) / d->deviation, density);
+        e = special_normal_cdf_density((upper ? -x : x) / d->deviation, density);
         *density /= d->deviation;
         return e;
     case IMPACT_DENSITY_EXPONENTIAL:

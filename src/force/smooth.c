@@ -18,7 +18,7 @@
 
    Nothing comes before the start: what would be spread to there is reflected at it, as heat is at an insulated end.
    Momentum is kept, and what begins at full height stays at full height, where without it it would begin at half. (What
-   decimate joins to its kernel it reflects itself, num/lead.h.) */
+   decimate joins to its kernel it reflects itself, num/filter.h.) */
 #include "force/smooth.h"
 
 #include <math.h>

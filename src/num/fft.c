@@ -6,18 +6,23 @@
    instructions at 16 000 points, running it 2. A plan may be run on other arrays than it was made for, by several
    threads at once.
 
-   Without SIMD the codelets are the same on every CPU; its twiddle factors, which it takes from sincos, are made so by
-   num/sincos.h. tests/unit/test_fft.c pins the bits. */
+   FFTW's planner is one for the whole program: plans are made and given up by one thread at a time.
+
+   Without SIMD the codelets are the same on every CPU. FFTW takes its twiddle factors from libm's sincos, whose last
+   bits depend on whether the CPU has fused multiply-add: so there is a function of that name here, on num/real.h. A
+   program's own definition comes before libm's when the dynamic linker binds FFTW (and GSL). tests/unit/test_fft.c pins
+   the bits. */
 #include "num/fft.h"
 
 #include <fftw3.h>
+#include <pthread.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "num/planner.h"
-#include "num/sincos.h"
+#include "num/real.h"
 
 /* FFTW_UNALIGNED: callers' x may lie anywhere; without SIMD it costs nothing. */
 enum { FLAGS = FFTW_ESTIMATE | FFTW_NO_SIMD | FFTW_UNALIGNED, CACHED_MOST = 64 /* plans */, CACHED_POINTS = 1 << 16 };
@@ -36,11 +41,30 @@ struct fft {
     double *time;     /* [n] */
 };
 
-static struct { /* between planner_lock and planner_unlock only */
+static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
+
+static struct { /* under the planner's lock only */
     bool on;
     int n;
     struct plans *first;
 } keeping;
+
+/* Declared by <math.h>: sin x and cos x, x in radians, at most 1 ulp. */
+void sincos(double x, double *s, double *c)
+{
+    *s = real_sin(x);
+    *c = real_cos(x);
+}
+
+/* FFTW stops a program that has no memory left with SIGABRT: the function that it calls then is this one. The name, and
+   what it is given, are FFTW's (kernel/assert.c); `p` is what its allocation gave. */
+void fftw_assertion_failed(const char *what, int line, const char *file);
+void fftw_assertion_failed(const char *what, int line, const char *file)
+{
+    if (strcmp(what, "p") == 0) memory_out("for a plan of FFTW");
+    fprintf(stderr, "fftw: %s:%d: assertion failed: %s\n", file, line, what);
+    abort();
+}
 
 static void *or_end(void *p, size_t n)
 {
@@ -87,14 +111,14 @@ static void plans_drop(struct plans *p)
 
 void fft_cache_plans(bool on)
 {
-    planner_lock();
+    pthread_mutex_lock(&planner);
     for (struct plans *p = on ? NULL : keeping.first, *next; p; p = next) {
         next = p->next;
         plans_drop(p);
     }
     if (!on) keeping.first = NULL, keeping.n = 0;
     keeping.on = on;
-    planner_unlock();
+    pthread_mutex_unlock(&planner);
 }
 
 struct fft *fft_open(size_t n)
@@ -103,10 +127,9 @@ struct fft *fft_open(size_t n)
     *f = (struct fft){.n = n, .bins = n / 2 + 1};
     f->spectrum = or_end(fftw_malloc(2 * f->bins * sizeof(double)), n);
     f->time = or_end(fftw_malloc(n * sizeof(double)), n);
-    sincos_link();
-    planner_lock();
+    pthread_mutex_lock(&planner);
     f->plans = plans_of(f);
-    planner_unlock();
+    pthread_mutex_unlock(&planner);
     return f;
 }
 
@@ -114,9 +137,9 @@ void fft_close(struct fft *f)
 {
     if (!f) return;
     if (!f->plans->cached) {
-        planner_lock();
+        pthread_mutex_lock(&planner);
         plans_drop(f->plans);
-        planner_unlock();
+        pthread_mutex_unlock(&planner);
     }
     fftw_free(f->spectrum);
     fftw_free(f->time);
@@ -153,3 +176,40 @@ size_t fft_good_size(size_t n)
         m += 2;
     return m;
 }
+
+static void *or_end_plane(void *p, size_t n)
+{
+    if (!p) memory_out("FFT of %zu x %zu points", n, n);
+    return p;
+}
+
+struct fft_plane *fft_plane_open(size_t n)
+{
+    struct fft_plane *f = or_end_plane(fftw_malloc(sizeof *f), n);
+    size_t half = n / 2 + 1;
+    f->re = or_end_plane(fftw_malloc(2 * n * half * sizeof(double)), n);
+    f->im = f->re + n * half;
+    f->x = or_end_plane(fftw_malloc(n * n * sizeof(double)), n);
+    fftw_iodim64 dims[2] = {{.n = (ptrdiff_t)n, .is = (ptrdiff_t)half, .os = (ptrdiff_t)n},
+                            {.n = (ptrdiff_t)n, .is = 1, .os = 1}};
+    pthread_mutex_lock(&planner);
+    fftw_forget_wisdom();
+    f->inverse = or_end_plane(fftw_plan_guru64_split_dft_c2r(2, dims, 0, NULL, f->re, f->im, f->x,
+                                                             FFTW_ESTIMATE | FFTW_NO_SIMD | FFTW_DESTROY_INPUT),
+                              n);
+    pthread_mutex_unlock(&planner);
+    return f;
+}
+
+void fft_plane_close(struct fft_plane *f)
+{
+    if (!f) return;
+    pthread_mutex_lock(&planner);
+    fftw_destroy_plan(f->inverse);
+    pthread_mutex_unlock(&planner);
+    fftw_free(f->re);
+    fftw_free(f->x);
+    fftw_free(f);
+}
+
+void fft_plane_inverse(struct fft_plane *f) { fftw_execute(f->inverse); }

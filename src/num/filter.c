@@ -15,10 +15,12 @@
    which smoothing leaves flat. */
 #include "num/filter.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdbool.h>
 
 #include "num/real.h"
+#include "num/special.h"
 
 #define PASS 0.4535 /* in units of fs */
 #define STOP 0.5465
@@ -148,4 +150,57 @@ struct filter filter_joined(struct arena *a, const struct filter *b, const struc
         cut++;
     normalise(tap + cut, n - 2 * cut);
     return (struct filter){b->reach + c->reach - cut, n - 2 * cut, tap + cut};
+}
+
+void filter_fold_lead(double *lead, long n, long distance)
+{
+    double late = 0;
+    assert(2 * distance <= n);
+    for (long m = n; m >= 1; m--) /* from the end, where it is small */
+        late += (double)(2 * m - 1) * lead[m - 1];
+    for (long i = 0; i < distance; i++) {
+        lead[i] += late / ((double)distance * (double)distance);
+        lead[distance + i] -= late / ((double)distance * (double)distance);
+    }
+}
+
+/* A sinc under Kaiser's window, in steps of 1/BETWEEN_PHASES of a sample:
+
+     x(i + p) = sum over j = 1 - R..R of x[i + j] sinc(p - j) I0(beta sqrt(1 - ((p - j)/R)^2)) / I0(beta),   R =
+       BETWEEN_REACH, beta = 9 */
+
+static const double beta = 9;
+
+static double kaiser(double u)
+{
+    double inside[2], whole[2], x = beta * sqrt((1 - u) * (1 + u));
+    if (fabs(u) >= 1) return 0;
+    special_bessel_i(0, x, inside);
+    special_bessel_i(0, beta, whole);
+    return inside[0] / whole[0] * real_exp(x - beta);
+}
+
+struct filter_between filter_between_make(struct arena *a)
+{
+    struct filter_between b = {ARENA_TAKE(a, double, 2 * BETWEEN_PHASES * BETWEEN_REACH)};
+    for (int p = 0; p < BETWEEN_PHASES; p++)
+        for (int j = 1 - BETWEEN_REACH; j <= BETWEEN_REACH; j++) {
+            double t = (double)p / BETWEEN_PHASES - j;
+            b.tap[2 * BETWEEN_REACH * p + BETWEEN_REACH - 1 + j] =
+                t == 0   ? 1
+                : p == 0 ? 0
+                         : real_sinpi(t) / (REAL_PI * t) * kaiser(t / BETWEEN_REACH);
+        }
+    return b;
+}
+
+double filter_between_at(const struct filter_between *b, const double *x, long n, long k)
+{
+    long i = k >= 0 ? k / BETWEEN_PHASES : -((-k + BETWEEN_PHASES - 1) / BETWEEN_PHASES), first = i + 1 - BETWEEN_REACH;
+    const double *tap = b->tap + 2 * BETWEEN_REACH * (k - i * BETWEEN_PHASES);
+    double sum = 0;
+    if (k == i * BETWEEN_PHASES) return i >= 0 && i < n ? x[i] : 0;
+    for (long j = first < 0 ? -first : 0; j < 2 * BETWEEN_REACH && first + j < n; j++)
+        sum += tap[j] * x[first + j];
+    return sum;
 }

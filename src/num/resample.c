@@ -10,7 +10,7 @@
        change filters.
    - Its filters come from libm. Without FMA 16 samples of 674550 differ, by 1.1e-16: rounding the result to a grid
      would make such a flip
-     rare, never impossible. So libm's functions are replaced (num/libm.h): then all samples are the same with and
+     rare, never impossible. So libm's functions are replaced below: then all samples are the same with and
        without FMA.
    - A clock of 32 bits for ratios that are not small fractions: SOXR_HI_PREC_CLOCK makes it exact enough for the figure
      above.
@@ -19,7 +19,7 @@
    The beginning. libsoxr starts as if nothing could ring before sample 0, and where it has several stages each of them
    drops its own: of an impulse in the first sample 4 % are missing even from what comes after it (44.1 to 48 kHz). So
    the signal is converted behind P samples of silence, which take Q samples out, P/Q being rate_in/rate_out; and what
-   then rings before it is folded into the first samples (num/lead.h). P and Q are whole and at most STILL where the
+   then rings before it is folded into the first samples (num/filter.h). P and Q are whole and at most STILL where the
    ratio allows; else P/Q is the best approximation by such (continued fraction), and the signal comes out by less than
    1/STILL of a sample beside its place: -120 dB at the very top of the band.
 
@@ -34,11 +34,22 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "num/lead.h"
-#include "num/libm.h"
+#include "num/filter.h"
+#include "num/real.h"
 
 enum { STILL = 1 << 22, REACH = RESAMPLE_REACH };
 enum { MARGIN = 64 }; /* samples of silence behind x, in and out, so that the last ones come out whole */
+
+/* The functions by which libsoxr designs its filters. A program's own definitions come before libm's when the dynamic
+   linker binds a shared library (GSL and libebur128 get them too). SLEEF's deterministic ones: at most 1.0 ulp. rasp's
+   own objects call none of them (tests/tidy/symbols.sh). */
+double exp(double x) { return real_exp(x); }
+double log(double x) { return real_log(x); }
+double log10(double x) { return real_log10(x); }
+double pow(double x, double y) { return real_pow(x, y); }
+double sin(double x) { return real_sin(x); }
+double cos(double x) { return real_cos(x); }
+double asin(double x) { return Sleef_cinz_asind1_u10purec(x); }
 
 static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
 
@@ -49,7 +60,6 @@ static void portable(void)
     static const char *const tunings[] = {"SOXR_MIN_DFT_SIZE", "SOXR_LARGE_DFT_SIZE", "SOXR_COEFS_SIZE",
                                           "SOXR_NUM_THREADS",  "SOXR_COEF_INTERP",    "SOXR_STRICT_BUF",
                                           "SOXR_NOSMALLINTOPT"};
-    libm_link();
     const char *simd = getenv("SOXR_USE_SIMD");
     if ((!simd || strcmp(simd, "0") != 0) && setenv("SOXR_USE_SIMD", "0", 1) != 0) memory_out("for the environment");
     for (size_t i = 0; i < sizeof tunings / sizeof tunings[0]; i++)
@@ -157,7 +167,7 @@ static bool convert_whole(const double *x, size_t n, const double rates[2], stru
     memcpy(to.y, y + before, to.m * sizeof *y);
     for (size_t m = 1; m <= leads; m++)
         lead[m - 1] = y[before - m];
-    lead_fold(lead, (long)leads, (long)ceil(rates[1] / low));
+    filter_fold_lead(lead, (long)leads, (long)ceil(rates[1] / low));
     for (size_t m = 0; m < leads && m < to.m; m++)
         to.y[m] += lead[m];
     arena_close(scratch);

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "num/bessel.h"
 #include "num/real.h"
+#include "num/special.h"
 #include "num/vecmath.h"
 #include "scene/material.h"
 
@@ -347,7 +347,7 @@ static double drum_zero(const struct object_radial *q, int n, double lambda)
 {
     (void)q;
     double j[2];
-    bessel_j(n, lambda, j);
+    special_bessel_j(n, lambda, j);
     return j[0];
 }
 
@@ -359,7 +359,7 @@ static double drum_value(const struct object_radial *q, int n, double lambda, do
 static struct object_mode drum_mode(const struct object_radial *q, int n, double lambda)
 {
     double j[2], a = q->radius;
-    bessel_j(n, lambda, j);
+    special_bessel_j(n, lambda, j);
     return (struct object_mode){.w = lambda / a * sqrt(q->stiffness / q->area_density),
                                 .mass = REAL_PI * q->area_density * a * a * j[1] * j[1]};
 }
@@ -403,8 +403,8 @@ struct edge {             /* at r = a: J and I/I_n(lambda) */
 static struct edge edge_of(const struct object_radial *q, int n, double lambda)
 {
     double j[2], i[2], k = 1.0 - q->poisson, n2 = (double)n * n, l2 = lambda * lambda;
-    bessel_j(n, lambda, j);
-    bessel_i(n, lambda, i);
+    special_bessel_j(n, lambda, j);
+    special_bessel_i(n, lambda, i);
     struct edge s = {.j = j[0], .dj = n * j[0] - lambda * j[1], .di = n + lambda * i[1] / i[0]};
     s.lj = -l2 * s.j - k * (s.dj - n2 * s.j);
     s.vj = -l2 * s.dj - k * n2 * (s.dj - s.j);
@@ -432,9 +432,9 @@ static double disk_value(const struct object_radial *q, int n, double lambda, do
 {
     struct edge s = edge_of(q, n, lambda);
     double j[2], at[2], edge[2];
-    bessel_j(n, lambda * r, j);
-    bessel_i(n, lambda * r, at);
-    bessel_i(n, lambda, edge);
+    special_bessel_j(n, lambda * r, j);
+    special_bessel_i(n, lambda * r, at);
+    special_bessel_i(n, lambda, edge);
     return j[0] + share(q, &s, lambda) * (at[0] / edge[0]) * real_exp(-lambda * (1.0 - r));
 }
 

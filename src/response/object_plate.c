@@ -14,9 +14,8 @@
 #include <gsl/gsl_eigen.h>
 #include <math.h>
 
-#include "num/gauss.h"
-#include "num/jacobi.h"
 #include "num/real.h"
+#include "num/special.h"
 
 struct plate {                      /* of an orthotropic plate; N m, kg/m^2 */
     double dx, dy, coupling, twist; /* E_x h^3/(12(1 - nu_x nu_y)), ..., nu_x dy, G h^3/12 */
@@ -110,7 +109,7 @@ static double highest(const struct object_body *b, const struct plate *p, const 
    1985, 493):
 
        w(x, y) = sum c_mn X_m(xi) Y_n(eta),   xi, eta in [-1, 1],   X, Y orthonormal polynomials that keep the edges'
-   geometric conditions (num/jacobi.h: zeros of order 0 free, 1 supported, 2 clamped), K c = rho h w^2 c,   K_(mn)(pq) =
+   geometric conditions (num/special.h: zeros of order 0 free, 1 supported, 2 clamped), K c = rho h w^2 c,   K_(mn)(pq) =
    Dx A_mp d_nq + Dy d_mp A_nq + D1 (B_mp B_qn + B_pm B_nq) + 4 Dk C_mp C_nq, A = int X'' X'',  B_mp = int X_m'' X_p,  C
    = int X' X'   (each derivative times 2/length),   M = 1.
 
@@ -172,9 +171,9 @@ static void axis_integrals(struct axis *s, double length, struct arena *a)
     double *f[3];
     for (int d = 0; d < 3; d++)
         f[d] = ARENA_TAKE(a, double, n *points);
-    gauss_legendre(points, node, weight);
+    special_gauss_legendre(points, node, weight);
     for (int q = 0; q < points; q++) {
-        jacobi_slopes(&s->functions, n, node[q], row, row + n, row + 2 * n);
+        special_jacobi_slopes(&s->functions, n, node[q], row, row + n, row + 2 * n);
         for (int d = 0; d < 3; d++)
             for (int k = 0; k < n; k++)
                 f[d][k * points + q] = row[d * n + k];
@@ -196,7 +195,7 @@ static void axis_make(struct axis *s, int ends, double length, double stiffness,
     double degree = 0.5 * length * sqrt(w * sqrt(area_density / stiffness)) + MARGIN;
     int edge[4][2] = {
         [EDGES_FREE] = {0, 0}, [EDGES_SUPPORTED] = {1, 1}, [EDGES_CLAMPED] = {2, 2}, [EDGES_CANTILEVER] = {0, 2}};
-    s->functions = jacobi_make(edge[ends][0], edge[ends][1]);
+    s->functions = special_jacobi_make(edge[ends][0], edge[ends][1]);
     s->halves = ends != EDGES_CANTILEVER;
     s->n = (int)ceil(fmin(degree, 1e6)) + 1 - edge[ends][0] - edge[ends][1];
 }
@@ -385,8 +384,8 @@ static double shapes(const struct object *o, double x, double y, double *phi)
 {
     const struct table *t = (const struct table *)object_inside(o)->table;
     double fx[JACOBI_MOST], fy[JACOBI_MOST], off = object_nearest(o, &x, &y);
-    jacobi_values(&t->x, t->nx, 2.0 * x / o->high[0] - 1.0, fx);
-    jacobi_values(&t->y, t->ny, 2.0 * y / o->high[1] - 1.0, fy);
+    special_jacobi_values(&t->x, t->nx, 2.0 * x / o->high[0] - 1.0, fx);
+    special_jacobi_values(&t->y, t->ny, 2.0 * y / o->high[1] - 1.0, fy);
     for (int i = 0; i < CLASSES; i++)
         if (t->block[i].modes > 0) block_sum(&t->block[i], fx, fy, phi);
     return off;

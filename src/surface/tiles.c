@@ -125,7 +125,7 @@ static void conjugate(double *re, double *im)
 
 void tiles_tile(const double power[TILE_LINES], struct noise stream, struct fft_plane *fft, double *tile)
 {
-    double *re = fft_plane_re(fft), *im = fft_plane_im(fft), modulus[TILE_LINES], spline[TILE_LINES];
+    double *re = fft->re, *im = fft->im, modulus[TILE_LINES], spline[TILE_LINES];
     memset(re, 0, N * (HALF + 1) * sizeof *re);
     memset(im, 0, N * (HALF + 1) * sizeof *im);
     moduli(power, modulus);
@@ -143,7 +143,8 @@ void tiles_tile(const double power[TILE_LINES], struct noise stream, struct fft_
             im[at] = size * real_sinpi(turns);
         }
     conjugate(re, im);
-    const double *x = fft_plane_inverse(fft);
+    const double *x = fft->x;
+    fft_plane_inverse(fft);
     for (int j = 0; j < N; j++)
         for (int i = 0; i < TILE_ROW; i++)
             tile[j * TILE_ROW + i] = x[j * N + i % N];

@@ -5,7 +5,7 @@
 
 #include "base/arena.h"
 #include "base/err.h"
-#include "num/fft_plane.h"
+#include "num/fft.h"
 #include "num/lanes.h"
 #include "num/noise.h"
 #include "surface/relief.h"

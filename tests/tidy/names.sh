@@ -1,14 +1,14 @@
 # The home of every name is known from the name: what foo.o exports is called foo or foo_*.
 . "$ROOT/tests/lib/test.sh"
 
-# names OBJECT...: exported names that do not follow from the object's name. A clone's name continues after a dot. num/libm.c takes the place of libm's
-# functions for the libraries, by their names; num/planner.c that of one of FFTW.
+# names OBJECT...: exported names that do not follow from the object's name. A clone's name continues after a dot. num/resample.c and num/fft.c take the
+# place of libm's functions for the libraries, by their names; num/fft.c that of one of FFTW's, too.
 names() {
     nm -A --defined-only --extern-only --format=posix "$@" | awk '
         { home = $1; sub(/.*\//, "", home); sub(/\.o:$/, "", home); $1 = $2; sub(/\..*/, "", $1) }
         home ~ /^main(_|$)/ && $1 == "main" { next }
-        home == "libm" && $1 ~ /^(exp|log|log10|pow|sin|cos|asin)$/ { next }
-        home == "planner" && $1 == "fftw_assertion_failed" { next }
+        home == "resample" && $1 ~ /^(exp|log|log10|pow|sin|cos|asin)$/ { next }
+        home == "fft" && $1 ~ /^(sincos|fftw_assertion_failed)$/ { next }
         $1 != home && index($1, home "_") != 1 && !seen[home, $1]++ { print home ".o exports " $1 }'
 }
 

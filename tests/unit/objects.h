@@ -1,7 +1,7 @@
 /* Objects for tests: everything not given, quadrature over them, their static give. */
 #ifndef OBJECTS_H
 #define OBJECTS_H
-#include "num/gauss.h"
+#include "num/special.h"
 #include "response/object.h"
 #include "unit.h"
 
@@ -84,7 +84,7 @@ static inline double objects_mass_error(const struct object *o, double density, 
     int n = o->n;
     double *node = (double *)malloc(2 * sizeof *node * (size_t)points), *weight = node + points;
     double *m = (double *)calloc((size_t)n * n + n, sizeof *m), *phi = m + (size_t)n * n, worst = 0.0;
-    gauss_legendre(points, node, weight);
+    special_gauss_legendre(points, node, weight);
     double dx = o->high[0] - o->low[0], dy = o->high[1] - o->low[1];
     for (int i = 0; i < points; i++)
         for (int k = 0; k < points; k++) {

@@ -1,6 +1,5 @@
 /* The folded lead against what it is to keep: the sum and the first moment of all of y, before 0 and after. */
 #include "num/filter.h"
-#include "num/lead.h"
 #include "unit.h"
 
 enum { N = 40 };
@@ -18,7 +17,7 @@ START_TEST(sum_and_first_moment)
             first -= m * lead[m - 1];
             size += m * fabs(lead[m - 1]);
         }
-        lead_fold(lead, N, apart);
+        filter_fold_lead(lead, N, apart);
         for (int i = 0; i < N; i++) {
             folded += lead[i];
             moved += i * lead[i];
@@ -33,7 +32,7 @@ END_TEST
 START_TEST(reflected)
 {
     double lead[3] = {5, -2, 1};
-    lead_fold(lead, 3, 0);
+    filter_fold_lead(lead, 3, 0);
     ck_assert(lead[0] == 5 && lead[1] == -2 && lead[2] == 1);
 }
 END_TEST
@@ -54,14 +53,14 @@ static double worst(const struct filter *k, int over, int within, double f)
                 y += pass && n < leads ? lead[n] : 0;
                 re += pass * y * cos(2 * M_PI * f * ((double)n - t));
                 im -= pass * y * sin(2 * M_PI * f * ((double)n - t));
-                if (n == -1) lead_fold(lead, leads, 1);
+                if (n == -1) filter_fold_lead(lead, leads, 1);
             }
         most = fmax(most, hypot(re - 1, im));
     }
     return most;
 }
 
-/* The table in num/lead.h: what is left of the error of an impulse's spectrum. Without the fold it is 0.15 throughout.
+/* The table in num/filter.h: what is left of the error of an impulse's spectrum. Without the fold it is 0.15 throughout.
  */
 START_TEST(spectrum_of_an_early_impulse)
 {

@@ -2,8 +2,8 @@
  * strain, rotation. */
 #include "fem/solid_element.h"
 
-#include "num/gauss.h"
 #include "num/noise.h"
+#include "num/special.h"
 #include "solids.h"
 
 static const int ends[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
@@ -98,7 +98,7 @@ START_TEST(test_curved_mass)
     make(0.05, at);
     struct elastic steel = solids_steel();
     struct solid_element x = element(at, &steel);
-    gauss_legendre(9, g, w);
+    special_gauss_legendre(9, g, w);
     for (int p = 0; p < 729; p++) {
         double r = 0.5 + 0.5 * g[p % 9], s = 0.5 + 0.5 * g[p / 9 % 9], t = 0.5 + 0.5 * g[p / 81], value[10],
                slope[10][3];
