@@ -188,31 +188,12 @@ bool sound_finish(struct sound *o, struct sound_report *report, struct err *e)
     return note(o, report->gain, e) && track_finish(t, report->gain, e);
 }
 
-const struct wav_written *sound_written(const struct sound *o) { return track_written(&o->track, o->arena); }
-
-static void meter_close(struct sound *o)
-{
-    loudness_close(o->meter);
-    o->meter = NULL;
-}
-
-bool sound_finalise(struct sound *o, struct err *e)
-{
-    meter_close(o);
-    return track_finalise(&o->track, e);
-}
-
-const char *sound_temporary(const struct sound *o) { return wav_temporary(o->track.wav); }
-
-bool sound_commit(struct sound *o, struct err *e)
-{
-    meter_close(o);
-    return track_commit(&o->track, e);
-}
+struct track *sound_track(struct sound *o) { return &o->track; }
 
 void sound_drop(struct sound *o)
 {
     if (!o) return;
-    meter_close(o);
+    loudness_close(o->meter);
+    o->meter = NULL;
     track_drop(&o->track);
 }

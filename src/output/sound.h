@@ -45,16 +45,13 @@ bool sound_add(struct sound *o, double *x, long n, struct err *e);
 /* Scales and writes what is not written yet. ERR_SCENE: clipping, or a loudness that cannot be measured. */
 bool sound_finish(struct sound *o, struct sound_report *report, struct err *e);
 
-/* What the file holds, once the sound is finished. */
-const struct wav_written *sound_written(const struct sound *o);
+/* The file, once the sound is finished: to be settled and committed. */
+struct track *sound_track(struct sound *o);
 
 /* "output.level.full_scale": the key that sets the level. */
 const char *sound_level_key(const struct scene *s);
 
-/* Gives the file its name, or leaves nothing. Either ends it. */
-bool sound_finalise(struct sound *o, struct err *e); /* as outfile_finalise */
-const char *sound_temporary(const struct sound *o);  /* as wav_temporary */
-bool sound_commit(struct sound *o, struct err *e);
+/* Ends it; of a file that is not committed nothing is left. */
 void sound_drop(struct sound *o);
 
 #endif

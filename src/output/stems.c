@@ -82,29 +82,7 @@ bool stems_finish(struct stems *o, double gain, struct err *e)
     return true;
 }
 
-const struct wav_written *stems_written(const struct stems *o, enum stem stem, struct arena *a)
-{
-    return track_written(&o->tracks[stem], a);
-}
-
-bool stems_finalise(struct stems *o, struct err *e)
-{
-    for (int k = 0; k < STEMS; k++)
-        if (o->open[k] && !track_finalise(&o->tracks[k], e)) return false;
-    return true;
-}
-
-const char *stems_temporary(const struct stems *o, enum stem stem) { return wav_temporary(o->tracks[stem].wav); }
-
-bool stems_commit(struct stems *o, struct err *e)
-{
-    for (int k = 0; k < STEMS; k++) {
-        bool open = o->open[k];
-        o->open[k] = false;
-        if (open && !track_commit(&o->tracks[k], e)) return false;
-    }
-    return true;
-}
+struct track *stems_track(struct stems *o, enum stem stem) { return &o->tracks[stem]; }
 
 void stems_drop(struct stems *o)
 {

@@ -19,7 +19,7 @@ bool stems_asked(const struct output *o, enum stem stem);
 int stems_channels(const struct output *o, enum stem stem);
 
 struct stems;
-struct wav_written;
+struct track;
 
 /* Opens paths[stem] of those asked for, at once. frames: how many stems_add will bring in all. ERR_CREATE, ERR_IO. */
 struct stems *stems_open(const struct scene *s, const char *const paths[STEMS], long frames, struct arena *a,
@@ -32,12 +32,10 @@ bool stems_add(struct stems *o, enum stem stem, double *x, long n, struct err *e
 /* gain: the sound's. ERR_SCENE: clipping. */
 bool stems_finish(struct stems *o, double gain, struct err *e);
 
-/* What the file of a stem that is asked for holds, once it is finished. */
-const struct wav_written *stems_written(const struct stems *o, enum stem stem, struct arena *a);
+/* The file of a stem that is asked for, once it is finished: to be settled and committed. */
+struct track *stems_track(struct stems *o, enum stem stem);
 
-bool stems_finalise(struct stems *o, struct err *e);
-const char *stems_temporary(const struct stems *o, enum stem stem); /* as wav_temporary */
-bool stems_commit(struct stems *o, struct err *e);
+/* Ends them; of files that are not committed nothing is left. */
 void stems_drop(struct stems *o);
 
 #endif

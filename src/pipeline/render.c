@@ -89,24 +89,34 @@ static bool render_blocks(struct render *r, struct err *e)
     return true;
 }
 
-static void report_file(struct render *r, enum output_kind kind, const char *path, const char *contact,
-                        const char *sha256)
+static struct render_file *list(struct render *r, enum output_kind kind, const char *path)
 {
-    const char *copy = sha256 ? arena_text(r->arena, sha256) : NULL,
-               *stem = kind >= OUTPUT_STEM ? stems_names[kind - OUTPUT_STEM] : NULL;
-    r->report->files[r->report->n_files++] = (struct render_file){
-        .kind = outputs_kind(r->scene, kind), .path = path, .contact = contact, .stem = stem, .sha256 = copy};
+    struct render_file *f = &r->report->files[r->report->n_files++];
+    *f = (struct render_file){.kind = outputs_kind(r->scene, kind),
+                              .path = path,
+                              .stem = kind >= OUTPUT_STEM ? stems_names[kind - OUTPUT_STEM] : NULL};
+    return f;
 }
 
 /* A file of a contact's own. */
-static bool report_part(struct render *r, struct render_part *p, enum output_kind kind, struct err *e)
+static bool list_part(struct render *r, struct render_part *p, enum output_kind kind, struct err *e)
 {
     struct outfile *file = kind == OUTPUT_TABLE ? &p->table : &p->listing;
     char hex[HASH_TEXT];
     if (!file->stream) return true;
     if (!outfile_hash(file, hex, e)) return false;
-    report_file(r, kind, kind == OUTPUT_TABLE ? p->table_path : p->listing_path, p->plan.contact->name, hex);
+    struct render_file *f = list(r, kind, kind == OUTPUT_TABLE ? p->table_path : p->listing_path);
+    f->file = file;
+    f->contact = p->plan.contact->name;
+    f->sha256 = arena_text(r->arena, hex);
     return true;
+}
+
+static void list_track(struct render *r, enum output_kind kind, const char *path, struct track *track)
+{
+    struct render_file *f = list(r, kind, path);
+    f->track = track;
+    f->written = track_written(track, r->arena);
 }
 
 /* What will have been written. A WAV is whole only after the summary that holds the hashes: it is listed without. */
@@ -115,20 +125,19 @@ static bool render_list(struct render *r, const char *effective, struct err *e)
     char hex[HASH_TEXT];
     r->report->files = ARENA_TAKE(r->arena, struct render_file, 2 * r->scene->n_contacts + OUTPUT_KINDS);
     for (int i = 0; i < r->scene->n_contacts; i++)
-        for (int kind = OUTPUT_TABLE; kind <= OUTPUT_LISTING; kind++)
-            if (!report_part(r, &r->parts.parts[i], (enum output_kind)kind, e)) return false;
-    hash_bytes(effective, strlen(effective), hex);
-    if (!r->waits) report_file(r, OUTPUT_EFFECTIVE, r->scene_path, NULL, hex);
-    if (!r->set) report_file(r, OUTPUT_SUMMARY, r->summary_path, NULL, NULL);
-    if (r->sounds) {
-        report_file(r, OUTPUT_SOUND, r->wav_path, NULL, NULL);
-        r->report->files[r->report->n_files - 1].written = sound_written(r->sound);
+        if (!list_part(r, &r->parts.parts[i], OUTPUT_TABLE, e) || !list_part(r, &r->parts.parts[i], OUTPUT_LISTING, e))
+            return false;
+    if (!r->waits) {
+        struct render_file *f = list(r, OUTPUT_EFFECTIVE, r->scene_path);
+        hash_bytes(effective, strlen(effective), hex);
+        f->file = &r->effective;
+        f->sha256 = arena_text(r->arena, hex);
     }
+    if (!r->set) list(r, OUTPUT_SUMMARY, r->summary_path)->file = &r->summary;
+    if (r->sounds) list_track(r, OUTPUT_SOUND, r->wav_path, sound_track(r->sound));
     for (int k = 0; k < STEMS; k++)
-        if (stems_asked(&r->scene->output, (enum stem)k)) {
-            report_file(r, OUTPUT_STEM + k, r->stem_paths[k], NULL, NULL);
-            r->report->files[r->report->n_files - 1].written = stems_written(r->stems, (enum stem)k, r->arena);
-        }
+        if (stems_asked(&r->scene->output, (enum stem)k))
+            list_track(r, OUTPUT_STEM + k, r->stem_paths[k], stems_track(r->stems, (enum stem)k));
     return true;
 }
 
@@ -161,41 +170,12 @@ static bool render_finish(struct render *r, double start[2], struct err *e)
  * none. */
 static bool render_finalise(struct render *r, struct err *e)
 {
-    for (int i = 0; i < r->scene->n_contacts; i++) {
-        struct render_part *p = &r->parts.parts[i];
-        if ((p->table.stream && !outfile_finalise(&p->table, e)) ||
-            (p->listing.stream && !outfile_finalise(&p->listing, e)))
-            return false;
+    for (int k = 0; k < r->report->n_files; k++) {
+        struct render_file *f = &r->report->files[k];
+        if (!(f->file ? outfile_finalise(f->file, e) : track_finalise(f->track, e))) return false;
+        f->temporary = f->file ? f->file->temporary : wav_temporary(f->track->wav);
     }
-    return (!r->effective.stream || outfile_finalise(&r->effective, e)) &&
-           (!r->summary.stream || outfile_finalise(&r->summary, e)) && (!r->sound || sound_finalise(r->sound, e)) &&
-           (!r->stems || stems_finalise(r->stems, e));
-}
-
-/* Where the settled files lie, in the order of render_list. */
-static void find_temporaries(struct render *r)
-{
-    struct render_file *f = r->report->files;
-    for (int i = 0; i < r->scene->n_contacts; i++) {
-        struct render_part *p = &r->parts.parts[i];
-        if (p->table.temporary[0]) f++->temporary = p->table.temporary;
-        if (p->listing.temporary[0]) f++->temporary = p->listing.temporary;
-    }
-    if (!r->waits) f++->temporary = r->effective.temporary;
-    if (!r->set) f++->temporary = r->summary.temporary;
-    if (r->sound) f++->temporary = sound_temporary(r->sound);
-    for (int k = 0; k < STEMS; k++)
-        if (stems_asked(&r->scene->output, (enum stem)k)) f++->temporary = stems_temporary(r->stems, (enum stem)k);
-}
-
-static bool commit_one(struct outfile *f, struct err *e) { return !f->target[0] || outfile_commit(f, e); }
-
-static bool commit_all(struct render *r, struct err *e)
-{
-    for (int i = 0; i < r->scene->n_contacts; i++)
-        if (!commit_one(&r->parts.parts[i].table, e) || !commit_one(&r->parts.parts[i].listing, e)) return false;
-    return commit_one(&r->effective, e) && commit_one(&r->summary, e) && (!r->sound || sound_commit(r->sound, e)) &&
-           (!r->stems || stems_commit(r->stems, e));
+    return true;
 }
 
 void render_drop(struct render *r)
@@ -211,7 +191,11 @@ void render_drop(struct render *r)
 bool render_commit(struct render *r, struct err *e)
 {
     interrupt_hold();
-    bool ok = commit_all(r, e);
+    bool ok = true;
+    for (int k = 0; k < r->report->n_files && ok; k++) {
+        struct render_file *f = &r->report->files[k];
+        ok = f->file ? outfile_commit(f->file, e) : track_commit(f->track, e);
+    }
     interrupt_go();
     render_drop(r);
     return ok;
@@ -238,10 +222,8 @@ static struct render *make(const struct scene *s, const char *base, const struct
     r->effective.fd = r->summary.fd = -1;
     find_paths(r, r->waits ? names->sounds : base);
     if (render_open(r, e) && render_blocks(r, e) && render_finish(r, start, e) && render_finalise(r, e) &&
-        inputs_still(&r->inputs, e)) {
-        find_temporaries(r);
+        inputs_still(&r->inputs, e))
         return r;
-    }
     render_drop(r);
     return NULL;
 }

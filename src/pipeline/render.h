@@ -74,6 +74,8 @@ struct render_file {
     const char *sha256;                /* NULL: not known                  */
     const struct wav_written *written; /* of a WAV; else NULL     */
     const char *temporary;             /* where it lies until it is committed */
+    struct outfile *file;              /* on its way; NULL: a WAV          */
+    struct track *track;               /* likewise; NULL: no WAV           */
 };
 
 struct render_report {

@@ -41,7 +41,8 @@ static struct sound_report sounded(struct arena *a, const struct scene *s, const
                 x[i * places_n + k] = at(n + i, k);
         ck_assert_msg(sound_add(o, x, some, &e), "%s", e.text);
     }
-    ck_assert_msg(sound_finish(o, &r, &e) && sound_finalise(o, &e) && sound_commit(o, &e), "%s", e.text);
+    ck_assert_msg(sound_finish(o, &r, &e) && track_commit(sound_track(o), &e), "%s", e.text);
+    sound_drop(o);
     return r;
 }
 
@@ -167,9 +168,10 @@ static bool stemmed(struct arena *a, const struct scene *s, long frames, struct 
                           stems_add(p, STEM_SCRAPER, y, 1, e) && sound_add(o, sum, 1, e),
                       "%s", e->text);
     }
-    bool ok = sound_finish(o, &r, e) && stems_finish(p, r.gain, e) && sound_finalise(o, e) && stems_finalise(p, e) &&
-              sound_commit(o, e) && stems_commit(p, e);
-    if (!ok) sound_drop(o);
+    bool ok = sound_finish(o, &r, e) && stems_finish(p, r.gain, e) && track_commit(sound_track(o), e);
+    for (int k = 0; k < STEMS && ok; k++)
+        ok = !stems_asked(&s->output, (enum stem)k) || track_commit(stems_track(p, (enum stem)k), e);
+    sound_drop(o);
     stems_drop(p);
     return ok;
 }
