@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
@@ -15,12 +16,17 @@
 
 /* CSV last: it takes any text that begins with a number. */
 static const struct {
+    const char *ending;
+    enum heightfile_format format;
     bool (*is)(const struct bytes *b);
     bool (*read)(const char *path, const struct bytes *b, struct arena *a, struct heightfile *h, struct err *e);
 } formats[] = {
-    {npy_is, heightfile_formats_npy_read},    {heightfile_formats_gsf_is, heightfile_formats_gsf_read},
-    {heightfile_gwy_is, heightfile_gwy_read}, {heightfile_formats_png_is, heightfile_formats_png_read},
-    {heightfile_sdf_is, heightfile_sdf_read}, {heightfile_formats_csv_is, heightfile_formats_csv_read},
+    {".npy", HEIGHTFILE_NPY, npy_is, heightfile_formats_npy_read},
+    {".gsf", HEIGHTFILE_GSF, heightfile_formats_gsf_is, heightfile_formats_gsf_read},
+    {".gwy", HEIGHTFILE_GWY, heightfile_gwy_is, heightfile_gwy_read},
+    {".png", HEIGHTFILE_PNG, heightfile_formats_png_is, heightfile_formats_png_read},
+    {".sdf", HEIGHTFILE_SDF, heightfile_sdf_is, heightfile_sdf_read},
+    {".csv", HEIGHTFILE_CSV, heightfile_formats_csv_is, heightfile_formats_csv_read},
 };
 
 /* Text takes at most 32 bytes a number; so no file of a map that is read is larger. */
@@ -176,17 +182,10 @@ struct fill {
     double weight[2]; /* along rows, across                                       */
 };
 
-static size_t fill_find(const struct fill *f, size_t place)
+static int by_place(const void *a, const void *b)
 {
-    size_t low = 0, high = f->n;
-    while (high - low > 1) {
-        size_t middle = (low + high) / 2;
-        if (f->place[middle] <= place)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
+    uint32_t p = *(const uint32_t *)a, q = *(const uint32_t *)b;
+    return (p > q) - (p < q);
 }
 
 /* The four neighbours of unknown k: whether inside the map, and where. */
@@ -212,7 +211,9 @@ static void fill_system(struct fill *f, const struct heightfile *h, double middl
             if (!fill_neighbour(h, f->place[k], side, &there)) continue;
             f->diagonal[k] += f->weight[side / 2];
             if (isnan(h->z[there]))
-                f->beside[k][side] = (int32_t)fill_find(f, there);
+                f->beside[k][side] = (int32_t)((uint32_t *)bsearch(&(uint32_t){(uint32_t)there}, f->place, f->n,
+                                                                   sizeof *f->place, by_place) -
+                                               f->place);
             else
                 f->r[k] += f->weight[side / 2] * ((h->z[there] - middle) / span);
         }
@@ -274,22 +275,20 @@ static struct fill fill_make(const struct heightfile *h, struct arena *a)
 {
     struct fill f = {.n = h->holes, .weight = {1, 1}};
     if (!isnan(h->pitch_x) && !isnan(h->pitch_y)) f.weight[1] = h->pitch_x * h->pitch_x / (h->pitch_y * h->pitch_y);
+    double **of[] = {&f.diagonal, &f.x, &f.r, &f.p, &f.q};
     f.place = ARENA_TAKE(a, uint32_t, f.n);
     f.beside = arena_take(a, f.n, sizeof *f.beside);
-    f.diagonal = ARENA_TAKE(a, double, f.n);
-    f.x = ARENA_TAKE(a, double, f.n);
-    f.r = ARENA_TAKE(a, double, f.n);
-    f.p = ARENA_TAKE(a, double, f.n);
-    f.q = ARENA_TAKE(a, double, f.n);
+    for (int k = 0; k < 5; k++)
+        *of[k] = ARENA_TAKE(a, double, f.n);
     return f;
 }
 
-static void fill_extent(const struct heightfile *h, double *low, double *high)
+/* Missing ones are left out: fmin passes over NaN. */
+static void extremes(const struct heightfile *h, double *low, double *high)
 {
-    *low = HUGE_VAL;
-    *high = -HUGE_VAL;
+    *low = HUGE_VAL, *high = -HUGE_VAL;
     for (size_t i = 0; i < h->rows * h->columns; i++) {
-        *low = fmin(*low, h->z[i]); /* fmin passes over NaN */
+        *low = fmin(*low, h->z[i]);
         *high = fmax(*high, h->z[i]);
     }
 }
@@ -314,7 +313,7 @@ static bool fill_map(const char *path, struct heightfile *h, struct err *e)
     struct arena *own = arena_open();
     struct fill f = fill_make(h, own);
     double low, high;
-    fill_extent(h, &low, &high);
+    extremes(h, &low, &high);
     double middle = 0.5 * low + 0.5 * high, span = high > low ? high - low : 1;
     fill_system(&f, h, middle, span);
     bool ok = (isfinite(span) && f.weight[1] > 1e-30 && f.weight[1] < 1e30 && fill_solve(&f, 1e-12)) ||
@@ -457,16 +456,6 @@ static bool take_holes(const struct load *l)
                    l->names->fill);
 }
 
-/* Missing ones are left out. */
-static void extremes(const struct heightfile *h, double *low, double *high)
-{
-    *low = HUGE_VAL, *high = -HUGE_VAL;
-    for (size_t i = 0; i < h->rows * h->columns; i++) {
-        *low = fmin(*low, h->z[i]);
-        *high = fmax(*high, h->z[i]);
-    }
-}
-
 static bool check_heights(const struct load *l)
 {
     static const double likely[2] = {2e-8, 2e-3};
@@ -553,18 +542,12 @@ int heightfile_warnings(const struct heightfile *h, const struct heightfile_name
     return n;
 }
 
-static const struct {
-    const char *ending;
-    enum heightfile_format format;
-} endings[] = {{".gsf", HEIGHTFILE_GSF}, {".gwy", HEIGHTFILE_GWY}, {".sdf", HEIGHTFILE_SDF},
-               {".npy", HEIGHTFILE_NPY}, {".png", HEIGHTFILE_PNG}, {".csv", HEIGHTFILE_CSV}};
-
 bool heightfile_write_format(const char *path, enum heightfile_format *format, struct err *e)
 {
     size_t n = strlen(path);
-    for (size_t i = 0; i < sizeof endings / sizeof endings[0]; i++)
-        if (n > 4 && !strcasecmp(path + n - 4, endings[i].ending)) {
-            *format = endings[i].format;
+    for (size_t i = 0; i < sizeof formats / sizeof formats[0]; i++)
+        if (n > 4 && !strcasecmp(path + n - 4, formats[i].ending)) {
+            *format = formats[i].format;
             return true;
         }
     return err_set(e, ERR_USAGE,

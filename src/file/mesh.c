@@ -146,16 +146,6 @@ bool mesh_source_find(struct mesh_source *s, const char *name)
     return true;
 }
 
-/* Room for one more of `size` bytes. */
-static void *room(struct arena *a, void *old, size_t n, size_t *most, size_t size)
-{
-    if (n < *most) return old;
-    *most = *most ? 2 * *most : 1024;
-    void *more = arena_take(a, *most, size);
-    if (n > 0) memcpy(more, old, n * size);
-    return more;
-}
-
 void mesh_raw_expect(struct mesh_raw *r, size_t nodes)
 {
     if (r->nodes + nodes < r->node_room) return;
@@ -209,7 +199,7 @@ bool mesh_raw_element(struct mesh_raw *r, int corners, const int node[10], const
     if (r->elements >= INT_MAX / 16)
         return mesh_source_bad(s, "more elements than a mesh may have here; make it coarser");
     r->corners = corners;
-    r->element = room(r->arena, r->element, r->elements, &r->element_room, sizeof *r->element);
+    r->element = arena_more(r->arena, r->element, (int)r->elements, sizeof *r->element);
     for (int i = 0; i < 10; i++)
         r->element[r->elements][i] = i < corners ? node[i] : -1;
     r->elements++;
@@ -218,7 +208,7 @@ bool mesh_raw_element(struct mesh_raw *r, int corners, const int node[10], const
 
 void mesh_raw_face(struct mesh_raw *r, int64_t group, const int corner[3])
 {
-    r->face = room(r->arena, r->face, r->faces, &r->face_room, sizeof *r->face);
+    r->face = arena_more(r->arena, r->face, (int)r->faces, sizeof *r->face);
     r->face[r->faces].group = group;
     memcpy(r->face[r->faces++].corner, corner, 3 * sizeof *corner);
 }

@@ -43,7 +43,7 @@ void mesh_source_next_line(struct mesh_source *s);
 struct mesh_raw {
     struct arena *arena;
     size_t nodes, elements, faces, triangles; /* faces: that belong to a group; triangles: all */
-    size_t node_room, element_room, face_room;
+    size_t node_room;
     int corners; /* nodes of an element: 4 or 10; 0: there is none yet */
     struct mesh_raw_node {
         int64_t tag;

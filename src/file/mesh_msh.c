@@ -15,7 +15,7 @@
 struct mesh_msh {
     struct mesh_raw raw;
     struct mesh_source source;
-    size_t names, belongs, belongs_room;
+    size_t names, belongs;
     struct mesh_msh_name {
         int64_t number;
         const char *text;
@@ -164,17 +164,6 @@ static bool elements_2(struct mesh_msh *g)
 
 enum { MOST_GROUPS = 64 }; /* of one entity: each of its faces is kept for each */
 
-static void belongs(struct mesh_msh *g, int64_t surface, int64_t physical)
-{
-    if (g->belongs == g->belongs_room) {
-        g->belongs_room = g->belongs_room ? 2 * g->belongs_room : 64;
-        struct mesh_msh_belongs *more = ARENA_TAKE(g->raw.arena, struct mesh_msh_belongs, g->belongs_room);
-        if (g->belongs > 0) memcpy(more, g->to, g->belongs * sizeof *more);
-        g->to = more;
-    }
-    g->to[g->belongs++] = (struct mesh_msh_belongs){surface, physical};
-}
-
 static int by_surface(const void *p, const void *q)
 {
     const struct mesh_msh_belongs *a = p, *b = q;
@@ -217,7 +206,9 @@ static bool read_entity(struct mesh_msh *g, int dimension)
         return mesh_source_bad(s, "an entity in %zu physical groups; at most %d are read", n, MOST_GROUPS);
     for (size_t i = 0; i < n; i++) {
         if (!mesh_source_whole(s, 4, &number, "a physical group")) return false;
-        if (dimension == 2) belongs(g, tag, number < 0 ? -number : number);
+        if (dimension != 2) continue;
+        g->to = arena_more(g->raw.arena, g->to, (int)g->belongs, sizeof *g->to);
+        g->to[g->belongs++] = (struct mesh_msh_belongs){tag, number < 0 ? -number : number};
     }
     if (dimension == 0) return true;
     if (!mesh_source_count(s, 8, least, &n, "the number of what bounds an entity")) return false;

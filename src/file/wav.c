@@ -415,34 +415,16 @@ static bool write_integers(struct wav_out *w, const double *x, size_t n, struct 
 
 static bool write_floats(struct wav_out *w, const double *x, size_t n, struct err *e)
 {
-    float y[PIECE];
-    double stored[PIECE];
+    double y[PIECE], most = w->format.bits == -32 ? FLT_MAX : DBL_MAX;
     for (size_t i = 0; i < n; i++) {
-        if (!(fabs(x[i]) <= FLT_MAX)) return sample_bad(w, i, x[i], e);
-        stored[i] = y[i] = (float)x[i];
+        if (!(fabs(x[i]) <= most)) return sample_bad(w, i, x[i], e);
+        y[i] = w->format.bits == -32 ? (float)x[i] : x[i];
     }
     for (size_t i = 0; w->silent && i < n; i++)
         if (y[i] != 0) note_audible(w, i);
-    look_beyond(stored, n, &w->beyond, &w->peak);
+    look_beyond(y, n, &w->beyond, &w->peak);
     errno = 0;
-    return sf_write_float(w->sound, y, (sf_count_t)n) == (sf_count_t)n || write_failed(w, e);
-}
-
-static bool write_doubles(struct wav_out *w, const double *x, size_t n, struct err *e)
-{
-    for (size_t i = 0; i < n; i++)
-        if (!isfinite(x[i])) return sample_bad(w, i, x[i], e);
-    for (size_t i = 0; w->silent && i < n; i++)
-        if (x[i] != 0) note_audible(w, i);
-    look_beyond(x, n, &w->beyond, &w->peak);
-    errno = 0;
-    return sf_write_double(w->sound, x, (sf_count_t)n) == (sf_count_t)n || write_failed(w, e);
-}
-
-static bool write_piece(struct wav_out *w, const double *x, size_t n, struct err *e)
-{
-    int bits = w->format.bits;
-    return bits > 0 ? write_integers(w, x, n, e) : bits == -32 ? write_floats(w, x, n, e) : write_doubles(w, x, n, e);
+    return sf_write_double(w->sound, y, (sf_count_t)n) == (sf_count_t)n || write_failed(w, e);
 }
 
 bool wav_write(struct wav_out *w, const double *x, size_t frames, struct err *e)
@@ -451,7 +433,8 @@ bool wav_write(struct wav_out *w, const double *x, size_t frames, struct err *e)
     if (!w->long_file && (w->frames + (double)frames) * frame_bytes(w) > w->riff_bytes && !go_long(w, e)) return false;
     for (size_t done = 0, n; done < frames; done += n) {
         n = frames - done < most ? frames - done : most;
-        if (!write_piece(w, x + done * channels, n * channels, e)) return false;
+        if (!(w->format.bits > 0 ? write_integers : write_floats)(w, x + done * channels, n * channels, e))
+            return false;
         w->frames += (double)n;
     }
     return true;
