@@ -45,4 +45,12 @@ bool err_about(struct err *e, const char *contact, const char *key);
 /* Puts "where: " before the text of an error that is set; returns false. */
 bool err_at(struct err *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* What a program says that ends here and now: one line on standard error, made without memory, by any thread. */
+
+/* From now on that line is a JSON object, as of rasp's --diagnostics=json (cmd/message.h). Before there are threads. */
+void err_last_words_as_json(void);
+
+/* "rasp: error: text". Standard error that takes nothing for 0.1 s gets nothing. */
+void err_last_words(enum err_kind kind, const char *text);
+
 #endif

@@ -1,7 +1,8 @@
-/* See file_cache.h. One lock guards the list; things are made outside of it, each in an arena of its own. */
+/* See file_cache.h. One lock guards the tree; things are made outside of it, each in an arena of its own. */
 #include "base/file_cache.h"
 
 #include <pthread.h>
+#include <search.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,122 +11,104 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/relpath.h"
-#include "base/watch.h"
 
-enum state { MAKING, THERE, FAILED /* its making failed */ };
+static struct file_cache_state look(const char *file)
+{
+    struct stat s;
+    if (stat(file, &s) != 0) return (struct file_cache_state){{0}};
+    return (struct file_cache_state){{(long)s.st_dev, (long)s.st_ino, (long)s.st_size, s.st_mtim.tv_sec,
+                                      s.st_mtim.tv_nsec, s.st_ctim.tv_sec, s.st_ctim.tv_nsec}};
+}
 
-struct entry {
+static int compare(const struct file_cache_state *a, const struct file_cache_state *b)
+{
+    return memcmp(a, b, sizeof *a);
+}
+
+enum progress { MAKING, THERE, FAILED /* its making failed */ };
+
+struct cached {
     const struct file_cache_kind *kind;
     const char *file, *key;
-    struct stat status;
+    struct file_cache_state state;
     struct arena *arena; /* that what its thing has besides lies in; NULL: it is small */
     void *thing;
-    enum state state;
-    size_t hash;         /* of kind, file and key */
-    struct entry *next;  /* of all */
-    struct entry *other; /* of those that have their place in the table in common */
+    enum progress progress;
+    struct cached *next; /* of all */
 };
 
 struct file_cache {
     pthread_mutex_t lock;
     pthread_cond_t made;
     struct arena *arena; /* of the entries */
-    struct entry *entries, **table;
-    size_t n, places; /* entries; of the table, a power of two */
+    struct cached *entries;
+    void *tree; /* of the same, of those that are alike the last */
     size_t bytes, most;
 };
 
 struct file_cache *file_cache_open(size_t most)
 {
     struct file_cache *s = memory_take(sizeof *s);
-    *s = (struct file_cache){.most = most, .arena = arena_open(), .places = 64};
-    s->table = ARENA_TAKE(s->arena, struct entry *, s->places);
+    *s = (struct file_cache){.most = most, .arena = arena_open()};
     pthread_mutex_init(&s->lock, NULL);
     pthread_cond_init(&s->made, NULL);
     return s;
 }
 
+static void leave(void *entry) { (void)entry; }
+
 void file_cache_close(struct file_cache *s)
 {
     if (!s) return;
-    for (struct entry *x = s->entries; x; x = x->next)
+    for (struct cached *x = s->entries; x; x = x->next)
         arena_close(x->arena);
+    tdestroy(s->tree, leave);
     arena_close(s->arena);
     pthread_cond_destroy(&s->made);
     pthread_mutex_destroy(&s->lock);
     free(s);
 }
 
-/* FNV-1a. */
-static size_t add_text(size_t h, const char *text)
+static int order(const void *p, const void *q)
 {
-    for (; *text; text++)
-        h = (h ^ (unsigned char)*text) * (size_t)0x100000001b3;
-    return (h ^ 0xff) * (size_t)0x100000001b3;
-}
-
-static const char *key_of(const struct file_cache_ask *ask) { return ask->key ? ask->key : ""; }
-
-static size_t hash_of(const struct file_cache_ask *ask)
-{
-    size_t h = add_text(add_text(add_text((size_t)0xcbf29ce484222325, ask->kind->name), ask->file), key_of(ask));
-    return h ^ h >> 32;
+    const struct cached *a = p, *b = q;
+    int by = strcmp(a->file, b->file);
+    by = by ? by : strcmp(a->kind->name, b->kind->name);
+    by = by ? by : strcmp(a->key, b->key);
+    return by ? by : compare(&a->state, &b->state);
 }
 
 /* Waits where another makes it. NULL: nobody has. */
-static const struct entry *find(struct file_cache *s, const struct file_cache_ask *ask, const struct stat *status)
+static const struct cached *find(struct file_cache *s, const struct cached *wanted)
 {
-    size_t hash = hash_of(ask);
-    for (struct entry *x = s->table[hash & (s->places - 1)]; x; x = x->other) {
-        if (x->hash != hash || x->kind != ask->kind || x->state == FAILED || !watch_same(&x->status, status) ||
-            strcmp(x->file, ask->file) != 0 || strcmp(x->key, key_of(ask)) != 0)
-            continue;
-        while (x->state == MAKING)
-            pthread_cond_wait(&s->made, &s->lock);
-        if (x->state == THERE) return x;
-    }
-    return NULL;
+    struct cached *const *at = tfind(wanted, &s->tree, order), *x = at ? *at : NULL;
+    while (x && x->progress == MAKING)
+        pthread_cond_wait(&s->made, &s->lock);
+    return x && x->progress == THERE ? x : NULL;
 }
 
-static void lay(struct file_cache *s, struct entry *x)
+static struct cached *enter(struct file_cache *s, const struct cached *wanted)
 {
-    struct entry **at = &s->table[x->hash & (s->places - 1)];
-    x->other = *at;
-    *at = x;
-}
-
-static void grow(struct file_cache *s)
-{
-    s->places *= 4;
-    s->table = ARENA_TAKE(s->arena, struct entry *, s->places);
-    for (struct entry *x = s->entries; x; x = x->next)
-        lay(s, x);
-}
-
-static struct entry *enter(struct file_cache *s, const struct file_cache_ask *ask, const struct stat *status)
-{
-    struct entry *x = ARENA_TAKE(s->arena, struct entry, 1);
-    *x = (struct entry){.kind = ask->kind,
-                        .file = arena_text(s->arena, ask->file),
-                        .key = *key_of(ask) ? arena_text(s->arena, ask->key) : "",
-                        .status = *status,
-                        .thing = arena_take(s->arena, 1, ask->kind->size),
-                        .state = MAKING,
-                        .hash = hash_of(ask),
-                        .next = s->entries};
-    x->arena = ask->kind->small ? NULL : arena_open();
+    struct cached *x = ARENA_TAKE(s->arena, struct cached, 1);
+    *x = *wanted;
+    x->file = arena_text(s->arena, wanted->file);
+    x->key = arena_text(s->arena, wanted->key);
+    x->thing = arena_take(s->arena, 1, wanted->kind->size);
+    x->arena = wanted->kind->small ? NULL : arena_open();
+    x->next = s->entries;
     s->entries = x;
-    lay(s, x);
-    if (++s->n > 2 * s->places) grow(s);
+    struct cached **at = tsearch(x, &s->tree, order);
+    if (!at) memory_out("for a tree of files");
+    *at = x; /* in place of one whose making failed */
     return x;
 }
 
-static const void *make(struct file_cache *s, struct entry *x, const void *how, struct err *e)
+static const void *make(struct file_cache *s, struct cached *x, const void *how, struct err *e)
 {
     struct err own = {0};
     bool ok = x->kind->make(x->file, how, x->arena, x->thing, &own);
     pthread_mutex_lock(&s->lock);
-    x->state = ok ? THERE : FAILED;
+    x->progress = ok ? THERE : FAILED;
     s->bytes += x->arena ? arena_bytes(x->arena) : 0;
     pthread_cond_broadcast(&s->made);
     pthread_mutex_unlock(&s->lock);
@@ -135,12 +118,13 @@ static const void *make(struct file_cache *s, struct entry *x, const void *how, 
 
 const void *file_cache_take(struct file_cache *s, const struct file_cache_ask *ask, struct arena *a, struct err *e)
 {
-    struct stat status;
-    struct entry *mine = NULL;
-    if (s && stat(ask->file, &status) == 0) {
+    const struct cached wanted = {
+        .kind = ask->kind, .file = ask->file, .key = ask->key ? ask->key : "", .state = look(ask->file)};
+    struct cached *mine = NULL;
+    if (s && wanted.state.of[1]) {
         pthread_mutex_lock(&s->lock);
-        const struct entry *found = find(s, ask, &status);
-        if (!found && (s->bytes < s->most || ask->kind->small)) mine = enter(s, ask, &status);
+        const struct cached *found = find(s, &wanted);
+        if (!found && (s->bytes < s->most || ask->kind->small)) mine = enter(s, &wanted);
         pthread_mutex_unlock(&s->lock);
         if (found) return found->thing;
     }
@@ -153,9 +137,9 @@ const char *file_cache_changed(struct file_cache *s, struct arena *a)
 {
     const char *file = NULL;
     pthread_mutex_lock(&s->lock);
-    for (const struct entry *x = s->entries; x && !file; x = x->next) {
-        struct stat now;
-        if (stat(x->file, &now) != 0 || !watch_same(&x->status, &now)) file = relpath_make(x->file, NULL, a);
+    for (const struct cached *x = s->entries; x && !file; x = x->next) {
+        const struct file_cache_state now = look(x->file);
+        if (compare(&x->state, &now)) file = relpath_make(x->file, NULL, a);
     }
     pthread_mutex_unlock(&s->lock);
     return file;
@@ -171,4 +155,23 @@ const char *file_cache_sha256(struct file_cache *s, const char *file, struct are
 {
     static const struct file_cache_kind sha256 = {"sha256", HASH_TEXT, make_sha256, true};
     return file_cache_take(s, &(struct file_cache_ask){.kind = &sha256, .file = file}, a, e);
+}
+
+/* ------------------------------------------------------------------ watching */
+
+struct watch file_cache_watch(const char **files, int n, struct arena *a)
+{
+    struct watch w = {files, ARENA_TAKE(a, struct file_cache_state, n), n};
+    for (int i = 0; i < n; i++)
+        w.was[i] = look(files[i]);
+    return w;
+}
+
+const char *file_cache_watch_changed(const struct watch *w)
+{
+    for (int i = 0; i < w->n; i++) {
+        const struct file_cache_state now = look(w->files[i]);
+        if (compare(&now, &w->was[i])) return w->files[i];
+    }
+    return NULL;
 }

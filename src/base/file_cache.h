@@ -41,4 +41,23 @@ const char *file_cache_changed(struct file_cache *s, struct arena *a);
 /* The file's sha256 as text. ERR_INPUT */
 const char *file_cache_sha256(struct file_cache *s, const char *file, struct arena *a, struct err *e);
 
+/* Files that must not change while something is made of them: how each is when it begins to be watched, and whether it
+   still is. Told by what stat tells, whose time of change no program can set: a file that was changed and then put back
+   has changed. */
+struct file_cache_state {
+    long of[7]; /* device, inode, size, times of its bytes and of its change; 0: it is not there */
+};
+
+struct watch {
+    const char **files;           /* [n] */
+    struct file_cache_state *was; /* [n] */
+    int n;
+};
+
+/* The names are not copied. */
+struct watch file_cache_watch(const char **files, int n, struct arena *a);
+
+/* The first that has changed, come or gone since; NULL: none. */
+const char *file_cache_watch_changed(const struct watch *w);
+
 #endif

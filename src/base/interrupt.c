@@ -12,7 +12,6 @@
 #include <unistd.h>
 
 #include "base/err.h"
-#include "base/lastwords.h"
 #include "base/memory.h"
 
 #define DISMISSED                                                                                                      \
@@ -111,7 +110,7 @@ static _Noreturn void end(void)
     if (atomic_flag_test_and_set(&reported))
         nanosleep(&(struct timespec){.tv_nsec = WORDS}, NULL);
     else
-        lastwords(ERR_INTERRUPTED, "interrupted; run the same command again");
+        err_last_words(ERR_INTERRUPTED, "interrupted; run the same command again");
     if (child > 0) {
         kill(child, SIGKILL);
         waitpid(child, NULL, 0);

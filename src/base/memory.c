@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "base/lastwords.h"
+#include "base/err.h"
 
 _Noreturn void memory_out(const char *format, ...)
 {
@@ -16,7 +16,7 @@ _Noreturn void memory_out(const char *format, ...)
     vsnprintf(what, sizeof what, format, ap);
     va_end(ap);
     snprintf(text, sizeof text, "out of memory (%s)", what);
-    lastwords(ERR_MEMORY, text);
+    err_last_words(ERR_MEMORY, text);
     _exit(ERR_MEMORY);
 }
 

@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "base/interrupt.h"
+#include "base/memory.h"
 
 enum { NAMES = 10000 };
 
@@ -206,4 +207,50 @@ void outfile_drop(struct outfile *o)
         interrupt_forget(o->temporary);
     }
     o->target[0] = o->temporary[0] = '\0';
+}
+
+/* ------------------------------------------------------------------ files without a name */
+
+const char *outfile_scratch_folder(void)
+{
+    const char *folder = getenv("TMPDIR");
+    return folder && *folder ? folder : "/tmp";
+}
+
+static int named_and_forgotten(const char *folder)
+{
+    char name[4096];
+    if (snprintf(name, sizeof name, "%s/rasp-XXXXXX", folder) >= (int)sizeof name) {
+        errno = ENAMETOOLONG;
+        return -1;
+    }
+    interrupt_hold();
+    int fd = mkostemp(name, O_CLOEXEC);
+    if (fd >= 0) unlink(name);
+    interrupt_go();
+    return fd;
+}
+
+FILE *outfile_scratch_open(void)
+{
+    int fd = open(outfile_scratch_folder(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+    if (fd < 0) fd = named_and_forgotten(outfile_scratch_folder());
+    FILE *f = fd >= 0 ? fdopen(fd, "w+") : NULL;
+    if (!f && errno == ENOMEM) memory_out("to open a temporary file");
+    if (!f && fd >= 0) close(fd);
+    return f;
+}
+
+const char *outfile_scratch_make_folder(const char *name, struct arena *a, struct err *e)
+{
+    char *path = arena_format(a, "%s/%s-XXXXXX", outfile_scratch_folder(), name);
+    interrupt_hold();
+    bool made = mkdtemp(path) != NULL;
+    if (made) interrupt_temporary(path);
+    interrupt_go();
+    if (!made)
+        err_set(e, ERR_CREATE,
+                "%s: no temporary folder can be made there: %s; set TMPDIR to a folder that can be written",
+                outfile_scratch_folder(), strerror(errno));
+    return made ? path : NULL;
 }

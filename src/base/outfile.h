@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "base/arena.h"
 #include "base/err.h"
 #include "base/hash.h"
 
@@ -30,5 +31,14 @@ bool outfile_commit(struct outfile *o, struct err *e); /* settles and renames; c
 bool outfile_hash(struct outfile *o, char hex[HASH_TEXT],
                   struct err *e);     /* of what is written so far; ERR_IO, then it is dropped */
 void outfile_drop(struct outfile *o); /* closes and leaves nothing; harmless when closed */
+
+/* A file without a name, for what does not fit into memory: in the folder TMPDIR (/tmp where it is not set), and gone
+   when it is closed or the program ends. tmpfile() does not look at TMPDIR. */
+const char *outfile_scratch_folder(void);
+FILE *outfile_scratch_open(void); /* NULL: errno says why */
+
+/* A new folder of that name and six more characters beside such files, which goes with the program until
+ * interrupt_forget. NULL: ERR_CREATE */
+const char *outfile_scratch_make_folder(const char *name, struct arena *a, struct err *e);
 
 #endif

@@ -66,7 +66,7 @@ static bool read_scene(struct work *w, struct err *e)
 static bool read_recording(struct work *w, struct err *e)
 {
     char hex[HASH_TEXT];
-    w->inputs = watch_begin(&w->file, 1, w->arena);
+    w->inputs = file_cache_watch(&w->file, 1, w->arena);
     if (!hash_file(w->file, hex, e)) return design_scene_recording(w->k->set->design, w->i, e);
     w->key = recording_key(w->k->set, hex, w->arena);
     return true;
@@ -216,7 +216,7 @@ static bool commit(struct work *w, const struct record *to, struct made *m, bool
     interrupt_hold();
     if (whole && !w->file)
         whole = inputs_still(&w->inputs, e) || scene_places_report(&w->scene, e);
-    else if (whole && watch_changed(&w->inputs))
+    else if (whole && file_cache_watch_changed(&w->inputs))
         whole = err_set(e, ERR_INPUT, "%s: has changed while it was copied: run the same command again", w->file);
     bool ok = whole && record_write(w->k->folder, w->name, &before, e);
     if (!ok) drop(m);

@@ -19,7 +19,6 @@
 #include "analysis/spectral_distance.h"
 #include "base/interrupt.h"
 #include "base/outfile.h"
-#include "base/scratch.h"
 #include "base/text.h"
 #include "file/bytes.h"
 #include "file/yaml.h"
@@ -289,7 +288,7 @@ void accuracy_judge(struct accuracy_sweep *s)
 
 bool accuracy_child_folder(struct accuracy_sweep *s, struct err *e)
 {
-    s->folder = scratch_make_folder("rasp-accuracy", s->call->arena, e);
+    s->folder = outfile_scratch_make_folder("rasp-accuracy", s->call->arena, e);
     return s->folder != NULL;
 }
 
@@ -422,7 +421,7 @@ static bool refused(struct accuracy_sweep *s, int render, const char *words, str
 bool accuracy_child(struct accuracy_sweep *s, int render, struct err *e)
 {
     struct accuracy_render *r = &s->renders[render];
-    FILE *says = scratch_open();
+    FILE *says = outfile_scratch_open();
     char *output = NULL;
     size_t output_size;
     FILE *out = open_memstream(&output, &output_size);
@@ -432,10 +431,10 @@ bool accuracy_child(struct accuracy_sweep *s, int render, struct err *e)
     /* A scene that came through a pipe, for the child to read once more. NULL: it did not, or *e */
     size_t size;
     const char *text = bytes_piped(s->file) ? yaml_bytes_text(s->file, NULL, &size) : NULL;
-    FILE *f = text ? scratch_open() : NULL;
+    FILE *f = text ? outfile_scratch_open() : NULL;
     if (text && (!f || fwrite(text, 1, size, f) != size || fflush(f) != 0))
-        err_set(&cause, ERR_CREATE, "a render cannot be started: its scene cannot be kept in %s: %s", scratch_folder(),
-                strerror(errno));
+        err_set(&cause, ERR_CREATE, "a render cannot be started: its scene cannot be kept in %s: %s",
+                outfile_scratch_folder(), strerror(errno));
     FILE *scene = f;
     r->code = cause.kind ? -1 : run_child(command_line(s, &r->set), says, scene, out, &peak, &cause);
     if (scene) fclose(scene);

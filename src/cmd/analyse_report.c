@@ -10,7 +10,7 @@
 #include "analysis/distribution_fit.h"
 #include "base/outfile.h"
 #include "base/relpath.h"
-#include "base/wrap.h"
+#include "base/text.h"
 #include "cmd/report.h"
 #include "file/csv.h"
 #include "num/real.h"
@@ -353,7 +353,7 @@ static bool longest_fits(const struct part *p, struct err *e)
 static void put_comment(FILE *f, const char *text)
 {
     fputs("# ", f);
-    wrap_print(f, text, 2, "#   ");
+    text_wrap(f, text, 2, "#   ");
 }
 
 /* A file's name as it may stand in a comment. */

@@ -15,11 +15,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/err.h"
 #include "base/interrupt.h"
-#include "base/lastwords.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "base/wrap.h"
 #include "cmd/message.h"
 #include "file/yaml.h"
 #include "scene/keys_yaml.h"
@@ -263,7 +262,7 @@ static void print_option(const struct args_option *o)
     if (o->letter) snprintf(letter, sizeof letter, "-%c, ", o->letter);
     int n = snprintf(head, sizeof head, "  %s--%s%s%s", letter, o->name, o->value ? "=" : "", o->value ? o->value : "");
     printf("%-26s  ", head);
-    wrap_print(stdout, o->help, n > 26 ? n + 2 : 28, "                            ");
+    text_wrap(stdout, o->help, n > 26 ? n + 2 : 28, "                            ");
 }
 
 void cmd_print_help(const struct command *m)
@@ -276,7 +275,7 @@ void cmd_print_help(const struct command *m)
         p += n + (p[n] == '\n');
     }
     printf("\nUsage: rasp %s [OPTION]...%s%s\n\n", m->name, *m->operands ? " " : "", m->operands);
-    wrap_print(stdout, m->does, 0, "");
+    text_wrap(stdout, m->does, 0, "");
     printf("\nOptions:\n");
     struct arena *a = arena_open();
     for (const struct args_option *o = cmd_options(m, a); o->name; o++)
@@ -325,7 +324,7 @@ static bool asks_json(int argc, char **argv)
 int cmd_run(const struct command *m, int argc, char **argv)
 {
     bool json = asks_json(argc, argv);
-    if (json) lastwords_as_json();
+    if (json) err_last_words_as_json();
     struct err e = {0};
     struct cmd_call c = {.arena = arena_open(), .argc = argc, .argv = argv};
     if (json) message_as_json(&c);

@@ -8,7 +8,6 @@
 #include <sys/stat.h>
 
 #include "base/text.h"
-#include "base/wrap.h"
 #include "cmd/cmd.h"
 #include "cmd/report.h"
 #include "scene/keys_text.h"
@@ -437,7 +436,7 @@ static bool explain_path(const char *path, const char **names, struct arena *a)
     const struct params *whose;
     const struct params_column *t;
     for (int i = 0; columns && (t = params_column(i, &whose)); i++)
-        wrap_print(stdout, t->meaning, printf("    %-22s ", t->name), "                           ");
+        text_wrap(stdout, t->meaning, printf("    %-22s ", t->name), "                           ");
     return true;
 }
 
@@ -474,11 +473,11 @@ static bool explain_design(json_t *schema, const char *word, const char **names,
     const char *text = design_text(key), *scenes = endings(word, names, a), *name;
     if (names_designs(word)) {
         json_object_foreach(json_object_get(schema, "properties"), name, unused)
-            wrap_print(stdout, design_text(design_key(schema, name)), printf("%s: ", name), "  ");
+            text_wrap(stdout, design_text(design_key(schema, name)), printf("%s: ", name), "  ");
         printf("\ndesigns: man rasp-design(5), rasp batch --help\n");
     } else if (key) {
         printf("%s\n  a key of designs", word);
-        wrap_print(stdout, text, 18 + (*text ? printf(": ") : 0), "  ");
+        text_wrap(stdout, text, 18 + (*text ? printf(": ") : 0), "  ");
         printf("%s  designs: man rasp-design(5)%s%s\n", *text ? "" : "\n", scenes ? "; of scenes there is " : "",
                scenes ? scenes : "");
     }
@@ -554,7 +553,7 @@ static int explain_run(struct cmd_call *c, struct err *e)
         keys_yaml_reference(stdout, c->arena);
     else if (explain_path(keys_text_plain(word), names, c->arena)) {
         if (key) /* of scenes and of designs, each with a meaning of its own */
-            wrap_print(stdout, design_text(key), printf("  designs   have one, too: "), "            ");
+            text_wrap(stdout, design_text(key), printf("  designs   have one, too: "), "            ");
     } else if (is_scene_file(word)) {
         struct scene s;
         if (cmd_read_scene(c, word, &s, e)) fputs(scene_write(&s, NULL, c->arena), stdout);

@@ -13,7 +13,6 @@
 
 #include "base/interrupt.h"
 #include "base/outfile.h"
-#include "base/scratch.h"
 #include "base/text.h"
 #include "batch/pool.h"
 #include "cmd/message.h"
@@ -35,7 +34,7 @@ bool golden_run_folder(struct golden *g, struct err *e)
         return (stat(given, &st) == 0 && S_ISDIR(st.st_mode)) || mkdir(given, 0777) == 0 ||
                err_set(e, ERR_CREATE, "the folder %s cannot be created: %s", given, strerror(errno));
     }
-    g->work = scratch_make_folder("rasp-golden", g->call->arena, e);
+    g->work = outfile_scratch_make_folder("rasp-golden", g->call->arena, e);
     return g->work != NULL;
 }
 

@@ -9,7 +9,6 @@
 #include "base/outfile.h"
 #include "base/relpath.h"
 #include "base/text.h"
-#include "base/wrap.h"
 #include "output/mark.h"
 #include "scene/keys_text.h"
 #include "scene/keys_yaml.h"
@@ -202,7 +201,7 @@ void new_print(FILE *f, const struct new_starter *s, const char *irs, struct are
         return;
     }
     fprintf(f, "# ");
-    wrap_print(f, s->about, 2, "# ");
+    text_wrap(f, s->about, 2, "# ");
     fprintf(f, "# Every key: rasp explain. One key: rasp explain motion.rate. A bare number is in SI units.\n"
                "# Responses to begin with are in irs/ of rasp's folder (installed: share/rasp/), surfaces in "
                "surfaces/. Those named here fit the motion.\n\n");

@@ -4,7 +4,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "base/wrap.h"
+#include "base/text.h"
 #include "file/json_value.h"
 
 enum { LABEL = 20, KEY = 64 };
@@ -148,7 +148,7 @@ void report_note(struct report *r, const char *head, const char *text)
     if (r->json) return;
     snprintf(margin, sizeof margin, "%*s", n, "");
     fputs(head, r->out);
-    wrap_print(r->out, text, n, margin);
+    text_wrap(r->out, text, n, margin);
 }
 
 void report_figure(struct report *r, const char *key, double x, const char *label, const char *format, ...)

@@ -11,7 +11,6 @@
 
 #include "base/interrupt.h"
 #include "base/outfile.h"
-#include "base/scratch.h"
 #include "output/mark.h"
 
 /* Runs gnuplot on three descriptors; 0 or an errno. Signals that we ignore or block are not by it. */
@@ -44,7 +43,7 @@ static int spawn(pid_t *pid, const int fd[3])
 static bool start(struct gnuplot *g, int output, struct err *e)
 {
     int ends[2], code;
-    *g = (struct gnuplot){.complaints = scratch_open()};
+    *g = (struct gnuplot){.complaints = outfile_scratch_open()};
     if (!g->complaints || pipe2(ends, O_CLOEXEC) != 0) {
         if (g->complaints) fclose(g->complaints);
         return err_set(e, err_system(ERR_CREATE), "gnuplot cannot be started: %s", strerror(errno));

@@ -14,7 +14,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/scratch.h"
+#include "base/outfile.h"
 #include "num/lanes.h"
 #include "num/real.h"
 #include "num/scaled.h"
@@ -29,10 +29,10 @@ bool track_open(struct track *t, const char *path, const struct track_format *f,
                         .squares = ARENA_TAKE(a, double, f->places *LANES)};
     if (!(t->wav = wav_create(path, &w, e))) return false;
     t->wide = ARENA_TAKE(a, double, TRACK_CHUNK * f->channels);
-    if (!f->waits || (t->spool = scratch_open())) return true;
+    if (!f->waits || (t->spool = outfile_scratch_open())) return true;
     err_set(e, err_system(ERR_CREATE),
             "no temporary file can be made for the samples in %s: %s (set TMPDIR to a folder with space)",
-            scratch_folder(), strerror(errno));
+            outfile_scratch_folder(), strerror(errno));
     track_drop(t);
     return false;
 }
@@ -155,7 +155,7 @@ bool track_add(struct track *t, double *x, long n, struct err *e)
     if (fwrite(x, sizeof *x, samples, t->spool) != samples)
         return err_set(e, err_system(ERR_IO),
                        "samples cannot be kept in a temporary file in %s: %s (set TMPDIR to a folder with space)",
-                       scratch_folder(), strerror(errno));
+                       outfile_scratch_folder(), strerror(errno));
     return true;
 }
 

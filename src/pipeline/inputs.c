@@ -87,12 +87,12 @@ struct watch inputs_watch(const struct scene *s, struct arena *a)
 {
     int n;
     const char **files = scene_write_inputs(s, &n, a);
-    return watch_begin(files, n, a);
+    return file_cache_watch(files, n, a);
 }
 
 bool inputs_still(const struct watch *w, struct err *e)
 {
-    const char *file = watch_changed(w);
+    const char *file = file_cache_watch_changed(w);
     return !file ||
            err_set(e, ERR_INPUT, "%s: has changed while the sound was made of it: run the same command again", file);
 }

@@ -5,7 +5,7 @@
 
 #include "base/arena.h"
 #include "base/err.h"
-#include "base/watch.h"
+#include "base/file_cache.h"
 #include "scene/scene.h"
 
 /* Every file that a key names or `inputs` pins can be read (ERR_INPUT: names all that cannot), and what is pinned is as

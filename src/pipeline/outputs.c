@@ -109,8 +109,8 @@ bool outputs_distinct(const struct outputs *o, int n, struct arena *a, struct er
                 e, ERR_USAGE,
                 "%s and %s would both write %s%s%s; rename one, or render them into different folders with -o",
                 places[k - 1].scene->file, places[k].scene->file, places[k].path,
-                strcmp(places[k].path, places[k - 1].path) != 0 ? ", which is " : "",
-                strcmp(places[k].path, places[k - 1].path) != 0 ? places[k - 1].path : "");
+                strcmp(places[k].path, places[k - 1].path) ? ", which is " : "",
+                strcmp(places[k].path, places[k - 1].path) ? places[k - 1].path : "");
     return true;
 }
 
@@ -118,7 +118,7 @@ bool outputs_distinct(const struct outputs *o, int n, struct arena *a, struct er
 
 struct sources {
     struct outputs_source *list;
-    int n, room;
+    int n;
     struct arena *arena;
 };
 
@@ -126,11 +126,7 @@ static void note(struct sources *all, const struct scene *s, const char *file, c
 {
     struct stat status;
     if (!file || stat(file, &status) != 0) return;
-    if (all->n == all->room) {
-        struct outputs_source *more = ARENA_TAKE(all->arena, struct outputs_source, all->room = 2 * all->room + 16);
-        if (all->n) memcpy(more, all->list, (size_t)all->n * sizeof *more);
-        all->list = more;
-    }
+    all->list = arena_more(all->arena, all->list, all->n, sizeof *all->list);
     all->list[all->n++] = (struct outputs_source){file, what, s, status.st_dev, status.st_ino};
 }
 
@@ -158,7 +154,7 @@ static void note_scene(struct sources *all, const struct scene *s)
 
 static struct sources sources_of(const struct outputs *o, int n, struct arena *a)
 {
-    struct sources all = {NULL, 0, 0, a};
+    struct sources all = {NULL, 0, a};
     for (int i = 0; i < n; i++)
         note_scene(&all, o[i].scene);
     return all;
@@ -166,7 +162,7 @@ static struct sources sources_of(const struct outputs *o, int n, struct arena *a
 
 const struct outputs_source *outputs_sources(const struct scene *s, int *n, struct arena *a)
 {
-    struct sources all = {NULL, 0, 0, a};
+    struct sources all = {NULL, 0, a};
     note_scene(&all, s);
     *n = all.n;
     return all.list;

@@ -318,9 +318,9 @@ static json_t *files_json(const struct render_report *report)
     for (int i = 0; i < report->n_files; i++) {
         const struct render_file *f = &report->files[i];
         if (!strcmp(f->kind, "summary")) continue;
-        json_t *one = json_pack("{s:s, s:o, s:s*, s:s*, s:s*}", "kind", f->kind, "name",
-                                json_value_shown(basename(f->path)), "contact", f->contact, "stem", f->stem,
-                                "sha256", f->sha256);
+        json_t *one =
+            json_pack("{s:s, s:o, s:s*, s:s*, s:s*}", "kind", f->kind, "name", json_value_shown(basename(f->path)),
+                      "contact", f->contact, "stem", f->stem, "sha256", f->sha256);
         summary_written(f, one);
         json_array_append_new(all, one);
     }

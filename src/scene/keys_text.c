@@ -4,7 +4,7 @@
 #include <ctype.h>
 #include <string.h>
 
-#include "base/wrap.h"
+#include "base/text.h"
 #include "scene/keys_yaml.h"
 #include "scene/units.h"
 
@@ -207,7 +207,7 @@ static void print_fact(FILE *f, const char *name, const char *text)
 {
     if (!text) return;
     fprintf(f, "  %-10s", name);
-    wrap_print(f, text, 12, MARGIN);
+    text_wrap(f, text, 12, MARGIN);
 }
 
 static void print_words(FILE *f, const struct choice *choices)
@@ -215,7 +215,7 @@ static void print_words(FILE *f, const struct choice *choices)
     fputs("  words\n", f);
     for (const struct choice *c = choices; c->word; c++) {
         int n = fprintf(f, "    %-16s", c->word);
-        wrap_print(f, c->meaning, n, "                    ");
+        text_wrap(f, c->meaning, n, "                    ");
     }
 }
 
@@ -229,7 +229,7 @@ static void print_choose(FILE *f, const char *path, struct arena *a)
 void keys_text_print_key(FILE *f, const struct key *k, struct arena *a)
 {
     int n = fprintf(f, "%s: ", k->path);
-    wrap_print(f, k->meaning, n, MARGIN);
+    text_wrap(f, k->meaning, n, MARGIN);
     print_fact(f, "type", keys_text_type(k));
     print_fact(f, "range", keys_text_range(k, a));
     print_fact(f, "default", keys_text_default(k));
@@ -254,15 +254,15 @@ void keys_text_print_map(FILE *f, const char *path, struct arena *a)
     const char *meaning = map_meaning(path);
     size_t length = strlen(path);
     fprintf(f, "%s%s", path, meaning ? ": " : "\n");
-    if (meaning) wrap_print(f, meaning, (int)length + 2, MARGIN);
+    if (meaning) text_wrap(f, meaning, (int)length + 2, MARGIN);
     for (const struct keys_text_frame *p = keys_text_frames; p->path; p++)
         if (!strcmp(p->path, path)) print_fact(f, "type", p->type);
     print_choose(f, path, a);
     for (const struct key *k = keys_table; k->path; k++) {
         if (strncmp(k->path, path, length) != 0 || k->path[length] != '.') continue;
         int n = fprintf(f, "  %-33s ", k->path);
-        wrap_print(f, arena_format(a, "%s (%s)", k->meaning, keys_text_default(k)), n,
-                   "                                    ");
+        text_wrap(f, arena_format(a, "%s (%s)", k->meaning, keys_text_default(k)), n,
+                  "                                    ");
     }
 }
 
@@ -284,7 +284,7 @@ static void print_preset_names(FILE *f, int width)
 void keys_text_print_knob(FILE *f, const struct key_knob *k, struct arena *a)
 {
     int n = fprintf(f, "accuracy.%s: ", k->name);
-    wrap_print(f, k->meaning, n, MARGIN);
+    text_wrap(f, k->meaning, n, MARGIN);
     print_fact(f, "type", k->whole ? "whole number" : "number");
     print_fact(f, "range", arena_format(a, "%.6g to %.6g", k->low, k->high));
     print_preset_names(f, 9);
@@ -302,7 +302,7 @@ void keys_text_print_accuracy(FILE *f, struct arena *a)
     }
     for (const struct key_knob *k = keys_knobs; k->name; k++) {
         int n = fprintf(f, "  %-16s  ", k->name);
-        wrap_print(f, k->meaning, n, "                    ");
+        text_wrap(f, k->meaning, n, "                    ");
     }
 }
 

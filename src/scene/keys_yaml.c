@@ -9,7 +9,6 @@
 
 #include "base/memory.h"
 #include "base/text.h"
-#include "base/wrap.h"
 #include "scene/keys.h"
 #include "scene/keys_text.h"
 #include "scene/params.h"
@@ -39,7 +38,7 @@ static void print_comment(FILE *f, const char *text, int indent)
     char margin[64];
     snprintf(margin, sizeof margin, "%*s# ", indent, "");
     fputs(margin, f);
-    wrap_print(f, text, indent + 2, margin);
+    text_wrap(f, text, indent + 2, margin);
 }
 
 static void print_header(FILE *f, const char *path, size_t length, int indent, bool off)
