@@ -190,8 +190,8 @@ bool strike_next(struct strike_train *s, struct strike_impact *i)
    they are as fine as at its start.
 
    The decimator spreads what is shorter than a sample to both sides, and folds what would come before the contact's
-   start into the first samples (num/filter.h): an impact hands over all of its momentum wherever it begins. strike.first
-   is 20 ms unless the scene says otherwise, so that output.ramp does not fade it in. */
+   start into the first samples (num/filter.h): an impact hands over all of its momentum wherever it begins.
+   strike.first is 20 ms unless the scene says otherwise, so that output.ramp does not fade it in. */
 
 struct striking {
     struct strike_train train;

@@ -36,8 +36,8 @@ void special_jacobi_slopes(const struct jacobi *j, int n, double x, double *f, d
 /* exp(-x^2/2) / sqrt(2 pi); relative error <= 1e-15 while it is normal (|x| <= 37.6). */
 double special_normal_density(double x);
 
-/* P(Z <= x); relative error <= 4e-15 for -37 <= x, so that special_normal_cdf(-x) is the other tail without loss; below -38.6
- * it is 0. */
+/* P(Z <= x); relative error <= 4e-15 for -37 <= x, so that special_normal_cdf(-x) is the other tail without loss;
+ * below -38.6 it is 0. */
 double special_normal_cdf(double x);
 
 /* special_normal_cdf and, into `density`, special_normal_density, in the time of one. */

@@ -170,8 +170,8 @@ void ir_sample(struct ir_sampler *s, int quantity, const struct modes_point *p, 
    for every force below both Nyquist frequencies, and that is the band-limited signal through {x[0]/2, x[1], ...}, read
    at n/R and divided by R: the half is taken once, before resampling, and the first sample that comes out counts whole.
    A recorded response is band-limited already and begins with silence, so that little depends on it. What a jump at the
-   very first sample makes ring before t = 0 is folded into the first samples (num/filter.h), since a response is causal:
-   its integral, the answer to what is slow, stays what it is. Values per second stay: nothing is scaled by the ratio of
+   very first sample makes ring before t = 0 is folded into the first samples (num/filter.h), since a response is
+   causal: its integral, the answer to what is slow, stays what it is. Values per second stay: nothing is scaled by the ratio of
    rates. */
 
 static size_t cut(double rate, double t0, size_t n)
