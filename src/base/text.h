@@ -53,8 +53,9 @@ const char *text_shown(struct arena *a, const char *s);
 /* Does it end so, and is more than the ending? */
 bool text_ends(const char *s, const char *ending);
 
-/* Prints plain text in lines of at most 100 columns, for help and generated comments, and ends the line. The first
-   line begins at `column` (what has been printed before it); further lines begin with `margin`. A newline in the text begins a new line. Words are never cut. */
+/* Prints plain text in lines of at most 100 columns, for help and generated comments, and ends the line. The first line
+   begins at `column` (what has been printed before it); further lines begin with `margin`. A newline in the text begins
+   a new line. Words are never cut. */
 void text_wrap(FILE *f, const char *text, int column, const char *margin);
 
 #endif

@@ -28,8 +28,8 @@ size_t fft_good_size(size_t n);
    bits repeat. A plan of one size; not to be shared by threads.
 
    re, im [n][n/2+1]: line (j, i) is j cycles down the rows and i along a row, j > n/2 standing for j - n. Fill them,
-   each time anew, then transform to x[n][n], unnormalised. The lines (j, 0) and (-j, 0) must be conjugate to each other, so
-   those at n/2. */
+   each time anew, then transform to x[n][n], unnormalised. The lines (j, 0) and (-j, 0) must be conjugate to each
+   other, so those at n/2. */
 struct fft_plane {
     double *re, *im, *x;
     struct fftw_plan_s *inverse;

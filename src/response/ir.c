@@ -171,8 +171,8 @@ void ir_sample(struct ir_sampler *s, int quantity, const struct modes_point *p, 
    at n/R and divided by R: the half is taken once, before resampling, and the first sample that comes out counts whole.
    A recorded response is band-limited already and begins with silence, so that little depends on it. What a jump at the
    very first sample makes ring before t = 0 is folded into the first samples (num/filter.h), since a response is
-   causal: its integral, the answer to what is slow, stays what it is. Values per second stay: nothing is scaled by the ratio of
-   rates. */
+   causal: its integral, the answer to what is slow, stays what it is. Values per second stay: nothing is scaled by the
+   ratio of rates. */
 
 static size_t cut(double rate, double t0, size_t n)
 {

@@ -110,8 +110,8 @@ static double highest(const struct object_body *b, const struct plate *p, const 
 
        w(x, y) = sum c_mn X_m(xi) Y_n(eta),   xi, eta in [-1, 1],   X, Y orthonormal polynomials that keep the edges'
    geometric conditions (num/special.h: zeros of order 0 free, 1 supported, 2 clamped), K c = rho h w^2 c,   K_(mn)(pq)
-   = Dx A_mp d_nq + Dy d_mp A_nq + D1 (B_mp B_qn + B_pm B_nq) + 4 Dk C_mp C_nq, A = int X'' X'',  B_mp = int X_m'' X_p,  C
-   = int X' X'   (each derivative times 2/length),   M = 1.
+   = Dx A_mp d_nq + Dy d_mp A_nq + D1 (B_mp B_qn + B_pm B_nq) + 4 Dk C_mp C_nq, A = int X'' X'',  B_mp = int X_m'' X_p,
+   C = int X' X'   (each derivative times 2/length),   M = 1.
 
    Free edges ask for nothing: their conditions are natural ones, which the sums meet as they converge, exponentially.
    The rigid motions of a free plate are three of the functions; they are left out. Where both ends of an axis are held
