@@ -14,7 +14,6 @@
 #include <string.h>
 
 #include "convolution/coupled_parts.h"
-#include "convolution/coupled_stages.h"
 #include "num/real.h"
 #include "scene/scene.h"
 
@@ -31,9 +30,10 @@ static void make_modes(struct arena *a, const struct coupled_ask *ask, struct co
     m->padded = (ask->n + LANES - 1) / LANES * LANES;
     m->frequency = padded_copy(a, m->padded, ask->frequency, ask->n);
     m->decay = padded_copy(a, m->padded, ask->decay, ask->n);
-    double **const zeroed[] = {&m->q,      &m->p,      &m->phi,  &m->phi_to, &m->square, &m->inertia,
-                               &m->spring, &m->turn,   &m->pull, &m->push,   &m->drain,  &m->stay,
-                               &m->carry,  &m->thrust, &m->tilt, &m->swing,  &m->ahead,  &m->slope_phi};
+    double **const zeroed[] = {&m->q,       &m->p,       &m->phi,    &m->phi_to, &m->square, &m->inertia,
+                               &m->spring,  &m->turn,    &m->pull,   &m->push,   &m->drain,  &m->stay,
+                               &m->carry,   &m->thrust,  &m->tilt,   &m->swing,  &m->ahead,  &m->slope_phi,
+                               &m->stage_q, &m->stage_p, &m->step_q, &m->step_p};
     for (size_t i = 0; i < sizeof zeroed / sizeof zeroed[0]; i++)
         *zeroed[i] = ARENA_TAKE(a, double, m->padded);
     for (int i = 0; i < m->padded; i++) {
@@ -81,10 +81,7 @@ bool coupled_make(struct arena *a, const struct coupled_ask *ask, struct coupled
     c->ask.frequency = c->modes.frequency;
     c->ask.decay = c->modes.decay;
     *made = c;
-    if (ask->integrator == INTEGRATOR_RK4) {
-        coupled_stages_make(a, c);
-        return coupled_rk4_make(c, e);
-    }
+    if (ask->integrator == INTEGRATOR_RK4) return coupled_rk4_make(c, e);
     return ask->integrator != INTEGRATOR_DISCRETE_GRADIENT || coupled_gradient_make(c, e);
 }
 
@@ -112,7 +109,6 @@ double coupled_rest(const struct coupled *c, double surface, const double *phi)
 static void start_modes(struct coupled *c, const double *phi, bool settled)
 {
     struct coupled_modes *m = &c->modes;
-    m->known = false;
     for (int i = 0; i < m->padded; i++) {
         m->phi[i] = phi && i < m->n ? phi[i] : 0;
         m->q[i] = settled ? m->phi[i] * c->ask.weight / m->square[i] : 0;
@@ -130,7 +126,7 @@ double coupled_modal(const struct coupled *c)
         for (int l = 0; l < LANES; l++)
             lane[l] +=
                 0.5 * (m->inertia[i + l] * m->p[i + l] * m->p[i + l] + m->spring[i + l] * m->q[i + l] * m->q[i + l]);
-    return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+    return lanes_total(lane);
 }
 
 /* The greatest part of H and, added in a fixed order, H itself. */

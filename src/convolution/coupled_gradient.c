@@ -220,12 +220,6 @@ struct coupled_look {
     double energy, lost, place; /* J of the modes; J in that step and those before it; sum slope_phi q */
 };
 
-/* Added in pairs: a tree is three additions deep, a row seven. */
-static inline double coupled_modal_sum_total(const double *s)
-{
-    return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
-}
-
 static inline void coupled_modal_sum_open(struct coupled_modal_sum *sum)
 {
     memset(sum->lanes.later, 0, sizeof sum->lanes.later);
@@ -275,8 +269,8 @@ static inline __attribute__((always_inline)) void coupled_modal_sum_close(struct
 #pragma omp simd
     for (int l = 0; l < LANES; l++)
         later[l] = v->later[l] + on * v->slope[l];
-    sum->later = coupled_modal_sum_total(later);
-    sum->place = coupled_modal_sum_total(v->place);
+    sum->later = lanes_total(later);
+    sum->place = lanes_total(v->place);
 }
 
 /* Bits do not depend on the instruction set: sums run over LANES accumulators and then in one
@@ -305,8 +299,8 @@ static void coupled_modal_sum_answers(const struct coupled_modes *m, int steps, 
             reply[2][l] += later * (slope_phi * slope_phi);
         }
     for (int k = 0; k < 3; k++) {
-        to->press[k] = coupled_modal_sum_total(press[k]);
-        to->reply[k] = coupled_modal_sum_total(reply[k]);
+        to->press[k] = lanes_total(press[k]);
+        to->reply[k] = lanes_total(reply[k]);
     }
 }
 
@@ -326,9 +320,8 @@ static void coupled_modal_sum_begin(const struct coupled_modes *m, double on, st
             next[l] += (phi + on * slope_phi) * (x + free);
             later[l] += (phi + (on + 1) * slope_phi) * far;
         }
-    *sum = (struct coupled_modal_sum){.next = coupled_modal_sum_total(next),
-                                      .later = coupled_modal_sum_total(later),
-                                      .place = coupled_modal_sum_total(place)};
+    *sum =
+        (struct coupled_modal_sum){.next = lanes_total(next), .later = lanes_total(later), .place = lanes_total(place)};
 }
 
 /* Ends a step whose force is known (bar: its middle) and goes ahead by two (on: the end of the second): that is
@@ -358,8 +351,7 @@ static struct coupled_look coupled_modal_sum_look(const struct coupled_modes *m,
             place[l] += m->slope_phi[i + l] * x;
             energy[l] += 0.5 * (m->inertia[i + l] * p * p + m->spring[i + l] * x * x);
         }
-    return (struct coupled_look){coupled_modal_sum_total(energy), coupled_modal_sum_total(lost),
-                                 coupled_modal_sum_total(place)};
+    return (struct coupled_look){lanes_total(energy), lanes_total(lost), lanes_total(place)};
 }
 
 #define INLINE static inline __attribute__((always_inline))
@@ -464,7 +456,7 @@ static void finish(struct gradient_run *r, int to)
     double before = r->sum.place;
     coupled_modal_sum_advance(m, to - 0.5, to + 2.0, r->c->force, &r->sum);
     lean(r, r->c->force, before, r->sum.place);
-    coupled_sum_add(&r->c->mode_loss, coupled_modal_sum_total(r->sum.lanes.lost));
+    coupled_sum_add(&r->c->mode_loss, lanes_total(r->sum.lanes.lost));
     for (int i = 0; i < m->padded; i++)
         m->p[i] = m->swing[i] * (2 / r->c->ask.step);
 }

@@ -33,10 +33,8 @@ struct coupled_modes {
     double *thrust, *tilt;              /* [padded] push phi, push slope_phi */
     double *swing, *ahead, *slope_phi; /* [padded] half a step's way at the velocity; the next step's way without force;
                                       phi's change per step */
-    /* rk4's own, which also uses swing, slope_phi and drain (coupled_stages.h says what they are). */
-    double *rows;                    /* [padded / LANES][ROWS][LANES] coefficients of a step                     */
-    struct coupled_stages *standing; /* of phi as it is, if known                                                */
-    bool known;
+    /* rk4's own, which also uses slope_phi: at a stage; summed slopes of a step. */
+    double *stage_q, *stage_p, *step_q, *step_p; /* [padded] */
 };
 
 struct coupled_contact {

@@ -22,127 +22,68 @@
    No balance is kept: the residual of the ledger is the error of the method. Work and losses are integrated along with
    the state, by the same weights.
 
-   Modes (coupled_stages.h): linear, so that one pass over them tells all four stages what they would do without a
-   force, and it is one step behind the ball. In its units, g = f h^2/4 and h/2 times a velocity, the ball is one more
-   mode, of mass m, with nothing that holds it. */
+   The modes' stages are computed for all modes at once, eight in the lanes of a vector; sums over them run over LANES
+   accumulators and then in one tree, so that bits do not depend on the instruction set. */
 #include <math.h>
 
-#include "convolution/coupled_stages.h"
+#include "convolution/coupled_parts.h"
 #include "num/real.h"
 
-#define INLINE static inline __attribute__((always_inline))
+enum { STAGES = 4, CONTACT_STEPS_LEAST = 12 };
 
-enum { CONTACT_STEPS_LEAST = 12, BATCH = 256 }; /* SPELL: steps between two entries in the ledger */
+static const double reach[STAGES] = {0, 0.5, 0.5, 1}, share[STAGES] = {1 / 6.0, 1 / 3.0, 1 / 3.0, 1 / 6.0};
 
-static const double reach[STAGES] = {0, 0.5, 0.5, 1}, twice[STAGES] = {0, 1, 1, 2};
-
-/* What is under the ball: decided once a run. */
-enum ground { RIGID, STANDS, MOVES };
-
-/* The ball at the end of a step, and what has been summed up since the last entry in the ledger. */
-struct rk4_ball {
-    double height, travel, surface;          /* m from origin; h w'/2, m; m from origin             */
-    double penetration, force, force_before; /* m; g, means over the last step and the one before   */
-    double across;                           /* m: the surface's change in the last step            */
-    double work, loss;                       /* g m: by surface and moving place; in the contact    */
+/* What the modes take off the penetration, m, and off its rate, m/s: by their velocities, and by the place that moves
+   over them. */
+struct felt {
+    double bent, fall, glide;
 };
 
-struct rk4_run {
-    struct coupled *c;
-    double unit;                         /* N per g: 4/h^2                                            */
-    double spring, rate;                 /* k per unit; mu/h                                          */
-    double bare, fall;                   /* 1/m; m: what the weight takes off the way in half a step  */
-    double sunk[STAGES], slowed[STAGES]; /* m: what it takes off height and way at the stages         */
-    double stiff;                        /* g: the spring's force at which mu k xi^1.5 h / m is 1     */
-    struct rk4_ball ball;
-    struct coupled_push push; /* of the last step                                          */
-    struct coupled_stages stages;
-};
-
-/* At the stages, first as if no force acted in the step. */
-struct stages {
-    double xi[STAGES];    /* m                                                          */
-    double slip[STAGES];  /* m: h times what surface and place change in xi             */
-    double close[STAGES]; /* m: h xi'                                                   */
-    double answer[ANSWERS];
-    double bent[STAGES]; /* g: the spring's force                                      */
-    double g[STAGES];
-};
-
-/* The step after n of the run, which goes `across` up. */
-INLINE void foresee(const struct rk4_run *r, enum ground ground, double n, double across, struct stages *o)
+/* Of the modes at a stage, `on` steps after the run's start. */
+LANES_CLONES
+static struct felt feel(const struct coupled_modes *m, double on, double step)
 {
-    const double *x = r->stages.now, *y = r->stages.now + LANES, height = r->ball.height, travel = r->ball.travel,
-                 surface = r->ball.surface;
-    if (ground == MOVES)
+    double bent[LANES] = {0}, fall[LANES] = {0}, glide[LANES] = {0};
+    for (int i = 0; i < m->padded; i += LANES)
 #pragma omp simd
-        for (int k = 0; k < ANSWERS; k++)
-            o->answer[k] = r->stages.answer[0][k] + n * (r->stages.answer[1][k] + n * r->stages.answer[2][k]);
-#pragma omp simd
-    for (int j = 0; j < STAGES; j++) {
-        double lean = ground == RIGID ? 0 : x[SUM_Q] + twice[j] * x[j], fall = ground == RIGID ? 0 : x[SUM_V + j],
-               glide = 0;
-        if (ground == MOVES) {
-            double on = n + reach[j];
-            glide = y[SUM_Q] + twice[j] * y[j];
-            lean += on * glide;
-            fall += on * y[SUM_V + j];
+        for (int l = 0; l < LANES; l++) {
+            double phi = m->phi[i + l] + on * m->slope_phi[i + l], q = m->stage_q[i + l];
+            bent[l] += phi * q;
+            fall[l] += phi * m->stage_p[i + l];
+            glide[l] += m->slope_phi[i + l] * q;
         }
-        o->slip[j] = across - glide;
-        o->xi[j] = ((surface + reach[j] * across) - lean) - (height + (twice[j] * travel - r->sunk[j]));
-        o->close[j] = (across - glide) - 2 * (fall + (travel - r->slowed[j]));
+    return (struct felt){lanes_total(bent), lanes_total(fall), lanes_total(glide) / step};
+}
+
+/* The slopes k at a stage whose force is known go into the step's sums; the modes go on along them, from where the step
+   began, by `ahead` s to the next stage. Returns what damping takes at the stage, W. */
+LANES_CLONES
+static double yield(const struct coupled_modes *m, double on, double force, double weight, double ahead)
+{
+    double lost[LANES] = {0};
+    for (int i = 0; i < m->padded; i += LANES)
+#pragma omp simd
+        for (int l = 0; l < LANES; l++) {
+            double phi = m->phi[i + l] + on * m->slope_phi[i + l], p = m->stage_p[i + l],
+                   drag = 2 * m->decay[i + l] * p;
+            double pull = (phi * force - m->square[i + l] * m->stage_q[i + l]) - drag;
+            lost[l] += drag * p;
+            m->step_q[i + l] += weight * p;
+            m->step_p[i + l] += weight * pull;
+            m->stage_q[i + l] = m->q[i + l] + ahead * p;
+            m->stage_p[i + l] = m->p[i + l] + ahead * pull;
+        }
+    return lanes_total(lost);
+}
+
+/* The end of a step, which is the first stage of the next. */
+static void arrive(const struct coupled_modes *m, double step)
+{
+    for (int i = 0; i < m->padded; i++) {
+        m->stage_q[i] = m->q[i] += step * m->step_q[i];
+        m->stage_p[i] = m->p[i] += step * m->step_p[i];
+        m->step_q[i] = m->step_p[i] = 0;
     }
-}
-
-INLINE void press(const struct rk4_run *r, struct stages *o, int stage)
-{
-    double xi = o->xi[stage], factor = 1 + r->rate * o->close[stage];
-    o->bent[stage] = xi > 0 ? r->spring * xi * sqrt(xi) : 0;
-    o->g[stage] = o->bent[stage] * (factor > 0 ? factor : 0);
-}
-
-INLINE void slide(struct stages *o, int stage, double by)
-{
-    o->slip[stage] -= by;
-    o->close[stage] -= by;
-}
-
-/* The four forces, and among them the modes' end of the step before (behind: there is one): each fills the other's
- * latencies. */
-INLINE void press_all(struct rk4_run *r, enum ground ground, bool behind, struct stages *o)
-{
-    const double *a = ground == MOVES ? o->answer : r->stages.answer[0], *g = o->g;
-    press(r, o, 0);
-    o->close[1] -= 2 * (a[A1_SELF] * g[0]);
-    o->xi[2] -= a[A1_SELF] * g[0];
-    if (ground == MOVES) slide(o, 2, a[GLIDE2] * g[0]);
-    if (ground != RIGID && behind) coupled_stages_pass(&r->c->modes, &r->push, ground == MOVES, &r->stages);
-    press(r, o, 1);
-    o->close[2] -= 2 * (a[A2_OLDER] * g[0] + a[A2_SELF] * g[1]);
-    o->xi[3] -= 2 * (a[A3_OLDER] * g[0] + a[A3_SELF] * g[1]);
-    if (ground == MOVES) slide(o, 3, 2 * (a[GLIDE3_OLDER] * g[0] + a[GLIDE3_SELF] * g[1]));
-    press(r, o, 2);
-    o->close[3] -= 4 * ((a[A3_OLDEST] * g[0] + a[A3_MIDDLE] * g[1]) + a[A3_SELF] * g[2]);
-    press(r, o, 3);
-}
-
-/* By the stages' shares, 1 2 2 1 over 6. */
-INLINE double mean(const double *x) { return (1.0 / 6) * ((x[0] + x[3]) + 2 * (x[1] + x[2])); }
-
-/* Ball and ledger at the step's end, on a surface of that height. */
-INLINE void take(struct rk4_run *r, double surface, const struct stages *o)
-{
-    struct rk4_ball *b = &r->ball;
-    double net = mean(o->g);
-    b->work += mean((double[]){o->g[0] * o->slip[0], o->g[1] * o->slip[1], o->g[2] * o->slip[2], o->g[3] * o->slip[3]});
-    b->loss += mean((double[]){(o->g[0] - o->bent[0]) * o->close[0], (o->g[1] - o->bent[1]) * o->close[1],
-                               (o->g[2] - o->bent[2]) * o->close[2], (o->g[3] - o->bent[3]) * o->close[3]});
-    b->height += 2 * b->travel + ((2.0 / 3) * ((o->g[0] + (o->g[1] + o->g[2])) * r->bare) - 2 * r->fall);
-    b->travel += 2 * (net * r->bare - r->fall);
-    b->across = surface - b->surface;
-    b->surface = surface;
-    b->force_before = b->force;
-    b->force = net;
 }
 
 static bool too_short(const struct coupled *c, long step, double landing, double lasts, struct err *e)
@@ -155,9 +96,9 @@ static bool too_short(const struct coupled *c, long step, double landing, double
                    landing, step + 1, lasts / h, h, CONTACT_STEPS_LEAST, lasts / CONTACT_STEPS_LEAST);
 }
 
-static bool too_stiff(const struct rk4_run *r, long step, double bent, struct err *e)
+static bool too_stiff(const struct coupled *c, long step, double by, struct err *e)
 {
-    double h = r->c->ask.step, by = bent / r->stiff;
+    double h = c->ask.step;
     return err_set(e, ERR_SCENE,
                    "contact.roll.integrator: rk4: mu k xi^1.5 / m times the step of %.3g s reaches %.3g at step %ld, "
                    "and rk4 is not to be trusted beyond 1: raise accuracy.contact_steps until "
@@ -165,67 +106,60 @@ static bool too_stiff(const struct rk4_run *r, long step, double bent, struct er
                    h, by, step + 1, h / by);
 }
 
-INLINE double greater(double a, double b) { return a > b ? a : b; }
-
-/* What an impact must not do: last too few steps, or be damped too fast for them. */
-INLINE bool resolved(const struct rk4_run *r, long step, double before, const struct stages *o, struct err *e)
+/* What an impact must not do: last too few steps, or be damped too fast for them. spring: N, its greatest force in the
+   step; landing: m/s, at which the penetration grows at its start. */
+static bool resolved(struct coupled *c, double before, double spring, double landing, struct err *e)
 {
-    struct coupled *c = r->c;
-    double after = r->ball.penetration,
-           most = greater(greater(o->bent[0], o->bent[1]), greater(o->bent[2], o->bent[3]));
-    if ((before > 0) != (after > 0)) {
-        double landing = (o->close[0] + 2 * r->fall) / c->ask.step;
-        double lasts =
-            after > 0 && landing > 0 ? coupled_contact_time(c->ask.mass, c->ask.stiffness, landing) : INFINITY;
-        coupled_crossing(c, step, before, after, landing);
-        if (lasts < CONTACT_STEPS_LEAST * c->ask.step) return too_short(c, step, landing, lasts, e);
+    const struct coupled_ask *k = &c->ask;
+    double after = c->penetration, by = k->mu * spring * k->step / k->mass;
+    long step = c->state.steps;
+    coupled_count_contact(c, step, before, after, landing);
+    if (before <= 0 && after > 0 && landing > 0) {
+        double lasts = coupled_contact_time(k->mass, k->stiffness, landing);
+        if (lasts < CONTACT_STEPS_LEAST * k->step) return too_short(c, step, landing, lasts, e);
     }
-    return !(most > r->stiff) || too_stiff(r, step, most, e);
+    return !(by > 1) || too_stiff(c, step, by, e);
 }
 
-/* Steps at[0] + 1 to at[1] of the run. */
-INLINE bool go(struct rk4_run *r, enum ground ground, const int at[2], const double *surface, double *restrict force,
-               struct err *e)
+/* The step after n of the run, to a surface of that height; felt: of the modes, at its start and then at its end. */
+static bool rk4_step(struct coupled *c, int n, double next, struct felt *felt, struct err *e)
 {
-    struct coupled *c = r->c;
-    const double *now = r->stages.now;
-    long touched = 0;
-    bool good = true;
-    for (int i = at[0]; i < at[1] && good; i++) {
-        struct stages o;
-        const double n = i, next = surface[i] - c->origin, across = next - r->ball.surface,
-                     before = r->ball.penetration;
-        foresee(r, ground, n, across, &o);
-        press_all(r, ground, i > 0, &o);
-        r->push = (struct coupled_push){{o.g[0], o.g[1], o.g[2], o.g[3]}, n};
-        if (ground != RIGID) coupled_stages_next(&r->stages, &r->push, ground == MOVES);
-        take(r, next, &o);
-        r->ball.penetration = next -
-                              (ground == RIGID   ? 0
-                               : ground == MOVES ? now[SUM_Q] + (n + 1) * now[LANES + SUM_Q]
-                                                 : now[SUM_Q]) -
-                              r->ball.height;
-        coupled_rise(c, r->ball.penetration);
-        touched += r->ball.force > 0;
-        good = resolved(r, c->state.steps + i, before, &o, e);
-        force[i] = r->ball.force * r->unit;
+    const struct coupled_ask *k = &c->ask;
+    double h = k->step, rise = (next - c->surface) / h, before = c->penetration, height = c->height, speed = c->speed,
+           landing = 0, most = 0, force = 0, climb = 0, work = 0, loss = 0, lost = 0;
+    for (int j = 0; j < STAGES; j++) {
+        if (j > 0) *felt = feel(&c->modes, n + reach[j], h);
+        double xi = (c->surface + reach[j] * h * rise - felt->bent) - height, slip = rise - felt->glide,
+               closing = (slip - felt->fall) - speed, factor = 1 + k->mu * closing;
+        double spring = xi > 0 ? k->stiffness * xi * sqrt(xi) : 0, push = factor > 0 ? spring * factor : 0,
+               ahead = j + 1 < STAGES ? reach[j + 1] * h : 0;
+        if (j == 0) landing = closing + h * k->weight / (2 * k->mass);
+        most = spring > most ? spring : most;
+        force += share[j] * push;
+        climb += share[j] * speed;
+        work += share[j] * push * slip;
+        loss += share[j] * (push - spring) * closing;
+        lost += share[j] * yield(&c->modes, n + reach[j], push, share[j], ahead);
+        height = c->height + ahead * speed;
+        speed = c->speed + ahead * (push - k->weight) / k->mass;
     }
-    c->state.contact_steps += touched;
-    c->state.iterations += touched;
-    if (touched > 0) c->state.iterations_most = 1;
-    return good;
-}
-
-LANES_CLONES
-static bool on_modes(struct rk4_run *r, const int at[2], const double *surface, double *force, struct err *e)
-{
-    return r->stages.moves ? go(r, MOVES, at, surface, force, e) : go(r, STANDS, at, surface, force, e);
-}
-
-/* No lanes: there is nothing for them, and four stages in a wide register cost more than one by one. */
-static bool on_rigid(struct rk4_run *r, const int at[2], const double *surface, double *force, struct err *e)
-{
-    return go(r, RIGID, at, surface, force, e);
+    arrive(&c->modes, h);
+    *felt = feel(&c->modes, n + 1, h);
+    c->height += h * climb;
+    c->speed += h * (force - k->weight) / k->mass;
+    c->surface = next;
+    c->penetration = (next - felt->bent) - c->height;
+    c->closing = ((rise - felt->glide) - felt->fall) - c->speed;
+    c->force_before = c->force;
+    c->force = force;
+    coupled_sum_add(&c->surface_work, h * work);
+    coupled_sum_add(&c->contact_loss, h * loss);
+    coupled_sum_add(&c->mode_loss, h * lost);
+    coupled_rise(c, c->penetration);
+    c->state.contact_steps += force > 0;
+    c->state.iterations += force > 0;
+    if (force > 0) c->state.iterations_most = 1;
+    return resolved(c, before, most, landing, e);
 }
 
 /* Decay per second that the method gives to the pole s = -decay + j omega: -ln |R(s h)| / h, R(z) = 1 + z + z^2/2 +
@@ -257,89 +191,22 @@ bool coupled_rk4_make(const struct coupled *c, struct err *e)
     return true;
 }
 
-/* The ball's fields of c, after n steps of the run. */
-static void store_ball(struct rk4_run *r, double n)
-{
-    struct coupled *c = r->c;
-    const struct rk4_ball *b = &r->ball;
-    const double *x = r->stages.now, *y = x + LANES, h = c->ask.step;
-    c->height = b->height;
-    c->speed = b->travel * (2 / h);
-    c->surface = b->surface;
-    c->penetration = b->penetration;
-    c->closing = ((b->across - y[SUM_Q]) - 2 * (x[SUM_V] + n * y[SUM_V])) / h - c->speed;
-    c->force = b->force * r->unit;
-    c->force_before = b->force_before * r->unit;
-}
-
-/* What is seen after step `at`, where the modes are one step behind. */
-static void watch(struct rk4_run *r, int at)
-{
-    struct coupled *c = r->c;
-    struct coupled_account more = {.modal = coupled_modal(c)};
-    if (at > 0) {
-        store_ball(r, at);
-        coupled_stages_look(c, &r->push, &r->stages, &more);
-        more.work = r->ball.work * r->unit;
-        more.contact_loss = r->ball.loss * r->unit;
-    }
-    coupled_seen(c, c->state.steps + at, &more);
-}
-
-/* Into the ledger. */
-static void enter(struct rk4_run *r)
-{
-    coupled_sum_add(&r->c->surface_work, r->ball.work * r->unit);
-    coupled_sum_add(&r->c->contact_loss, r->ball.loss * r->unit);
-    coupled_sum_add(&r->c->mode_loss, coupled_stages_sum(r->stages.lost));
-    r->ball.work = r->ball.loss = 0;
-    memset(r->stages.lost, 0, sizeof r->stages.lost);
-}
-
-static void open_run(struct rk4_run *r, struct coupled *c, int steps, const double *phi_to)
-{
-    const struct coupled_ask *k = &c->ask;
-    const double square = k->step * k->step / 4;
-    *r = (struct rk4_run){.c = c,
-                          .unit = 1 / square,
-                          .spring = k->stiffness * square,
-                          .rate = k->mu / k->step,
-                          .bare = 1 / k->mass,
-                          .fall = k->weight * square / k->mass,
-                          .stiff = k->mu > 0 ? k->mass / (k->mu * k->step) * square : INFINITY};
-    r->ball = (struct rk4_ball){.height = c->height,
-                                .travel = c->speed * (k->step / 2),
-                                .surface = c->surface,
-                                .penetration = c->penetration,
-                                .force = c->force * square,
-                                .force_before = c->force_before * square};
-    for (int j = 0; j < STAGES; j++) {
-        r->sunk[j] = (j < 2 ? 0 : j - 1) * r->fall;
-        r->slowed[j] = twice[j] * r->fall;
-    }
-    coupled_stages_open(c, steps, phi_to, &r->stages);
-    r->stages.answer[0][A1_SELF] += r->bare;
-    r->stages.answer[0][A2_SELF] += r->bare;
-    r->stages.answer[0][A3_SELF] += r->bare;
-}
-
 bool coupled_rk4_run(struct coupled *c, int steps, const double *surface, const double *phi_to, double *force,
                      struct err *e)
 {
-    struct rk4_run r;
-    open_run(&r, c, steps, phi_to);
-    for (int at = 0; at < steps;) {
-        if (coupled_unseen(c, at, steps) == at) watch(&r, at);
-        int batch = at / BATCH * BATCH + BATCH, end = coupled_unseen(c, at + 1, steps < batch ? steps : batch);
-        if (!(c->modes.n > 0 ? on_modes : on_rigid)(&r, (int[]){at, end}, surface, force, e)) return false;
-        if (end == batch) enter(&r);
-        at = end;
+    struct coupled_modes *m = &c->modes;
+    for (int i = 0; i < m->padded; i++)
+        m->slope_phi[i] = phi_to ? (phi_to[i] - m->phi[i]) / steps : 0;
+    arrive(m, 0);
+    struct felt felt = feel(m, 0, c->ask.step);
+    for (int i = 0; i < steps; i++) {
+        if (coupled_unseen(c, i, steps) == i)
+            coupled_seen(c, c->state.steps, &(struct coupled_account){.modal = coupled_modal(c)});
+        if (!rk4_step(c, i, surface[i] - c->origin, &felt, e)) return false;
+        c->state.steps++;
+        force[i] = c->force;
     }
-    store_ball(&r, steps);
-    coupled_stages_finish(c, &r.push, &r.stages);
-    enter(&r);
-    for (int i = 0; phi_to && i < c->modes.padded; i++)
-        c->modes.phi[i] = phi_to[i];
-    c->state.steps += steps;
+    for (int i = 0; phi_to && i < m->padded; i++)
+        m->phi[i] = phi_to[i];
     return true;
 }

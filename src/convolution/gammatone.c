@@ -293,7 +293,7 @@ void gammatone_bank_run(struct gammatone_bank *g, const double *f, double *y, in
             ring[g->gamma](g->active[k], f + done, g->sums, n);
         for (int i = 0; i < n; i++) {
             const double *s = g->sums[i];
-            y[done + i] += ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+            y[done + i] += lanes_total(s);
         }
         done += n;
     }

@@ -677,9 +677,6 @@ static void rest(struct launch *l)
     }
 }
 
-/* The order of every sum over lanes. */
-static double lanes_sum(const double *s) { return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7])); }
-
 /* n frames inside one block. */
 static void run_some(struct launch *l, const double *f, double *y, int n)
 {
@@ -703,7 +700,7 @@ static void run_some(struct launch *l, const double *f, double *y, int n)
         if (v->awake) resonators_ring(l->active, l->groups, share[q], l->sums + from, n, RESONATOR_STEADY);
     }
     for (int j = 0; j < n; j++) {
-        double sum = lanes_sum(l->sums[from + j]);
+        double sum = lanes_total(l->sums[from + j]);
         for (int q = 0; force && q < NODES; q++)
             sum += l->node[q].through * share[q][j];
         y[j] += sum;

@@ -99,9 +99,6 @@ struct resonators *resonators_make(struct arena *a, const struct resonators_ask 
     return r;
 }
 
-/* The order of every sum over lanes. */
-static double lanes_sum(const double *s) { return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7])); }
-
 /* Targets of poles that move: e^(-decay/rate) e^(j 2 pi f/rate). Those that are where they were need not be found
  * again, and the call is one of gains alone: its bits are the same. */
 static void set_poles(struct resonators *r, const struct modes_point *to)
@@ -139,7 +136,7 @@ static void set_targets(struct resonators *r, const struct modes_point *to)
         }
     }
     if (r->glides) set_poles(r, to);
-    r->through_target = -lanes_sum(half);
+    r->through_target = -lanes_total(half);
     if (r->n)
         r->through_target += modes_direct(r->quantity, r->n, r->glides ? to->frequency : r->frequency,
                                           r->glides ? to->decay : r->decay, to);
@@ -184,7 +181,7 @@ void resonators_set(struct resonators *r, const struct modes_point *at)
     arrive(r);
 }
 
-/* The lanes of each sample as by lanes_sum, and what goes through directly; halves and quarters of all samples in turn,
+/* The lanes of each sample as by lanes_total, and what goes through directly; halves and quarters of all samples in turn,
  * which keeps registers full. */
 LANES_CLONES
 static void fold(const struct resonators *r, const double *restrict f, double *restrict y, int n)

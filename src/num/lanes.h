@@ -41,6 +41,12 @@ static inline __attribute__((always_inline)) double lanes_select(int test, doubl
     return a;
 }
 
+/* The order of every sum over lanes. */
+static inline __attribute__((always_inline)) double lanes_total(const double *s)
+{
+    return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+}
+
 /* floor(x) and ceil(x) for |x| < 2^51, by rounding to the nearest first; in clones gcc 12 leaves floor() itself a call.
  */
 static inline __attribute__((always_inline)) double lanes_floor(double x)

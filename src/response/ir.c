@@ -156,7 +156,7 @@ void ir_sample(struct ir_sampler *s, int quantity, const struct modes_point *p, 
         ring(s->group, s->groups, s->sums, (n + SPAN - 1) / SPAN * SPAN);
         for (size_t i = 0; i < n; i++) {
             const double *v = s->sums[i];
-            h[at + i] = ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+            h[at + i] = lanes_total(v);
         }
         restart(s);
     }

@@ -52,7 +52,7 @@ static double dot(const double *x, const double *y, int n)
             sum[l] += x[i + l] * y[i + l];
     for (; i < n; i++)
         sum[0] += x[i] * y[i];
-    return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7]));
+    return lanes_total(sum);
 }
 
 LANES_CLONES

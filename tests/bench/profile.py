@@ -15,7 +15,7 @@ PARTS = {
     "motion": r"src/trajectory/|vecmath_sincospi|:(stroke_|at_inside)",
     "cutting the way at knots": r"src/force/path_cells|:(knots_first|cut_)",
     "the curve the ball rolls on": r"src/surface/rolling_envelope|src/convolution/roll_curve|lanes\.h:(begin|look|move|rest)$",
-    "coupled steps: modes": r"coupled_modal_sum|coupled_stages|coupled_gradient\.c:(advance|begin)$",
+    "coupled steps: modes": r"coupled_modal_sum|coupled_rk4\.c:(feel|yield)$",
     "coupled steps: force": r"coupled_pinch|hertz_mean",
     "coupled steps: ball and ledger; shapes at a run's start": r"coupled_gradient|coupled_rk4|coupled_parts",
     "coupled runs: state, balance, shapes": r"src/convolution/(coupled|roll_)",
