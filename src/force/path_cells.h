@@ -41,11 +41,10 @@ struct knot_lines { /* one family of knots */
 struct path_cells {
     enum cells_kind kind;
     int channels;
-    bool field;    /* the relief is read in the scene's plane, not along the path     */
-    bool curved;   /* field, and the path is no straight line: places come from X, Y  */
-    bool halves;   /* curvature is not a straight line between knots: cells come in pairs, bulges known */
-    bool straight; /* one channel: cut_straight cuts it                                  */
-    bool along;    /* and it goes along x: z_xx is what is limited                    */
+    bool field;  /* the relief is read in the scene's plane, not along the path     */
+    bool curved; /* field, and the path is no straight line: places come from X, Y  */
+    bool halves; /* curvature is not a straight line between knots: cells come in pairs, bulges known */
+    bool along;  /* and it goes along x: z_xx is what is limited                    */
     bool limiter;
     double ratio;         /* alpha of channel 1 over that of channel 0                       */
     double longest;       /* m: no cell is longer                                           */
