@@ -33,8 +33,6 @@
 
 /* ------------------------------------------------------------------ terms */
 
-enum { CROSSING_RUN = 16 };
-
 #define PATH_LEAK 2e-3 /* m, where the scene has no contact.leak: under a ball with contact.force: paper */
 #define INLINE static inline __attribute__((always_inline))
 
@@ -57,10 +55,12 @@ static void terms_leak(struct path_terms *t, const double *length, double leak, 
 }
 
 /* at: NULL where the cells are chained, whose points are then loaded one after another. */
-INLINE void terms_each(struct path_terms *t, const struct cells *p, int channel, const int *at)
+LANES_CLONES
+static void terms_channel(struct path_terms *t, const struct cells *p, int channel)
 {
     const double *mean_t = p->mean[channel], *moment_t = p->moment[channel], *limited = p->limited[channel],
                  *length = p->length;
+    const int *at = p->at;
     double *restrict bent = t->bent[channel];
     int n = p->n;
 #pragma omp simd
@@ -69,26 +69,17 @@ INLINE void terms_each(struct path_terms *t, const struct cells *p, int channel,
     n = channel == 0 ? n : 0;
 #pragma omp simd
     for (int i = 0; i < n; i++) {
-        int a = at ? at[i] : i, b = a + 1;
+        int a = at[i], b = a + 1;
         double h = length[i], z = t->z[i], bow = z * h * (mean_t[i] - 0.5 * (limited[a] + limited[b])) * (1.0 / 60);
         t->risen[i] = t->chi[i] * h * mean_t[i] - (1 - z / 2) * h * moment_t[i] + bow;
     }
-}
-
-LANES_CLONES
-static void terms_channel(struct path_terms *t, const struct cells *p, int channel, bool chained)
-{
-    if (chained)
-        terms_each(t, p, channel, NULL);
-    else
-        terms_each(t, p, channel, p->at);
 }
 
 void path_integral_terms(struct path_terms *t, const struct cells *p, int channels, double leak)
 {
     terms_leak(t, p->length, leak, p->n);
     for (int k = 0; k < channels; k++)
-        terms_channel(t, p, k, limiter_chained(p->n, p->points, p->at));
+        terms_channel(t, p, k);
 }
 
 LANES_CLONES
@@ -101,10 +92,11 @@ void path_integral_mean(struct path_terms *t, int n)
 
 /* Of |S'| over a cell on which S' goes from a to b, with that mean: of the parabola a (1 - q) + b q + bow q (1 - q),
    which has one zero between ends of opposite signs. Both outcomes of every question are worked out. */
-INLINE void magnitude_some(struct path_terms *t, int from, int to)
+LANES_CLONES
+void path_integral_magnitude(struct path_terms *t, int n)
 {
 #pragma omp simd
-    for (int i = from; i < to; i++) {
+    for (int i = 0; i < n; i++) {
         double a = t->start[i], b = t->end[i], mean = t->mean[i];
         double bow = 6 * (mean - 0.5 * (a + b)), p = b - a + bow, square = p * p + 4 * bow * a;
         double root = sqrt(lanes_select(square > 0, square, 0)), s = lanes_select(p < 0, p - root, p + root);
@@ -117,30 +109,6 @@ INLINE void magnitude_some(struct path_terms *t, int from, int to)
         int one_sign = a * b >= 0;
         t->whole[i] = lanes_select(one_sign, fabs(mean), fabs(before) + fabs(mean - before));
         t->late[i] = lanes_select(one_sign, lanes_select(mean < 0, -late, late), fabs(lately) + fabs(late - lately));
-    }
-}
-
-/* The same where no cell has a zero; false, and worth nothing, where one has. */
-INLINE bool magnitude_none(struct path_terms *t, int from, int to)
-{
-    int some = 0;
-#pragma omp simd reduction(| : some)
-    for (int i = from; i < to; i++) {
-        double a = t->start[i], b = t->end[i], mean = t->mean[i], late = 0.5 * mean + (b - a) * (1.0 / 12);
-        some |= a * b < 0;
-        t->whole[i] = fabs(mean);
-        t->late[i] = lanes_select(mean < 0, -late, late);
-    }
-    return !some;
-}
-
-/* Root and divisions are for the few runs of cells in which the slope changes its sign. */
-LANES_CLONES
-void path_integral_magnitude(struct path_terms *t, int n)
-{
-    for (int from = 0; from < n; from += CROSSING_RUN) {
-        int to = from + CROSSING_RUN < n ? from + CROSSING_RUN : n;
-        if (!magnitude_none(t, from, to)) magnitude_some(t, from, to);
     }
 }
 

@@ -136,15 +136,16 @@ struct points {
     double x[LIMITER_POINTS], soft[LIMITER_POINTS], rest[LIMITER_POINTS], per[LIMITER_POINTS];
 };
 
-/* at: NULL where the cells are chained, whose points are then loaded one after another. */
-INLINE void each_mean(const struct limiter_cells *p, const int *at, const struct points *q)
+LANES_CLONES
+static void each_mean(const struct limiter_cells *p, const struct points *q)
 {
     const double *t = p->limited, *alphas = p->alpha, *x = q->x, *soft = q->soft, *per = q->per;
     double *restrict mean = p->mean;
+    const int *at = p->at;
     int n = p->n;
 #pragma omp simd
     for (int i = 0; i < n; i++) {
-        int a = at ? at[i] : i, b = a + 1;
+        int a = at[i], b = a + 1;
         double alpha = alphas[a], xa = x[a], xb = x[b], dx = xb - xa, tm = 0.5 * alpha * (t[a] + t[b]);
         double near = tm + dx * dx * (1.0 / 6) * tm * (1 - tm * tm), by = lanes_select(fabs(dx) < 1e-3, 1, dx);
         double far = ((fabs(xb) - fabs(xa)) + (soft[b] - soft[a])) / by;
@@ -152,14 +153,16 @@ INLINE void each_mean(const struct limiter_cells *p, const int *at, const struct
     }
 }
 
-INLINE void each_moment(const struct limiter_cells *p, const int *at, const struct points *q)
+LANES_CLONES
+static void each_moment(const struct limiter_cells *p, const struct points *q)
 {
     const double *t = p->limited, *alphas = p->alpha, *x = q->x, *soft = q->soft, *rest = q->rest, *per = q->per;
     double *restrict moment = p->moment;
+    const int *at = p->at;
     int n = p->n;
 #pragma omp simd
     for (int i = 0; i < n; i++) {
-        int a = at ? at[i] : i, b = a + 1;
+        int a = at[i], b = a + 1;
         double alpha = alphas[a], xa = x[a], xb = x[b], dx = xb - xa, across = xa * xb,
                sign_a = lanes_select(xa < 0, -1, 1), sign_b = lanes_select(xb < 0, -1, 1);
         double squares = lanes_select(across < 0, lanes_select(dx < 0, across, -across), 0);
@@ -172,38 +175,22 @@ INLINE void each_moment(const struct limiter_cells *p, const int *at, const stru
     }
 }
 
-INLINE void each_sagitta(const struct limiter_cells *p, const int *at)
+LANES_CLONES
+static void each_sagitta(const struct limiter_cells *p)
 {
     const double *alphas = p->alpha, *c = p->curvature, *limited = p->limited, *moment = p->moment,
                  *sagitta = p->sagitta;
     double *restrict mean = p->mean;
+    const int *at = p->at;
     int n = p->n;
 #pragma omp simd
     for (int i = 0; i < n; i++) {
-        int a = at ? at[i] : i, b = a + 1;
+        int a = at[i], b = a + 1;
         double alpha = alphas[a], dc = c[b] - c[a], dx = alpha * dc, tm = 0.5 * alpha * (limited[a] + limited[b]);
         double t = tm + dx * dx / 4 * tm * (1 - tm * tm), rate = (1 - t * t) * (1 - dx * dx / 20 * (1 - 3 * t * t));
         int small = fabs(dx) < 0.05;
         mean[i] += sagitta[i] * lanes_select(small, 2.0 / 3 * rate, 8 * moment[i] / lanes_select(small, 1, dc));
     }
-}
-
-INLINE void each_of(const struct limiter_cells *p, const int *at, const struct points *q)
-{
-    each_mean(p, at, q);
-    each_moment(p, at, q);
-    if (p->sagitta) each_sagitta(p, at);
-}
-
-/* With the question which cells are flat, both cell by cell before, and the map's edge: a render in draft over a map
- * from 618 to 585 cycles a sample. */
-LANES_CLONES
-static void cells_gather(const struct limiter_cells *p, const struct points *q)
-{
-    if (limiter_chained(p->n, p->points, p->at))
-        each_of(p, NULL, q);
-    else
-        each_of(p, p->at, q);
 }
 
 static void cells_unlimited(const struct limiter_cells *p)
@@ -242,7 +229,9 @@ static void cells_limited(const struct limiter_cells *p)
     vecmath_tanh_softplus2((size_t)p->points, q.x, p->limited, q.soft);
     points_rest(q.x, q.soft, q.rest, p->points);
     points_over(p->points, p->alpha, q.per, p->limited);
-    cells_gather(p, &q);
+    each_mean(p, &q);
+    each_moment(p, &q);
+    if (p->sagitta) each_sagitta(p);
 }
 
 /* ------------------------------------------------------------------ bisected */

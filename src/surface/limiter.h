@@ -39,12 +39,6 @@ struct limiter_cells { /* cells from point at[i] to point at[i] + 1 */
     double *moment;          /* integral of (s - middle) T ds / length^2, 1/m, [n] */
 };
 
-/* Do all n cells share their points, so that cell i goes from point i to i + 1? at[] rises. */
-static inline bool limiter_chained(int n, int points, const int *at)
-{
-    return n > 0 && points == n + 1 && at[0] == 0 && at[n - 1] == n - 1;
-}
-
 /* T(c) = tanh(alpha c) / alpha, or T(c) = c when limiter is false. Absolute error of alpha mean below 2e-12, of alpha
    moment below 1e-9; with a sagitta b that of alpha mean grows by 0.21 (alpha b)^2 up to 5.2e-5 at alpha |b| = 1/64,
    from where on it grows no more, that of alpha moment by 0.05 alpha |b| up to 8e-4. |mean| <= 1/alpha, but for 2e-8 of

@@ -48,71 +48,6 @@ void rolling_envelope_terms(const struct disc *d, const struct height_jet *a, co
     terms[1] = odd - terms[3] - terms[5];
 }
 
-static double piece_height(const double *c, double q)
-{
-    return c[0] + q * (c[1] + q * (c[2] + q * (c[3] + q * (c[4] + q * c[5]))));
-}
-
-static double piece_slope(const double *c, double q)
-{
-    return c[1] + q * (2 * c[2] + q * (3 * c[3] + q * (4 * c[4] + q * 5 * c[5])));
-}
-
-static double piece_bend(const double *c, double q)
-{
-    return 2 * c[2] + q * (6 * c[3] + q * (12 * c[4] + q * 20 * c[5]));
-}
-
-/* By how much, in half pieces, y lies to the right of where the disc would rest on q; *falls: its derivative, negated.
- */
-static double piece_off(const struct disc *d, const double *c, double y, double q, double *falls)
-{
-    double p = piece_slope(c, q) * d->over, one = 1 / sqrt(1 + p * p), far = d->tall * one;
-    *falls = 1 - far * one * one * piece_bend(c, q) * d->over;
-    return y - q + far * p;
-}
-
-/* Where the cubic over the offset that has both ends' q and derivatives is 0. */
-static double piece_guess(double off, double falls, double end, double beyond, double away)
-{
-    double range = beyond - off, t = -off / range, chord = end / range, a = -1 / falls - chord, b = chord + 1 / away;
-    return t * (end + (1 - t) * range * ((1 - t) * a + t * b));
-}
-
-/* q of the place that the disc rests on; y in half pieces. */
-static double piece_contact(const struct disc *d, const double *c, double y)
-{
-    double falls, away, off = piece_off(d, c, y, 0, &falls), end = off > 0 ? 1 : -1,
-                        beyond = piece_off(d, c, y, end, &away);
-    double low = off > 0 ? 0 : -1, high = off > 0 ? 1 : 0, q = 0;
-    if (beyond * end >= 0) return end;
-    if (falls > 0 && away > 0) {
-        q = fmin(fmax(piece_guess(off, falls, end, beyond, away), low), high);
-        off = piece_off(d, c, y, q, &falls);
-    }
-    for (int i = 0; i < REST_STEPS; i++) {
-        double next = q + off / falls, before = q;
-        low = off > 0 ? q : low;
-        high = off > 0 ? high : q;
-        q = falls > 0 && next >= low && next <= high ? next : 0.5 * (low + high);
-        if (fabs(q - before) < REST_NEAR) return q;
-        off = piece_off(d, c, y, q, &falls);
-    }
-    return q;
-}
-
-/* The second derivative is R^2/s^3 z'' / (R^2/s^3 - z''), and that of the circle where the disc turns about an end. */
-struct height_jet rolling_envelope_rest(const struct disc *d, const double terms[ENVELOPE_TERMS], double y)
-{
-    double q = d->half > 0 ? piece_contact(d, terms, y * d->over) : 0, u = y - q * d->half,
-           square = (d->radius - u) * (d->radius + u);
-    double s = square > 0 ? sqrt(square) : 0, arc = d->radius * d->radius / (s * s * s),
-           z = d->half > 0 ? piece_height(terms, q) : terms[0];
-    double bend = fabs(q) < 1 && d->half > 0 ? piece_bend(terms, q) * d->over * d->over : 0;
-    return (struct height_jet){z - u * u / (d->radius + s), -u / s,
-                               fabs(q) < 1 && d->half > 0 ? arc * bend / (arc - bend) : -arc};
-}
-
 static double disc_centre(const struct disc *d, double slope) { return -d->radius * slope / sqrt(1 + slope * slope); }
 
 static int disc_open(const struct disc *d, double slope, double bend)
@@ -127,11 +62,11 @@ static double disc_margin(const struct disc *d, const struct height_jet *a, cons
     return 0.5 * d->half * d->half * (bend + 1.5 * (1 + steep) * sqrt(1 + steep) / d->radius);
 }
 
-/* ------------------------------------------------------------------ eight discs at a time */
+/* ------------------------------------------------------------------ one disc, or eight at a time */
 
-/* The formulas above, operation by operation, with selections for its branches; a disc that
-   has found its place stays there while others still look. Newton's method is a chain of roots and divisions, 370
-   cycles a place one at a time; eight at a time it is 110 a place (AVX-512). */
+/* With selections in place of branches: a disc that has found its place stays there while others still look. Newton's
+   method is a chain of roots and divisions, 370 cycles a place one at a time; eight at a time it is 110 a place
+   (AVX-512). n, of discs, is 1 or LANES. */
 
 struct search {
     _Alignas(64) double q[LANES], off[LANES], falls[LANES], low[LANES], high[LANES];
@@ -158,11 +93,10 @@ INLINE double off_at(const struct disc *d, const struct rest_lanes *at, int l, d
 }
 
 /* Where the search begins: at an end it is over at once. */
-LANES_CLONES
-static void begin(const struct disc *d, const struct rest_lanes *at, struct search *s)
+INLINE void begin(const struct disc *d, const struct rest_lanes *at, struct search *s, int n)
 {
 #pragma omp simd
-    for (int l = 0; l < LANES; l++) {
+    for (int l = 0; l < n; l++) {
         double y = at->y[l] * d->over, falls, away, off = off_at(d, at, l, y, 0, &falls);
         double end = lanes_select(off > 0, 1, -1), beyond = off_at(d, at, l, y, end, &away);
         double low = lanes_select(off > 0, 0, -1), high = lanes_select(off > 0, 1, 0);
@@ -184,12 +118,11 @@ static void begin(const struct disc *d, const struct rest_lanes *at, struct sear
 }
 
 /* Newton's step from q, or half of what is left; how many still look after it. */
-LANES_CLONES
-static double move(struct search *s)
+INLINE double move(struct search *s, int n)
 {
     double looking = 0;
 #pragma omp simd reduction(+ : looking)
-    for (int l = 0; l < LANES; l++) {
+    for (int l = 0; l < n; l++) {
         double off = s->off[l], before = s->q[l], falls = s->falls[l], next = before + off / falls;
         double low = lanes_select(off > 0, before, s->low[l]), high = lanes_select(off > 0, s->high[l], before);
         double q = lanes_select((falls > 0) & (next >= low) & (next <= high), next, 0.5 * (low + high));
@@ -205,22 +138,21 @@ static double move(struct search *s)
     return looking;
 }
 
-LANES_CLONES
-static void look(const struct disc *d, const struct rest_lanes *at, struct search *s)
+INLINE void look(const struct disc *d, const struct rest_lanes *at, struct search *s, int n)
 {
 #pragma omp simd
-    for (int l = 0; l < LANES; l++) {
+    for (int l = 0; l < n; l++) {
         double falls;
         s->off[l] = off_at(d, at, l, s->y[l], s->q[l], &falls);
         s->falls[l] = falls;
     }
 }
 
-LANES_CLONES
-static void rest(const struct disc *d, struct rest_lanes *at, const struct search *s)
+/* The second derivative is R^2/s^3 z'' / (R^2/s^3 - z''), and that of the circle where the disc turns about an end. */
+INLINE void rest(const struct disc *d, struct rest_lanes *at, const struct search *s, int n)
 {
 #pragma omp simd
-    for (int l = 0; l < LANES; l++) {
+    for (int l = 0; l < n; l++) {
         double q = s->q[l], u = at->y[l] - q * d->half, square = (d->radius - u) * (d->radius + u);
         double side = sqrt(lanes_select(square > 0, square, 0)), arc = d->radius * d->radius / (side * side * side);
         double z = at->terms[0][l] +
@@ -234,13 +166,30 @@ static void rest(const struct disc *d, struct rest_lanes *at, const struct searc
     }
 }
 
-void rolling_envelope_rest_lanes(const struct disc *d, struct rest_lanes *at)
+INLINE void rest_some(const struct disc *d, struct rest_lanes *at, int n)
 {
     struct search s;
-    begin(d, at, &s);
-    for (int i = 0; i < REST_STEPS && move(&s) > 0; i++)
-        look(d, at, &s);
-    rest(d, at, &s);
+    begin(d, at, &s, n);
+    for (int i = 0; i < REST_STEPS && move(&s, n) > 0; i++)
+        look(d, at, &s, n);
+    rest(d, at, &s, n);
+}
+
+LANES_CLONES
+void rolling_envelope_rest_lanes(const struct disc *d, struct rest_lanes *at) { rest_some(d, at, LANES); }
+
+struct height_jet rolling_envelope_rest(const struct disc *d, const double terms[ENVELOPE_TERMS], double y)
+{
+    struct rest_lanes at;
+    if (d->half == 0) { /* the disc turns about a point */
+        double square = (d->radius - y) * (d->radius + y), s = square > 0 ? sqrt(square) : 0;
+        return (struct height_jet){terms[0] - y * y / (d->radius + s), -y / s, -(d->radius * d->radius / (s * s * s))};
+    }
+    for (int k = 0; k < ENVELOPE_TERMS; k++)
+        at.terms[k][0] = terms[k];
+    at.y[0] = y;
+    rest_some(d, &at, 1);
+    return (struct height_jet){at.z[0], at.slope[0], at.bend[0]};
 }
 
 /* ------------------------------------------------------------------ the envelope */
