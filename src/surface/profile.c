@@ -106,115 +106,18 @@ static const double *window_at(struct window *w, long cell)
     return w->c + (cell - 1 - w->first);
 }
 
-/* Point by point. */
-static void window_plain(struct window *w, const struct relief_points *p, const struct relief_values *v)
+static void window_add(struct relief_part *part, const struct relief_points *p, const struct relief_values *v)
 {
+    struct window *w = part->state;
     double h = w->profile->pitch;
     for (size_t i = 0; i < p->n; i++) {
-        double q = (p->x[i] - w->origin) / h, cell = floor(q), f = q - cell;
+        double q = (p->x[i] - w->origin) / h, cell = lanes_floor(q), f = q - cell;
         const double *c = window_at(w, (long)cell);
         double b0 = (c[0] - c[1]) + (c[2] - c[1]), b1 = (c[1] - c[2]) + (c[3] - c[2]), rise = b1 - b0,
                s0 = 0.5 * (c[2] - c[0]);
         if (v->z) v->z[i] += (c[0] + 4 * c[1] + c[2]) / 6 + f * (s0 + f * (0.5 * b0 + f / 6 * rise));
         if (v->x) v->x[i] += (s0 + f * (b0 + 0.5 * f * rise)) / h;
         if (v->xx) v->xx[i] += (b0 + f * rise) / (h * h);
-    }
-}
-
-/* ------------------------------------------------------------------ second derivatives alone, which the force asks for
- */
-
-enum { BATCH = 256 };
-
-struct batch {
-    size_t n;
-    double origin, h, lowest, highest;
-    double cell[BATCH], share[BATCH];
-};
-
-LANES_CLONES
-static void batch_cells(struct batch *b, const double *x)
-{
-    double origin = b->origin, h = b->h;
-    size_t n = b->n;
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double q = (x[i] - origin) / h, below = lanes_floor(q);
-        b->cell[i] = below;
-        b->share[i] = q - below;
-    }
-}
-
-LANES_CLONES
-static void batch_range(struct batch *b)
-{
-    double low[LANES], high[LANES];
-    for (int l = 0; l < LANES; l++)
-        low[l] = high[l] = b->cell[0];
-    for (size_t i = 0; i + LANES <= b->n; i += LANES)
-#pragma omp simd
-        for (int l = 0; l < LANES; l++) {
-            double c = b->cell[i + l];
-            low[l] = lanes_select(c < low[l], c, low[l]);
-            high[l] = lanes_select(c > high[l], c, high[l]);
-        }
-    for (size_t i = b->n / LANES * LANES; i < b->n; i++) {
-        low[0] = fmin(low[0], b->cell[i]);
-        high[0] = fmax(high[0], b->cell[i]);
-    }
-    b->lowest = low[0];
-    b->highest = high[0];
-    for (int l = 1; l < LANES; l++) {
-        b->lowest = fmin(b->lowest, low[l]);
-        b->highest = fmax(b->highest, high[l]);
-    }
-}
-
-/* Half the time of the plain form, gathers and all; c: the coefficient before the lowest cell. */
-LANES_CLONES
-static void batch_bend(const struct batch *b, const double *c, double *xx)
-{
-    double lowest = b->lowest, h = b->h;
-#pragma omp simd
-    for (size_t i = 0; i < b->n; i++) {
-        int k = (int)(b->cell[i] - lowest);
-        double b0 = (c[k] - c[k + 1]) + (c[k + 2] - c[k + 1]), b1 = (c[k + 1] - c[k + 2]) + (c[k + 3] - c[k + 2]),
-               rise = b1 - b0;
-        xx[i] += (b0 + b->share[i] * rise) / (h * h);
-    }
-}
-
-/* Does the window now hold all cells of the batch, and more on the way on than behind it? */
-static bool window_holds(struct window *w, const struct batch *b)
-{
-    if (!(b->highest - b->lowest < WINDOW / 2)) return false;
-    long low = (long)b->lowest, high = (long)b->highest;
-    if (w->first == LONG_MIN || high + 2 >= w->first + WINDOW)
-        window_fetch(w, low - 9);
-    else if (low - 1 < w->first)
-        window_fetch(w, high + 10 - WINDOW);
-    return true;
-}
-
-static void window_add(struct relief_part *part, const struct relief_points *p, const struct relief_values *v)
-{
-    struct window *w = part->state;
-    struct batch b;
-    if (v->z || v->x || !v->xx) {
-        window_plain(w, p, v);
-        return;
-    }
-    b.origin = w->origin;
-    b.h = w->profile->pitch;
-    for (size_t first = 0; first < p->n; first += b.n) {
-        b.n = p->n - first < BATCH ? p->n - first : BATCH;
-        batch_cells(&b, p->x + first);
-        batch_range(&b);
-        if (window_holds(w, &b))
-            batch_bend(&b, window_at(w, (long)b.lowest), v->xx + first);
-        else
-            window_plain(w, &(struct relief_points){b.n, p->x + first, NULL},
-                         &(struct relief_values){.xx = v->xx + first});
     }
 }
 

@@ -408,49 +408,5 @@ START_TEST(values_per_axis)
 }
 END_TEST
 
-/* The common case's short cut gives the cells of the plain form: all the same numbers, wherever the flushes fall and
- * points are shared. */
-START_TEST(straight_paths_as_plain)
-{
-    static const double to[][2] = {{2e-3, 0}, {-1e-3, 1.5e-3}, {1e-3, 1e-3}, {0, 1e-3}};
-    static double length[MOST], ends[MOST][2][2], mean[MOST];
-    static int interval[MOST];
-    for (int k = 0; k < 32; k++) {
-        struct motion m = {.path = k % 2 ? PATH_BACK_AND_FORTH : PATH_LINE,
-                           .from = {1e-3, 1e-3},
-                           .rate = 100,
-                           .speed = NAN,
-                           .duration = 0.01,
-                           .to = {1e-3 + to[k / 2 % 4][0], 1e-3 + to[k / 2 % 4][1]}};
-        arena = arena_open();
-        srand48(k);
-        if (k < 16)
-            surface_profile(k < 8 ? ALONG_PATH : ALONG_X);
-        else
-            surface_plane(k < 24 ? 1 : 2);
-        prepare(&m, 48000, 1 + k % 4);
-        travel(CELLS_ALONG, k % 3 ? 1e-6 : 1e-3, 480 * board.over, CELLS_CHUNK);
-        ck_assert(path.straight);
-        int n = all.n;
-        for (int i = 0; i < n; i++) {
-            length[i] = all.length[i], mean[i] = all.mean[i], interval[i] = all.interval[i];
-            memcpy(ends[i], all.ends[i], sizeof ends[i]);
-        }
-        path.straight = false;
-        all.n = 0;
-        for (first_interval = 0; first_interval < 480 * board.over; first_interval += CELLS_CHUNK)
-            path_cells_run(&path, &run, first_interval,
-                           480 * board.over - first_interval < CELLS_CHUNK ? 480 * board.over - first_interval
-                                                                           : CELLS_CHUNK);
-        ck_assert_int_eq(all.n, n);
-        for (int i = 0; i < n; i++)
-            ck_assert(length[i] == all.length[i] && mean[i] == all.mean[i] && interval[i] == all.interval[i] &&
-                      ends[i][0][0] == all.ends[i][0][0] && ends[i][1][0] == all.ends[i][1][0] &&
-                      (k < 16 || (ends[i][0][1] == all.ends[i][0][1] && ends[i][1][1] == all.ends[i][1][1])));
-        arena_close(arena);
-    }
-}
-END_TEST
-
-UNIT("path_cells", straight_paths, straight_paths_as_plain, turning_paths, circles, tangent_to_knots,
-     curved_there_and_back, chunks_do_not_matter, values_per_axis)
+UNIT("path_cells", straight_paths, turning_paths, circles, tangent_to_knots, curved_there_and_back,
+     chunks_do_not_matter, values_per_axis)
