@@ -7,7 +7,8 @@
      xi = s(t) - sum phi_i q_i - w                     penetration, m; s the rolling curve under the ball
      f = k xi^1.5 max(0, 1 + mu xi'), xi > 0; else 0
 
-   Integrators: coupled_gradient.c (default), coupled_rk4.c, coupled_exact.c; each says its formula, order and cost. */
+   Integrators: coupled_gradient.c (default); rk4 and exact_impact in coupled.c. Each says its formula, order and
+   cost. */
 #ifndef CONVOLUTION_COUPLED_H
 #define CONVOLUTION_COUPLED_H
 #include <stdbool.h>

@@ -69,16 +69,9 @@ struct coupled {
    At its end modes.phi is exactly phi_to, state.steps has grown by `steps`. False with ERR_NUMBERS or ERR_SCENE set. */
 bool coupled_gradient_run(struct coupled *c, int steps, const double *surface, const double *phi_to, double *force,
                           struct err *e);
-bool coupled_rk4_run(struct coupled *c, int steps, const double *surface, const double *phi_to, double *force,
-                     struct err *e);
-bool coupled_exact_run(struct coupled *c, int steps, const double *surface, const double *phi_to, double *force,
-                       struct err *e);
 
 /* The modes' inertia, spring, turn, pull, push, drain. ERR_SCENE: a mode at or above half the rate of the steps. */
 bool coupled_gradient_make(struct coupled *c, struct err *e);
-
-/* ERR_SCENE: a mode whose decay the steps spoil. */
-bool coupled_rk4_make(const struct coupled *c, struct err *e);
 
 /* Potential energy of the contact, J: (2/5) k xi^2.5. */
 static inline double coupled_potential(double stiffness, double penetration)

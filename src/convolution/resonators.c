@@ -181,8 +181,8 @@ void resonators_set(struct resonators *r, const struct modes_point *at)
     arrive(r);
 }
 
-/* The lanes of each sample as by lanes_total, and what goes through directly; halves and quarters of all samples in turn,
- * which keeps registers full. */
+/* The lanes of each sample as by lanes_total, and what goes through directly; halves and quarters of all samples in
+   turn, which keeps registers full. */
 LANES_CLONES
 static void fold(const struct resonators *r, const double *restrict f, double *restrict y, int n)
 {

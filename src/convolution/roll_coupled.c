@@ -9,7 +9,7 @@
    coupled_contact_time of the stiffness and mass at the greatest of: the speed of the drop, sqrt(2 g h); 5 cm/s, the
    fastest of the impacts of papers/002, fig. 7; and the greatest |ds/dt| met where the curve is scouted
    (roll_coupled.c).
-   s is read once for the end of each step, in order; the shapes of what gives way as roll_ground.h says.
+   s is read once for the end of each step, in order; the shapes of what gives way as roll_coupled.h says.
 
    The start. Dropped, the ball is at rest in the air, `drop` clear of the ground, whose modes are at rest, too: on
    rigid ground it touches after sqrt(2 h/g) with sqrt(2 g h), however soft the contact. Otherwise it lies there, bent
@@ -17,13 +17,16 @@
    sounds (ring_*), for which a weight that is there at once is a blow; so
    the force rises over load.approach where the ball lies at the start, and falls over load.release at the motion's end
    (force/approach.c, scene/rules.h). The equations and the account (ITEM_ROLL) are of the ball without them. */
+#include "convolution/roll_coupled.h"
+
 #include <math.h>
 
 #include "convolution/coupled.h"
-#include "convolution/roll_ground.h"
+#include "convolution/ring.h"
 #include "force/approach.h"
 #include "force/hertz.h"
 #include "num/real.h"
+#include "scene/ablation.h"
 #include "scene/ball.h"
 #include "scene/rules.h"
 #include "stage.h"
@@ -115,6 +118,81 @@ struct rolling {
 
 /* ------------------------------------------------------------------ opening */
 
+/* What gives way (roll_coupled.h). The modes are those that sound (ring_choice.h): the strongest of the band, below
+   0.45 of the sample rate; the give of all others is left out. */
+
+static bool is_modal(const struct contact *c)
+{
+    const struct response *given = &c->surface.response;
+    return c->contact.roll.ground != GROUND_RIGID && rules_responds(given) && !rules_is_recorded(given);
+}
+
+static void ground_phi(const struct roll_ground *g, long frame, double *phi)
+{
+    double t = (double)frame / g->board->rate;
+    struct modes_where at = g->first;
+    if (g->moves) trajectory_at(g->board->trajectory, 1, &t, (struct trajectory_out){.x = &at.x, .y = &at.y});
+    modes_shapes_at(&g->shapes, &at, phi);
+}
+
+static void ground_ramps(struct roll_ground *g, const struct stage_run *r)
+{
+    g->moves = g->shapes.moves && r->contact->motion.path != PATH_STILL && !ablation_one_place(r->contact);
+    g->first = ring_first_place(r->contact, g->board->trajectory);
+    g->ramp = (long)r->scene->accuracy.gain_ramp;
+    g->phi = ARENA_TAKE(r->arena, double, g->shapes.n);
+    g->from = ARENA_TAKE(r->arena, double, g->shapes.n);
+    g->to = ARENA_TAKE(r->arena, double, g->shapes.n);
+    ground_phi(g, 0, g->to);
+}
+
+bool roll_coupled_ground_make(struct roll_ground *g, const struct stage_run *r, struct err *e)
+{
+    const struct contact *c = r->contact;
+    const struct response *given = &c->surface.response;
+    const struct ring_choice *choice = given->choice;
+    *g = (struct roll_ground){.board = r->board};
+    if (!is_modal(c))
+        return c->contact.roll.ground != GROUND_ELASTIC ||
+               err_set(e, ERR_SCENE,
+                       "contact '%s': contact.roll.ground: elastic needs modes of the surface, and %s; give "
+                       "surface.object, or take ground: rigid",
+                       c->name, rules_responds(given) ? "a recorded response has none" : "it has no response");
+    if (!choice && !ring_choice_make(c, r->scene, RING_SURFACE, r->arena, &choice, e)) return false;
+    if (!modes_shapes_make(&choice->modes, "surface", r->arena, &g->shapes, e))
+        return err_at(e, "contact '%s'", c->name);
+    ground_ramps(g, r);
+    return ring_reach(&choice->modes, r, e) || err_about(e, c->name, ring_choice_about(c, RING_SURFACE));
+}
+
+const double *roll_coupled_ground_start(const struct roll_ground *g) { return g->shapes.n > 0 ? g->to : NULL; }
+
+const double *roll_coupled_ground_next(struct roll_ground *g, long frame, long *frames)
+{
+    if (!g->moves) return NULL;
+    if (frame == g->ramp_end) {
+        double *from = g->to;
+        g->to = g->from;
+        g->from = from;
+        g->ramp_end += g->ramp;
+        ground_phi(g, g->ramp_end, g->to);
+    }
+    if (frame + *frames >= g->ramp_end) {
+        *frames = g->ramp_end - frame;
+        return g->to;
+    }
+    double share = 1 - (double)(g->ramp_end - frame - *frames) / (double)g->ramp;
+    for (int i = 0; i < g->shapes.n; i++)
+        g->phi[i] = g->from[i] + share * (g->to[i] - g->from[i]);
+    return g->phi;
+}
+
+double roll_coupled_ground_modes(const struct contact *c)
+{
+    const struct response *given = &c->surface.response;
+    return !is_modal(c) ? 0 : given->choice ? given->choice->modes.n : given->modes;
+}
+
 static bool rolling_body(struct rolling *w, const struct contact *c, struct err *e)
 {
     w->mass = c->scraper.mass;
@@ -169,7 +247,7 @@ static void rolling_depth(struct stage_run *r, double rest)
 
 static void rolling_start(struct rolling *w, struct stage_run *r)
 {
-    const double *s = w->curve.s, *phi = roll_ground_start(&w->ground);
+    const double *s = w->curve.s, *phi = roll_coupled_ground_start(&w->ground);
     w->curve.t[0] = 0;
     roll_curve_read(&w->curve, 1);
     w->rest = coupled_rest(w->ball, *s, phi);
@@ -185,7 +263,7 @@ static bool rolling_open(struct stage_run *r, struct err *e)
     struct board *b = r->board;
     r->state = w;
     relief_decide(b->relief, c);
-    if (!rolling_body(w, c, e) || !roll_ground_make(&w->ground, r, e) || !rolling_steps(w, r, e)) return false;
+    if (!rolling_body(w, c, e) || !roll_coupled_ground_make(&w->ground, r, e) || !rolling_steps(w, r, e)) return false;
     struct coupled_ask ask = {.integrator = c->contact.roll.integrator,
                               .step = 1 / (b->rate * b->over * w->substeps),
                               .mass = w->mass,
@@ -209,7 +287,7 @@ static bool rolling_open(struct stage_run *r, struct err *e)
 
 /* ------------------------------------------------------------------ running */
 
-/* The leg from `frame` on. Legs end where the shapes under the ball bend (roll_ground.h) and where the motion does,
+/* The leg from `frame` on. Legs end where the shapes under the ball bend (roll_coupled.h) and where the motion does,
    whatever blocks are asked for, so that these change no bit; what it costs to begin and end a run of steps (shapes,
    the ledger) is paid once a leg: 2000 of 2800 cycles a sample when it was once a frame. */
 static bool rolling_leg(struct rolling *w, struct stage_run *r, long frame, struct err *e)
@@ -217,7 +295,7 @@ static bool rolling_leg(struct rolling *w, struct stage_run *r, long frame, stru
     const struct board *b = r->board;
     double before = (double)frame * w->per_frame, per_second = b->rate * w->per_frame;
     long frames = w->longest < b->moving - frame ? w->longest : b->moving - frame;
-    const double *phi_to = roll_ground_next(&w->ground, frame, &frames);
+    const double *phi_to = roll_coupled_ground_next(&w->ground, frame, &frames);
     int steps = (int)frames * w->per_frame;
     for (int i = 0; i < steps; i++)
         w->curve.t[i] = (before + i + 1) / per_second;
@@ -353,7 +431,7 @@ static bool rolling_wanted(const struct contact *c, const struct scene *s)
 static unsigned rolling_turns(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return roll_ground_modes(c) > 0 && c->motion.path != PATH_STILL ? KNOB_BIT(gain_ramp) : 0;
+    return roll_coupled_ground_modes(c) > 0 && c->motion.path != PATH_STILL ? KNOB_BIT(gain_ramp) : 0;
 }
 
 /* Cycles of a step: 160 on rigid ground, 110 of its place on the curve, 2 a mode, of rk4 11. */
@@ -366,7 +444,7 @@ static double rolling_work(const struct contact *c, const struct scene *s)
     double time =
         coupled_contact_time(c->scraper.mass, k, fmax(PAPER_SPEED, sqrt(2 * ball_gravity(c) * c->contact.roll.drop)));
     return s->accuracy.oversampling * substeps_for(s->accuracy.contact_steps, time, rate) *
-           (270 + mode * roll_ground_modes(c));
+           (270 + mode * roll_coupled_ground_modes(c));
 }
 
 const struct stage roll_coupled_stage = {

@@ -6,6 +6,7 @@
 #include <stdbool.h>
 
 #include "force/hertz.h"
+#include "stage.h"
 
 struct roll_law {
     double stiffness; /* N/m^1.5, k       */
@@ -53,5 +54,20 @@ struct roll_follow roll_follow_make(double resonance, double damping, double dt)
 /* One step, in which the acceleration (m/s^2) goes in a straight line from `start` to `end`. Gives the mean of y over
    it, m. */
 double roll_follow_step(struct roll_follow *f, double start, double end);
+
+/* How a rolling ball lies in its contact at rest, and the stiffness that follows: from both bodies and the ground,
+   never from the motion. */
+struct roll_stiffness {
+    double normal;    /* N, static normal force, N                                       */
+    double rest;      /* m, penetration at rest, delta                                   */
+    double stiffness; /* N/m^1.5, k = N / delta^1.5                                      */
+    double roughness; /* m, Rq of the ground; NAN: not read, as the scene gives the rest */
+    double hertz;     /* m, Hertz's part of delta; 0: a modulus is not known; NAN: as Rq */
+    double resonance; /* rad/s, of the ball's mass on the contact, w0                    */
+};
+
+/* m, Rq: rms height of the ground by second differences, of waves up to some millimetres. Places are in the ground's
+   own coordinates (relief.h, `under` of a tip). */
+double roll_stiffness_roughness(const struct relief *ground);
 
 #endif

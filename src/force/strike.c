@@ -1,6 +1,6 @@
 /* `contact.model: strike`. What strikes has the scraper's mass m and arrives with the speed v; the struck body is taken
    as immovable while they touch, and gravity and the weight at rest as nothing beside the impact's force. Pulses:
-   pulse.c.
+   below.
 
    Repeated impacts are all alike: T_n = first + n interval. A bounce train of restitution e under gravity g:
 
@@ -18,6 +18,8 @@
 
 #include "force/approach.h"
 #include "force/hertz.h"
+#include "num/real.h"
+#include "num/vecmath.h"
 #include "scene/rows.h"
 #include "scene/scene_part.h"
 #include "scene/scene_sense_parts.h"
@@ -127,7 +129,7 @@ bool strike_stiffness(const struct contact *c, double *stiffness, struct err *e)
 
 static bool strike_can(const struct contact *c, const struct strike_train *s, struct err *e)
 {
-    double lasts = pulse_lasts(&s->shape, s->mass, s->stiffness, s->speed);
+    double lasts = strike_pulse_lasts(&s->shape, s->mass, s->stiffness, s->speed);
     if (s->most != 1 && s->interval < lasts)
         return err_set(e, ERR_SCENE,
                        "contact '%s': contact.strike.interval, %.4g s, is shorter than an impact, %.4g s: give a "
@@ -146,7 +148,7 @@ bool strike_make(const struct contact *c, double duration, struct strike_train *
 {
     const struct strike *given = strike_of(c);
     bool several = !isnan(given->interval) || !isnan(given->restitution);
-    *s = (struct strike_train){.shape = pulse_make(given->pulse),
+    *s = (struct strike_train){.shape = strike_pulse_make(given->pulse),
                                .mass = c->scraper.mass,
                                .gravity = c->contact.gravity,
                                .end = duration,
@@ -164,7 +166,7 @@ bool strike_make(const struct contact *c, double duration, struct strike_train *
 bool strike_next(struct strike_train *s, struct strike_impact *i)
 {
     double after = s->restitution * s->speed;
-    *i = (struct strike_impact){s->time, s->speed, pulse_lasts(&s->shape, s->mass, s->stiffness, s->speed),
+    *i = (struct strike_impact){s->time, s->speed, strike_pulse_lasts(&s->shape, s->mass, s->stiffness, s->speed),
                                 s->mass * (s->speed + after)};
     if (s->over == STRIKE_GOES_ON)
         s->over = s->most && s->number == s->most ? STRIKE_COUNT
@@ -185,7 +187,7 @@ bool strike_next(struct strike_train *s, struct strike_impact *i)
 /* ------------------------------------------------------------------ the stage */
 
 /* The stage that lays impacts on the board. The mean of a sub-interval is the momentum handed over in it, exactly
-   (pulse.c), so that all of it arrives at any sample rate and oversampling, also when an impact is over within a
+   (below), so that all of it arrives at any sample rate and oversampling, also when an impact is over within a
    fraction of a sub-interval. Times are counted from the sub-interval in which an impact begins: an hour into a scene
    they are as fine as at its start.
 
@@ -248,7 +250,7 @@ static double striking_mean(struct striking *s, double k, double per_second)
 {
     double force = 0;
     while (s->any) {
-        double q = (k + 1 - s->from - s->after) / s->length, share = pulse_share(&s->train.shape, q);
+        double q = (k + 1 - s->from - s->after) / s->length, share = strike_pulse_share(&s->train.shape, q);
         force += s->now.momentum * per_second * (share - s->share);
         s->share = share;
         if (q < 1) break;
@@ -282,3 +284,96 @@ const struct stage strike_stage = {
     .open = stage_open,
     .run = stage_fill,
 };
+
+/* Pulses of elastic impacts on a body that does not give way. With x the penetration, v the speed of arrival, m the
+   mass, k the stiffness:
+
+     half_sine   m x'' = -k x         f = v sqrt(k m) sin(t sqrt(k/m))       contact time t_c = pi sqrt(m/k)
+     hertz       m x'' = -k x^1.5     x_m = (5 m v^2 / (4 k))^(2/5)          contact time t_c = 2.9432752 x_m / v
+                                      largest force k x_m^1.5                2.9432752 = (4/5) B(2/5, 1/2), B Euler's
+                                        beta function
+
+   (H. Hertz 1882; K. Johnson, Contact Mechanics, 1985, section 11.4.) Either way the speed is reversed and the momentum
+   handed over is 2 m v. What is wanted is exact means of the force over any interval: differences of the momentum
+   handed over so far, m (v - x'). Its share of the whole is p = (1 - x'/v) / 2, a function of q = t / t_c alone:
+
+     half_sine   p = sin^2(pi q / 2)
+     hertz       y = x / x_m, s = t v / x_m:  y'' = -(5/4) y^1.5, y = s G(z), z = s^2.5, G analytic: the equation gives
+                 G's series
+
+       g_0 = 1,   g_{n+1} a (1 + a) = -(5/4) h_n,  a = 5 (n + 1) / 2,   sum h_n z^n = (sum g_n z^n)^1.5   (Miller's
+         recurrence)
+       p = -1/2 sum over n >= 1 of g_n (1 + 5 n / 2) z^n    for q <= 1/2;   p(q) = 1 - p(1 - q) beyond
+
+   At q = 1/2, where it converges most slowly, terms fall by 11 and more; the first one left out is 2e-24. No power but
+   s^2 sqrt(s) is taken. */
+
+static void hertz_series(double term[PULSE_TERMS])
+{
+    double g[PULSE_TERMS + 1] = {1}, h[PULSE_TERMS + 1] = {1};
+    for (int n = 1; n <= PULSE_TERMS; n++) {
+        double a = 2.5 * n, sum = 0;
+        g[n] = -1.25 * h[n - 1] / (a * (1 + a));
+        for (int k = 1; k <= n; k++)
+            sum += (2.5 * k - n) * g[k] * h[n - k];
+        h[n] = sum / n;
+        term[n - 1] = -0.5 * g[n] * (1 + a);
+    }
+}
+
+struct pulse_shape strike_pulse_make(int kind)
+{
+    struct pulse_shape p = {.kind = kind, .scale = kind == PULSE_HERTZ ? 2.94327518432470455 : REAL_PI};
+    if (kind == PULSE_HERTZ) hertz_series(p.term);
+    return p;
+}
+
+double strike_pulse_lasts(const struct pulse_shape *p, double mass, double stiffness, double speed)
+{
+    if (p->kind == PULSE_HALF_SINE) return p->scale * sqrt(mass / stiffness);
+    return p->scale * real_pow(1.25 * mass * speed * speed / stiffness, 0.4) / speed;
+}
+
+/* q <= 1/2 */
+static double share_early(const struct pulse_shape *p, double q)
+{
+    double s = p->scale * q, z = s * s * sqrt(s), sum = 0;
+    if (p->kind == PULSE_HALF_SINE) {
+        s = real_sinpi(0.5 * q);
+        return s * s;
+    }
+    for (int n = PULSE_TERMS - 1; n >= 0; n--)
+        sum = (sum + p->term[n]) * z;
+    return sum;
+}
+
+double strike_pulse_share(const struct pulse_shape *p, double q)
+{
+    if (q <= 0 || q >= 1) return q >= 1;
+    return q <= 0.5 ? share_early(p, q) : 1 - share_early(p, 1 - q);
+}
+
+/* ------------------------------------------------------------------ raised cosines */
+
+/* The covered area of a raised cosine, phi = (1 + cos(2 pi q)) / 2 on -1/2 < q < 1/2, over the whole, 1/2:
+
+     share(q) = q + 1/2 + sin(2 pi q) / (2 pi). */
+
+double strike_pulse_cosine(double q)
+{
+    if (q <= -0.5 || q >= 0.5) return q >= 0.5;
+    return 0.5 + (q + real_sinpi(2 * q) / (2 * REAL_PI));
+}
+
+void strike_pulse_cosines(int n, double *q)
+{
+    double sine[PULSE_COSINES], unused[PULSE_COSINES];
+    if (n < 1) return;
+    for (int i = 0; i < n; i++) {
+        q[i] = q[i] < -0.5 ? -0.5 : q[i] < 0.5 ? q[i] : 0.5; /* where the sine is 0 exactly */
+        sine[i] = 2 * q[i];
+    }
+    vecmath_sincospi((size_t)n, sine, sine, unused);
+    for (int i = 0; i < n; i++)
+        q[i] = 0.5 + (q[i] + sine[i] / (2 * REAL_PI));
+}

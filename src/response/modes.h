@@ -13,7 +13,7 @@
 #include "base/file_cache.h"
 
 /* The first three in the order of enum quantity of scene.h, which has `auto` before; MODES_PRESSURE comes from a
-   listener only, and MODES_FORCE is no motion at all, but the contact force as the sound (convolution/force_sound.c):
+   listener only, and MODES_FORCE is no motion at all, but the contact force as the sound (convolution/mix.c):
    no table holds them. */
 enum modes_quantity {
     MODES_DISPLACEMENT,

@@ -209,12 +209,12 @@ struct limiter {                 /* eq. 4 to 7                                  
 };
 
 struct roll {         /* force/roll.h, convolution/coupled.h                               */
-    double stiffness; /* N/m^1.5, k; NAN: kappa, or static_penetration, or force/roll_stiffness.h, or Hertz's */
+    double stiffness; /* N/m^1.5, k; NAN: kappa, or static_penetration, or force/roll.h, or Hertz's */
     double kappa;     /* N/(m^1.5 kg), k over the ball's mass                              */
     double mu;        /* s/m, lambda / k                                                   */
     double lambda;    /* N s/m^2.5, of penetration: paper                                  */
     int penetration;  /* enum penetration (roll)                                           */
-    double static_penetration; /* m, penetration at rest; NAN: of force/roll_stiffness.h (roll)  */
+    double static_penetration; /* m, penetration at rest; NAN: of force/roll.h (roll)  */
     double damping_ratio;      /* zeta of the ball's mass on the contact, beside mu's part (roll)   */
     double scraping;           /* factor on equation 19's scraping terms (roll)                     */
     int integrator;            /* enum integrator (roll_coupled)                                    */

@@ -41,8 +41,6 @@
 #include "num/real.h"
 #include "scene/rules.h"
 #include "stage.h"
-#include "trajectory/cubic.h"
-#include "trajectory/scan.h"
 #include "trajectory/series.h"
 
 enum { LOAD_SOME = 256 };
@@ -68,8 +66,8 @@ static double record_at(const struct load_record *r, size_t *piece, double t)
     const struct cubic *c = &r->spline;
     double out[4], x = t + r->clock;
     if (x <= c->at[0] || x >= c->at[c->n - 1]) return x <= c->at[0] ? c->y[0] : c->y[c->n - 1];
-    *piece = cubic_next(c->n, c->at, *piece, x);
-    cubic_at(c, *piece, x, out);
+    *piece = series_cubic_next(c->n, c->at, *piece, x);
+    series_cubic_at(c, *piece, x, out);
     return out[0];
 }
 
@@ -171,7 +169,7 @@ static bool load_recorded(const struct contact *c, const struct trajectory *tr, 
                        "it must cover the motion",
                        c->name, c->load.recorded, first, last, start, end);
     r->clock = tr->clock;
-    cubic_natural(&r->spline, s.n, s.time, s.x[0], a);
+    series_cubic_natural(&r->spline, s.n, s.time, s.x[0], a);
     l->record = r;
     l->still = NAN;
     return true;
@@ -226,7 +224,7 @@ static void load_range(struct load_law *l, const struct trajectory *tr)
     long detail = 4 * tr->detail + (l->record       ? 4 * (long)l->record->spline.n
                                     : l->turned > 0 ? (long)load_turns(l, tr)
                                                     : 0);
-    scan_range(&(struct scan){load_scan_at, &s}, 0, l->record ? tr->duration : tr->cycle, detail, range);
+    series_range(&(struct scan){load_scan_at, &s}, 0, l->record ? tr->duration : tr->cycle, detail, range);
     l->least = fmax(range[0], 0);
     l->most = fmax(range[1], 0);
 }

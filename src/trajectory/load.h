@@ -25,7 +25,7 @@ struct load_law {
 };
 
 /* ERR_SCENE when the grip jams (mu tan theta >= 0.999), or the motion is shorter than approach and release; ERR_INPUT,
-   ERR_SCENE for a recorded force. least and most are exact to rounding (trajectory/scan.h); those of a load that does
+   ERR_SCENE for a recorded force. least and most are exact to rounding (series_range); those of a load that does
    not vary are `still`. */
 bool load_make(const struct contact *c, const struct trajectory *tr, struct arena *a, struct load_law *l,
                struct err *e);

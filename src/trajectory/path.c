@@ -6,7 +6,6 @@
 #include "num/noise.h"
 #include "num/real.h"
 #include "num/vecmath.h"
-#include "trajectory/cubic.h"
 #include "trajectory/series.h"
 
 /* ------------------------------------------------------------------ courses */
@@ -32,10 +31,10 @@ static void cubic_course_at(const struct course *c, size_t n, const double *w, c
     const struct cubic *axis = c->state;
     size_t i = 0;
     for (size_t k = 0; k < n; k++) {
-        i = cubic_next(axis->n, axis->at, i, w[k]);
+        i = series_cubic_next(axis->n, axis->at, i, w[k]);
         for (int xy = 0; xy < 2; xy++) {
             double v[4];
-            cubic_at(&axis[xy], i, w[k], v);
+            series_cubic_at(&axis[xy], i, w[k], v);
             if (out->p[xy]) out->p[xy][k] = v[0];
             if (out->d[xy]) out->d[xy][k] = v[1];
             if (out->dd[xy]) out->dd[xy][k] = v[2];
@@ -51,7 +50,7 @@ static void cubic_course(struct course *c, size_t n, const double *knots, const 
     for (int xy = 0; xy < 2; xy++) {
         for (size_t i = 0; i < n; i++)
             one[i] = p[i][xy];
-        cubic_natural(&axis[xy], n, knots, one, a);
+        series_cubic_natural(&axis[xy], n, knots, one, a);
     }
     *c = (struct course){.end = knots[n - 1], .breaks = knots, .n_breaks = n, .at = cubic_course_at, .state = axis};
 }
@@ -157,7 +156,7 @@ void path_scribble(struct course *c, const struct motion *m, uint64_t seed, doub
 /* ------------------------------------------------------------------ recordings */
 
 /* Positions over time from a CSV become C2 functions of time: cubic splines, at times that need not be evenly spaced
-   (trajectory/cubic.h).
+   (trajectory/series.h).
 
    With motion.cutoff they are smoothing splines, which a sine at that frequency passes with half its power, one at half
    of it with 0.95, at twice it with 0.02; with cutoff 0 they go through the rows. Both have no acceleration at their
@@ -190,7 +189,7 @@ static bool recorded_smooth(const struct motion *m, const struct series *s, stru
                        "interpolated",
                        m->cutoff, rate, m->file);
     for (int k = 0; k < 2; k++)
-        cubic_smooth(s->n, s->time, s->x[k], m->cutoff, s->x[k], a);
+        series_cubic_smooth(s->n, s->time, s->x[k], m->cutoff, s->x[k], a);
     return true;
 }
 

@@ -7,7 +7,6 @@
 #include "num/real.h"
 #include "num/vecmath.h"
 #include "scene/incline.h"
-#include "trajectory/cubic.h"
 #include "trajectory/panels.h"
 #include "trajectory/series.h"
 
@@ -371,7 +370,7 @@ static void given_fit(struct given *g, const double *v, struct arena *a)
 static void given_distance(const struct given *g, size_t *i, double t, double out[3])
 {
     double last = g->t[g->n - 1], at = t < 0 ? 0 : t > last ? last : t;
-    *i = cubic_next(g->n, g->t, *i, at);
+    *i = series_cubic_next(g->n, g->t, *i, at);
     const double *c = g->c[*i];
     double x = at - g->t[*i];
     out[1] = fmax(c[0] + x * (c[1] + x * (c[2] + x * c[3])), 0); /* rounding leaves -1e-17 beside a row of 0 */

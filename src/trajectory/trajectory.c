@@ -19,7 +19,7 @@
 #include "stage.h"
 #include "trajectory/panels.h"
 #include "trajectory/path.h"
-#include "trajectory/scan.h"
+#include "trajectory/series.h"
 #include "trajectory/speed.h"
 
 struct trajectory_state {
@@ -415,7 +415,7 @@ static void whole_box(struct trajectory *tr)
         double a = tr->from[xy] + tr->reach[0] * tr->e[xy], b = tr->from[xy] + tr->reach[1] * tr->e[xy];
         range[0] = fmin(a, b);
         range[1] = fmax(a, b);
-        if (!tr->straight) scan_range(&(struct scan){xy ? scan_y : scan_x, tr}, 0, tr->duration, tr->detail, range);
+        if (!tr->straight) series_range(&(struct scan){xy ? scan_y : scan_x, tr}, 0, tr->duration, tr->detail, range);
         tr->box[0][xy] = range[0];
         tr->box[1][xy] = range[1];
     }
@@ -439,7 +439,7 @@ static void whole(struct making *w)
     whole_box(tr);
     tr->top_speed = law->top;
     if (w->s->timed) {
-        scan_range(&(struct scan){scan_du, tr}, 0, tr->duration, tr->detail, range);
+        series_range(&(struct scan){scan_du, tr}, 0, tr->duration, tr->detail, range);
         tr->top_speed = range[1];
     }
     trajectory_at(tr, 2, ends, (struct trajectory_out){.du = du});

@@ -31,7 +31,7 @@ struct trajectory {
     bool starts_at_rest, ends_at_rest;
     double clock;                         /* s: what a recording's own time says at the start; else 0 */
     double cycle;                         /* s, after which the motion repeats itself; else the duration */
-    long detail;                          /* instants of a cycle that show all of its shape (for scan.h) */
+    long detail;                          /* instants of a cycle that show all of its shape (for series_range) */
     const struct trajectory_state *state; /* the path's and the law's own         */
 };
 

@@ -7,7 +7,7 @@
 #include "force/impact_series.h"
 #include "impacts.h"
 
-extern const struct stage impacts_stage;
+extern const struct stage impact_series_stage;
 
 static const double rates[] = {8000, 22050, 48000, 192000};
 enum { RATES = sizeof rates / sizeof rates[0] };
@@ -80,7 +80,7 @@ START_TEST(means_are_those_of_the_sum)
     struct contact c = crowd(0.05);
     struct shot s;
     long n;
-    ck_assert_msg(shot_open(&s, &impacts_stage, &c, 48000, 3), "%s", s.e.text);
+    ck_assert_msg(shot_open(&s, &impact_series_stage, &c, 48000, 3), "%s", s.e.text);
     const double *force = shot_force(&s, 3000), dt = 1.0 / (3 * 48000);
     struct impact *all = drawn(&s, &n);
     double worst = 0, peak = 0;
@@ -122,7 +122,7 @@ START_TEST(momentum_is_kept)
                 struct shot s;
                 double want = 0, whole = 0, sum = 0, all = 0;
                 long n, frames = (long)(0.15 * rates[r]);
-                ck_assert_msg(shot_open(&s, &impacts_stage, &c, rates[r], over), "%s", s.e.text);
+                ck_assert_msg(shot_open(&s, &impact_series_stage, &c, rates[r], over), "%s", s.e.text);
                 struct impact *list = drawn(&s, &n);
                 for (long i = 0; i < n; i++) {
                     want += list[i].amplitude * list[i].duration / 2 * after_start(&list[i]);
@@ -144,7 +144,7 @@ END_TEST
 
 /* ------------------------------------------------------------------ the same force */
 
-static json_t *reported(const struct shot *s) { return impacts_stage.report(&s->run, s->arena).value; }
+static json_t *reported(const struct shot *s) { return impact_series_stage.report(&s->run, s->arena).value; }
 
 static long reported_count(const json_t *report, const char *key)
 {
@@ -156,11 +156,11 @@ START_TEST(blocks_do_not_matter)
 {
     struct contact c = crowd(0.2);
     struct shot a, b;
-    ck_assert(shot_open(&a, &impacts_stage, &c, 44100, 4) && shot_open(&b, &impacts_stage, &c, 44100, 4));
+    ck_assert(shot_open(&a, &impact_series_stage, &c, 44100, 4) && shot_open(&b, &impact_series_stage, &c, 44100, 4));
     const double *x = shot_force(&a, 9000), *y;
     shot_room(&b, ITEM_SUBFORCE, 4, 9216);
     for (long from = 0; from < 9216; from += STAGE_BLOCK)
-        ck_assert(impacts_stage.run(&b.run, from, from + STAGE_BLOCK, &b.e));
+        ck_assert(impact_series_stage.run(&b.run, from, from + STAGE_BLOCK, &b.e));
     y = board_at(&b.board, ITEM_SUBFORCE, 0);
     ck_assert_int_eq(memcmp(x, y, 9000 * 4 * sizeof *x), 0);
     json_t *of[2] = {reported(&a), reported(&b)};
@@ -176,7 +176,7 @@ static double block_of(struct shot *s, long from, double out[500])
 {
     double peak = 0;
     s->board.signals[ITEM_SUBFORCE].first = from;
-    ck_assert(impacts_stage.run(&s->run, from, from + 500, &s->e));
+    ck_assert(impact_series_stage.run(&s->run, from, from + 500, &s->e));
     memcpy(out, board_at(&s->board, ITEM_SUBFORCE, from), 500 * sizeof *out);
     for (int i = 0; i < 500; i++)
         peak = fmax(peak, fabs(out[i]));
@@ -192,7 +192,7 @@ START_TEST(an_hour_later)
     struct shot s;
     double early[500], late[500];
     size_t minute = 0;
-    ck_assert_msg(shot_open(&s, &impacts_stage, &c, 8000, 1), "%s", s.e.text);
+    ck_assert_msg(shot_open(&s, &impact_series_stage, &c, 8000, 1), "%s", s.e.text);
     shot_room(&s, ITEM_SUBFORCE, 1, 1000);
     double peak = block_of(&s, 0, early);
     peak = fmax(peak, block_of(&s, 500, early));
@@ -214,11 +214,11 @@ START_TEST(memory_does_not_grow)
     struct contact c = crowd(10);
     struct shot s;
     size_t second = 0;
-    ck_assert(shot_open(&s, &impacts_stage, &c, 48000, 4));
+    ck_assert(shot_open(&s, &impact_series_stage, &c, 48000, 4));
     shot_room(&s, ITEM_SUBFORCE, 4, 2000);
     for (long from = 0; from < 480000; from += 1000) {
         s.board.signals[ITEM_SUBFORCE].first = from;
-        ck_assert(impacts_stage.run(&s.run, from, from + 1000, &s.e));
+        ck_assert(impact_series_stage.run(&s.run, from, from + 1000, &s.e));
         if (from == 48000) second = arena_bytes(s.arena);
     }
     ck_assert_uint_le(arena_bytes(s.arena), second + 100000);
@@ -236,7 +236,7 @@ START_TEST(impacts_that_take_place)
         struct contact c = prototype == PROTOTYPE_CUSTOM ? crowd(0.3) : series(prototype, 0.3);
         struct shot s[2];
         long n[2];
-        ck_assert(shot_open(&s[0], &impacts_stage, &c, 22050, 1) && shot_open(&s[1], &impacts_stage, &c, 192000, 32));
+        ck_assert(shot_open(&s[0], &impact_series_stage, &c, 22050, 1) && shot_open(&s[1], &impact_series_stage, &c, 192000, 32));
         struct impact *a = drawn(&s[0], &n[0]), *b = drawn(&s[1], &n[1]);
         ck_assert_int_eq(n[0], n[1]);
         ck_assert_int_gt(n[0], 5);
@@ -263,7 +263,7 @@ START_TEST(report)
     struct shot s;
     long n, crossing = 0;
     double sum = 0;
-    ck_assert(shot_open(&s, &impacts_stage, &c, 8000, 1));
+    ck_assert(shot_open(&s, &impact_series_stage, &c, 8000, 1));
     shot_force(&s, 20000);
     json_t *o = reported(&s);
     struct impact *all = drawn(&s, &n);
@@ -281,7 +281,7 @@ START_TEST(report)
     arena_close(s.arena);
     for (int k = 0; k < 2; k++) {
         struct contact e = even(4e-3, lasts[k], 0.999);
-        ck_assert(shot_open(&s, &impacts_stage, &e, 8000, 1));
+        ck_assert(shot_open(&s, &impact_series_stage, &e, 8000, 1));
         shot_force(&s, 9000);
         o = reported(&s);
         ck_assert_int_eq(reported_count(o, "overlaps"), k ? reported_count(o, "count") - 1 : 0);
@@ -297,7 +297,7 @@ START_TEST(too_long_a_one_is_refused)
     struct shot s;
     impacts_in(&c)->theta = 2;
     impacts_in(&c)->zeta = 0.1;
-    ck_assert(!shot_open(&s, &impacts_stage, &c, 48000, 1));
+    ck_assert(!shot_open(&s, &impact_series_stage, &c, 48000, 1));
     ck_assert_int_eq(s.e.kind, ERR_SCENE);
     ck_assert_msg(strstr(s.e.text, "an impact of the least amplitude would last") != NULL, "%s", s.e.text);
     arena_close(s.arena);

@@ -7,8 +7,7 @@
 #include <unistd.h>
 
 #include "motions.h"
-#include "trajectory/cubic.h"
-#include "trajectory/scan.h"
+#include "trajectory/series.h"
 
 static const char *file_of(const char *text)
 {
@@ -153,7 +152,7 @@ START_TEST(smoothing_is_its_definition)
         double h = (t[n - 1] - t[0]) / (n - 1), cutoff = between(0.01, 0.45) / h, c = cos(2 * M_PI * cutoff * h);
         double p = (sqrt(2) - 1) * (h * (2 + c) / 3) * h * h * h / ((2 - 2 * c) * (2 - 2 * c));
         dense(n, t, y, p, want);
-        cubic_smooth((size_t)n, t, y, cutoff, got, motions_arena());
+        series_cubic_smooth((size_t)n, t, y, cutoff, got, motions_arena());
         for (int i = 0; i < n; i++)
             ck_assert_double_eq_tol(got[i], want[i], 1e-11);
     }
@@ -169,7 +168,7 @@ static double gain(double rate, double frequency, double cutoff)
         t[i] = i / rate;
         y[i] = sin(2 * M_PI * frequency * t[i] + 0.3);
     }
-    cubic_smooth((size_t)n, t, y, cutoff, f, motions_arena());
+    series_cubic_smooth((size_t)n, t, y, cutoff, f, motions_arena());
     for (int i = n / 4; i < 3 * n / 4; i++) {
         double w = 0.5 - 0.5 * cos(2 * M_PI * (i - n / 4) / (n / 2.0));
         re += w * f[i] * cos(2 * M_PI * frequency * t[i] + 0.3);
@@ -369,7 +368,7 @@ START_TEST(scan_finds_extremes)
     for (int k = 0; k < 40; k++) {
         double p[2] = {between(0.1, 5), 0}, from = between(-1, 1), to = from + between(0.1, 3), range[2],
                least = HUGE_VAL, most = -HUGE_VAL;
-        scan_range(&(struct scan){wave, p}, from, to, 64 + (long)(40 * p[0] * (to - from)), range);
+        series_range(&(struct scan){wave, p}, from, to, 64 + (long)(40 * p[0] * (to - from)), range);
         for (int i = 0; i <= 2000000; i += k < 10 ? 1 : 20) {
             double t = from + (to - from) * (i / 2e6), y;
             wave(p, 1, &t, &y);
@@ -383,19 +382,19 @@ START_TEST(scan_finds_extremes)
     }
     for (int i = 1; i < 20; i++) { /* an extreme within the first or the last step */
         double one[2] = {1, 0}, mid[2], range[2], at0 = 0, top;
-        scan_range(&(struct scan){wave, one}, 0.1, 0.4, 300, mid);
+        series_range(&(struct scan){wave, one}, 0.1, 0.4, 300, mid);
         for (double t = 0.1; t < 0.4; t += 1e-5) {
             wave(one, 1, &t, &top);
             at0 = top > mid[1] - 1e-9 ? t : at0;
         }
-        scan_range(&(struct scan){wave, one}, at0 - 0.01 * i / 20, at0 + 0.3, 30, range);
+        series_range(&(struct scan){wave, one}, at0 - 0.01 * i / 20, at0 + 0.3, 30, range);
         ck_assert_double_eq_tol(range[1], mid[1], 1e-15);
-        scan_range(&(struct scan){wave, one}, at0 - 0.3, at0 + 0.01 * i / 20, 30, range);
+        series_range(&(struct scan){wave, one}, at0 - 0.3, at0 + 0.01 * i / 20, 30, range);
         ck_assert_double_eq_tol(range[1], mid[1], 1e-15);
     }
     for (int steps = 30; steps < 200; steps++) {
         double saw[2] = {3.7, 1}, range[2];
-        scan_range(&(struct scan){wave, saw}, 0.05, 2.1, steps, range);
+        series_range(&(struct scan){wave, saw}, 0.05, 2.1, steps, range);
         ck_assert_double_ge(range[1], 1 - 1e-9);
         ck_assert_double_le(range[0], 1e-9);
     }

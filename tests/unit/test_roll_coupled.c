@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "convolution/ring_choice.h"
-#include "convolution/roll_ground.h"
+#include "convolution/roll_coupled.h"
 #include "file/csv.h"
 #include "output/force_table.h"
 #include "pipeline/render.h"
@@ -349,8 +349,8 @@ START_TEST(shapes_follow_the_contact)
     ck_assert(trajectory_make(&s.contacts[0].motion, 1, rig_arena(), &tr, &e));
     struct board b = {.rate = 48000, .over = 4, .trajectory = &tr};
     struct stage_run r = {.scene = &s, .contact = &s.contacts[0], .board = &b, .arena = rig_arena()};
-    ck_assert_msg(roll_ground_make(&ground, &r, &e), "%s", e.text);
-    const double *phi = roll_ground_start(&ground);
+    ck_assert_msg(roll_coupled_ground_make(&ground, &r, &e), "%s", e.text);
+    const double *phi = roll_coupled_ground_start(&ground);
     double knots[2][20], changes = 0;
     ck_assert_double_eq(s.accuracy.gain_ramp, 64);
     for (long n = 0; n <= 4800; n++) {
@@ -363,7 +363,7 @@ START_TEST(shapes_follow_the_contact)
             changes += knots[0][i] * knots[1][i] < 0;
         }
         long frames = n < 2400 ? 1 : 1 + n % 3;
-        phi = roll_ground_next(&ground, n, &frames);
+        phi = roll_coupled_ground_next(&ground, n, &frames);
         ck_assert(frames <= 64 - n % 64); /* a leg ends where the shapes bend */
         n += frames - 1;
     }

@@ -2,7 +2,7 @@
    the ground's roughness by second differences, against closed forms. */
 
 #include "force/hertz.h"
-#include "force/roll_stiffness.h"
+#include "force/roll.h"
 #include "rig.h"
 
 /* ------------------------------------------------------------------ the ground's roughness */

@@ -36,7 +36,7 @@ static void ground_close(struct floor *g)
 /* The surface of a scene, as it is before the tip; the contact is a ball's. */
 static void ground_make(struct floor *g, const char *surface, double radius, double patch)
 {
-    static const struct stage *const parts[] = {&surface_stage,   &height_map_stage, &continuation_stage,
+    static const struct stage *const parts[] = {&relief_stage,   &height_map_stage, &continuation_stage,
                                                 &roughness_stage, &ridges_stage,     &grit_stage,
                                                 &fractal_stage};
     struct err e = {0};

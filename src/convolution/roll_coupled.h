@@ -1,6 +1,6 @@
 /* What gives way under a rolling ball: the surface's modes, and their shapes at the contact's place as it moves. */
-#ifndef CONVOLUTION_ROLL_GROUND_H
-#define CONVOLUTION_ROLL_GROUND_H
+#ifndef CONVOLUTION_ROLL_COUPLED_H
+#define CONVOLUTION_ROLL_COUPLED_H
 #include "response/modes.h"
 #include "stage.h"
 
@@ -15,17 +15,17 @@ struct roll_ground {
 
 /* By contact.roll.ground; at rest at the motion's start. ERR_SCENE: no modes though `elastic`, gains that are not the
    driving point's, a motion that leaves the places that are known. */
-bool roll_ground_make(struct roll_ground *g, const struct stage_run *r, struct err *e);
+bool roll_coupled_ground_make(struct roll_ground *g, const struct stage_run *r, struct err *e);
 
 /* phi[n] at the motion's start; NULL: rigid. */
-const double *roll_ground_start(const struct roll_ground *g);
+const double *roll_coupled_ground_start(const struct roll_ground *g);
 
 /* phi[n] at the end of a leg, which begins at `frame`, legs in order: read every accuracy.gain_ramp frames, at
    multiples of it, straight between. *frames, at least 1: the leg's length, which is shortened to where phi bends next.
    NULL: as it was. */
-const double *roll_ground_next(struct roll_ground *g, long frame, long *frames);
+const double *roll_coupled_ground_next(struct roll_ground *g, long frame, long *frames);
 
 /* How many modes, for predictions of cost. */
-double roll_ground_modes(const struct contact *c);
+double roll_coupled_ground_modes(const struct contact *c);
 
 #endif
