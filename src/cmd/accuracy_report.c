@@ -143,32 +143,27 @@ static void print_total(struct report *out, const struct accuracy_sweep *s, cons
 static void set_error(struct report *r, const char *key, const struct accuracy_render *x)
 {
     const struct accuracy_error *o = &x->error;
-    report_object(r, key);
     if (x->code != 0)
-        report_set(r, "exit_code:i says:s", x->code, x->words);
+        report_set(r, "$:{ exit_code:i says:s }", key, x->code, x->words);
     else
         report_set(r,
-                   "snr_db:n same_samples:b third_octave_db:n third_octave_hz:n spectral_db:n level_db:n follows_s:n",
-                   o->snr, isinf(o->snr) && o->snr > 0, o->third, o->third_hz, o->spectral, o->level, o->follows);
-    report_end(r);
+                   "$:{ snr_db:n same_samples:b third_octave_db:n third_octave_hz:n spectral_db:n level_db:n "
+                   "follows_s:n }",
+                   key, o->snr, isinf(o->snr) && o->snr > 0, o->third, o->third_hz, o->spectral, o->level, o->follows);
 }
 
 static void report_setting(struct report *r, const struct accuracy_sweep *s, const struct accuracy_row *w, bool colour)
 {
     const struct accuracy_render *x = &s->renders[w->total];
     struct arena *a = s->call->arena;
-    report_object(r, NULL);
-    report_set(r, "setting:s value:s scene:b alone:0 order:n total:0 cost:0 front:b below_reference:b", w->name,
+    report_set(r, ":{ setting:s value:s scene:b alone:0 order:n total:0 cost:0 front:b below_reference:b", w->name,
                w->value, w->chosen, w->order, x->front, accuracy_judge_below(s, x));
     if (w->alone >= 0) set_error(r, "alone", &s->renders[w->alone]);
     set_error(r, "total", x);
-    if (x->code == 0) {
-        report_object(r, "cost");
-        report_set(r, "cpu_s:n real_time_factor:n peak_bytes:n contact_share:n", x->cpu,
+    if (x->code == 0)
+        report_set(r, "cost:{ cpu_s:n real_time_factor:n peak_bytes:n contact_share:n }", x->cpu,
                    x->error.length / fmax(x->cpu, 1e-9), x->peak, x->contact_share);
-        report_end(r);
-    }
-    report_end(r);
+    report_set(r, "}");
     report_text(r, "%s%-24s", colour && x->front ? "\033[1;32m" : "",
                 arena_format(a, "%c %s %s%s", w->chosen ? '=' : ' ', w->name, w->value, x->front ? " *" : ""));
     report_text(r, "  %10s %6s", w->alone >= 0 ? error_text(s, &s->renders[w->alone]) : "",
@@ -185,13 +180,11 @@ bool accuracy_report(const struct accuracy_sweep *s, struct err *e)
     struct report r = report_open(stdout, s->json);
     report_set(&r, "scene:s compared:s length_s:n rate_hz:n channels:i runs:i", s->file, s->force ? "force" : "sound",
                s->length, s->rate, s->channels, s->runs);
-    report_set(&r, "diverges_s:n reference_error_db:n", s->until, -s->own_db);
-    report_object(&r, "reference_errors_db");
+    report_set(&r, "diverges_s:n reference_error_db:n reference_errors_db:{", s->until, -s->own_db);
     for (int k = 0; k < KNOBS; k++)
         if (s->knobs & 1u << k)
-            report_set(&r, arena_format(a, "%s:n", keys_knobs[k].name),
-                       s->own[k] > 0.0 ? 20.0 * real_log10(s->own[k]) : NAN);
-    report_end(&r);
+            report_set(&r, "$:n", keys_knobs[k].name, s->own[k] > 0.0 ? 20.0 * real_log10(s->own[k]) : NAN);
+    report_set(&r, "} settings:[");
     report_note(&r, "",
                 arena_format(a, "%s: %s%.3f s, %.9g Hz, %d channel%s; turned by %s.", text_shown(a, s->file),
                              s->force ? "no sound, so its contact force: " : "", s->length, s->rate, s->channels,
@@ -207,12 +200,10 @@ bool accuracy_report(const struct accuracy_sweep *s, struct err *e)
                 "spectrum");
     if (isfinite(s->until)) report_text(&r, " %8s %8s %8s", "level", "follows", "contact");
     report_text(&r, "  %9s %-*s %7s  %9s\n", "CPU", BAR, "", "x real", "memory");
-    report_list(&r, "settings");
     for (int i = 0; i < s->n_rows; i++) {
         if (i > 0 && strcmp(s->rows[i].name, s->rows[i - 1].name) != 0) report_text(&r, "\n");
         report_setting(&r, s, &s->rows[i], colour);
     }
-    report_end(&r);
     for (int i = 0; i < s->n_renders; i++)
         if (s->renders[i].code != 0)
             report_text(&r, "exit %d with %s: %s\n", s->renders[i].code, accuracy_rows_name(s, i), s->renders[i].words);

@@ -129,15 +129,12 @@ static void print_statistics(struct report *r, const struct analysis *a)
 static void report_shape(struct report *r, const struct analysis *a)
 {
     const struct impact_shape *h = &a->shape;
-    if (h->fitted > 0) {
-        report_object(r, "shape");
-        report_set(
-            r, "fitted:l cosine_r2_5_50_95:a meixner_r2_5_50_95:a meixner_b:n meixner_xi:n cosine_over_contact_time:n",
-            h->fitted, h->r2[0], 3, h->r2[1], 3, h->b, h->xi, h->stretch);
-        report_set(r, "time_over_duration:a mean:a deviation:a", h->q, IMPACT_SHAPE_POINTS, h->mean,
+    if (h->fitted > 0)
+        report_set(r,
+                   "shape:{ fitted:l cosine_r2_5_50_95:a meixner_r2_5_50_95:a meixner_b:n meixner_xi:n "
+                   "cosine_over_contact_time:n time_over_duration:a mean:a deviation:a }",
+                   h->fitted, h->r2[0], 3, h->r2[1], 3, h->b, h->xi, h->stretch, h->q, IMPACT_SHAPE_POINTS, h->mean,
                    IMPACT_SHAPE_POINTS, h->deviation, IMPACT_SHAPE_POINTS);
-        report_end(r);
-    }
     if (!a->source.has_force) return;
     if (h->fitted == 0) {
         line(r, "shape");
@@ -159,26 +156,22 @@ static void report_shape(struct report *r, const struct analysis *a)
 
 static void set_estimate(struct report *r, const char *key, const struct estimate *x)
 {
-    report_object(r, key);
-    report_set(r, "value:n error:n low:n high:n", x->value, x->error, x->low, x->high);
-    report_end(r);
+    report_set(r, "$:{ value:n error:n low:n high:n }", key, x->value, x->error, x->low, x->high);
 }
 
 static void set_distribution(struct report *r, const char *key, const struct distribution_fits *d)
 {
-    report_object(r, key);
     report_set(r,
-               "gaussian_r2:n gaussian_distance:n exponential_mean:n exponential_distance:n gamma_shape:n "
-               "gamma_scale:n gamma_distance:n skewness:n kurtosis:n",
-               d->gaussian_r2, d->gaussian_distance, d->exponential_mean, d->exponential_distance, d->gamma_shape,
+               "$:{ gaussian_r2:n gaussian_distance:n exponential_mean:n exponential_distance:n gamma_shape:n "
+               "gamma_scale:n gamma_distance:n skewness:n kurtosis:n }",
+               key, d->gaussian_r2, d->gaussian_distance, d->exponential_mean, d->exponential_distance, d->gamma_shape,
                d->gamma_scale, d->gamma_distance, d->skewness, d->kurtosis);
-    report_end(r);
 }
 
 static void set_series(struct report *r, const char *key, const struct analysis *a, int k)
 {
     const struct series_statistics *s = &a->statistics.series[k];
-    report_object(r, key);
+    report_set(r, "$:{", key);
     set_estimate(r, "mean", &s->mean);
     set_estimate(r, "a1", &s->a1);
     set_estimate(r, "b1", &s->b1);
@@ -187,44 +180,37 @@ static void set_series(struct report *r, const char *key, const struct analysis 
                s->whiteness, s->whiteness_p, s->flat, s->ridge, analyse_tabled(a, k) ? "table" : "gaussian");
     set_distribution(r, "white", &s->white);
     set_distribution(r, "series", &s->itself);
-    report_set(r, "correlation:a white_correlation:a", s->correlation, STATISTICS_LAGS, s->white_correlation,
+    report_set(r, "correlation:a white_correlation:a }", s->correlation, STATISTICS_LAGS, s->white_correlation,
                STATISTICS_LAGS);
-    report_end(r);
 }
 
 static void set_statistics(struct report *r, const struct analysis *a)
 {
     const struct impact_statistics *t = &a->statistics;
     const struct impact_modulation *m = &t->modulation;
-    report_object(r, "statistics");
+    report_set(r, "statistics:{");
     set_series(r, "amplitude_n", a, STATISTICS_AMPLITUDE);
     set_series(r, "interval_s", a, STATISTICS_INTERVAL);
     report_set(r, "one_process:n one_process_taken:b modulation:0", t->one_process, analyse_one_process(a));
-    if (m->looked) {
-        report_object(r, "modulation");
-        report_set(r, "depth:n rate_hz:n probability:n found:b", m->depth, m->rate, m->probability, m->found);
-        report_end(r);
-    }
-    report_set(r, "cross_correlation:a white_cross_correlation:a", t->cross, 2 * STATISTICS_LAGS - 1, t->white_cross,
+    if (m->looked)
+        report_set(r, "modulation:{ depth:n rate_hz:n probability:n found:b }", m->depth, m->rate, m->probability,
+                   m->found);
+    report_set(r, "cross_correlation:a white_cross_correlation:a }", t->cross, 2 * STATISTICS_LAGS - 1, t->white_cross,
                2 * STATISTICS_LAGS - 1);
-    report_end(r);
 }
 
 static void set_source(struct report *r, const char *key, const struct analyse_source *s)
 {
     const struct impact_found *f = &s->found;
-    report_object(r, key);
-    report_set(r, "file:s kind:s force:b impacts:i run_into_neighbour:l", s->file, s->kind, s->has_force, f->events.n,
-               f->touching);
-    if (s->has_force) {
-        report_set(r, "rate_hz:n duration_s:n greatest_n:n least_n:n", s->signal.rate,
-                   (double)s->signal.n / s->signal.rate, f->greatest, f->least);
-        report_set(r, "alone:l with_shoulder:l left_out_below_threshold:l left_out_not_prominent:l", f->alone,
-                   f->merged, f->low, f->ripples);
-        report_set(r, "both_ends_found:l duration_unknown:l contact_time_over_width:n", f->feet, f->unknown,
-                   f->stretch);
-    }
-    report_end(r);
+    report_set(r, "$:{ file:s kind:s force:b impacts:i run_into_neighbour:l", key, s->file, s->kind, s->has_force,
+               f->events.n, f->touching);
+    if (s->has_force)
+        report_set(r,
+                   "rate_hz:n duration_s:n greatest_n:n least_n:n alone:l with_shoulder:l left_out_below_threshold:l "
+                   "left_out_not_prominent:l both_ends_found:l duration_unknown:l contact_time_over_width:n",
+                   s->signal.rate, (double)s->signal.n / s->signal.rate, f->greatest, f->least, f->alone, f->merged,
+                   f->low, f->ripples, f->feet, f->unknown, f->stretch);
+    report_set(r, "}");
 }
 
 bool analyse_report(const struct analysis *a, bool json, struct err *e)
@@ -249,13 +235,11 @@ bool analyse_report(const struct analysis *a, bool json, struct err *e)
                                            [ANALYSE_THETA_ALONE] = "those that stand alone",
                                            [ANALYSE_THETA_NONE] = ""};
         const struct impact_duration *d = &a->duration;
-        report_object(&r, "duration");
-        report_set(&r, "theta:n theta_error:n theta_from:s constant:b singles:l", d->theta, d->theta_error,
-                   theta_from[a->theta], a->constant, d->singles);
-        report_set(&r, "theta_single:n zeta_single_s:n r2_single:n r2_single_log:n", d->theta_single, d->zeta_single,
-                   d->r2_single, d->r2_single_log);
-        report_set(&r, "zeta_s:n impacts:l r2:n r2_log:n", d->zeta, d->n, d->r2, d->r2_log);
-        report_end(&r);
+        report_set(&r,
+                   "duration:{ theta:n theta_error:n theta_from:s constant:b singles:l theta_single:n zeta_single_s:n "
+                   "r2_single:n r2_single_log:n zeta_s:n impacts:l r2:n r2_log:n }",
+                   d->theta, d->theta_error, theta_from[a->theta], a->constant, d->singles, d->theta_single,
+                   d->zeta_single, d->r2_single, d->r2_single_log, d->zeta, d->n, d->r2, d->r2_log);
         const char *whose = a->theta == ANALYSE_THETA_ALONE && !a->source.has_force ? "all" : from[a->theta];
         report_text(&r, "\n");
         line(&r, "duration, step 1");

@@ -157,52 +157,35 @@ static void report_stimulus(struct report *r, const struct batch_report *b, int 
     const struct design_stimulus *s = &d->stimuli[i];
     char seed[24];
     snprintf(seed, sizeof seed, "%" PRIu64, s->seed); /* as text: many readers of JSON have no 64 bits */
-    report_object(r, NULL);
-    report_set(r, "row:i name:s", i + 1, s->name);
-    report_object(r, "factors");
+    report_set(r, ":{ row:i name:s factors:{", i + 1, s->name);
     for (int f = 0; f < d->n_factors; f++)
-        report_value(r, d->factors[f].name, s->level[f] < 0 ? json_null() : json_string(design_label(d, i, f)));
-    report_end(r);
-    report_set(r, "replicate:c seed:s", s->recording ? -1L : (long)s->replicate, s->recording ? NULL : seed);
-    report_value(r, "recording", s->recording ? json_value_shown(s->recording) : json_null());
-    report_set(r, "length_s:n", b->set.lengths[i]);
+        report_set(r, "$:s", d->factors[f].name, s->level[f] < 0 ? NULL : design_label(d, i, f));
+    report_set(r, "} replicate:c seed:s recording:v length_s:n", s->recording ? -1L : (long)s->replicate,
+               s->recording ? NULL : seed, s->recording, b->set.lengths[i]);
     if (b->states) report_set(r, "state:s", stimulus_states[b->states[i]]);
-    report_end(r);
+    report_set(r, "}");
 }
 
 static bool report_json(const struct batch_ask *ask, const struct batch_report *b, struct err *e)
 {
     struct report r = report_open(stdout, true);
     r.ascii = true;
-    report_set(&r, "title:s design_sha256:s stimuli:i ok:i waiting:i full_scale:n", b->design.title, b->set.sha256,
-               b->set.n, b->rendered + b->reused - b->waiting, b->waiting, b->full_scale);
-    report_list(&r, "failed");
-    for (int i = 0; i < b->set.n; i++) {
-        if (!b->rows[i].kind) continue;
-        report_object(&r, NULL);
-        report_set(&r, "stimulus:s code:i", b->design.stimuli[i].name, (int)b->rows[i].kind);
-        report_value(&r, "error", json_value_shown(b->rows[i].text));
-        report_end(&r);
-    }
-    report_end(&r);
-    report_set(&r, "folder:s", ask->folder);
-    report_list(&r, "shard");
-    report_set(&r, ":i :i", ask->shard.i, ask->shard.n);
-    report_end(&r);
-    report_set(&r, "mine:i rendered:i kept:i", b->n_mine, b->rendered, b->reused);
-    report_list(&r, "left_over");
+    report_set(&r, "title:s design_sha256:s stimuli:i ok:i waiting:i full_scale:n failed:[", b->design.title,
+               b->set.sha256, b->set.n, b->rendered + b->reused - b->waiting, b->waiting, b->full_scale);
+    for (int i = 0; i < b->set.n; i++)
+        if (b->rows[i].kind)
+            report_set(&r, ":{ stimulus:s code:i error:v }", b->design.stimuli[i].name, (int)b->rows[i].kind,
+                       b->rows[i].text);
+    report_set(&r, "] folder:s shard:[ :i :i ] mine:i rendered:i kept:i left_over:[", ask->folder, ask->shard.i,
+               ask->shard.n, b->n_mine, b->rendered, b->reused);
     for (int i = 0; i < b->stale.n_files; i++)
-        report_value(&r, NULL, json_value_shown(b->stale.files[i]));
-    report_end(&r);
-    report_set(&r, "pruned:i sound_s:n wav_bytes:l predicted_cpu_s:n wall_s:n", b->stale.removed, b->plan.seconds,
+        report_set(&r, ":v", b->stale.files[i]);
+    report_set(&r, "] pruned:i sound_s:n wav_bytes:l predicted_cpu_s:n wall_s:n", b->stale.removed, b->plan.seconds,
                (long)b->plan.bytes, b->plan.cycles / 3e9, b->seconds);
     if (b->missing) report_set(&r, "missing_shards:s", b->missing);
-    if (ask->dry) {
-        report_list(&r, "list");
-        for (int i = 0; i < b->set.n; i++)
-            if (!b->mine || b->mine[i]) report_stimulus(&r, b, i);
-        report_end(&r);
-    }
+    if (ask->dry) report_set(&r, "list:[");
+    for (int i = 0; ask->dry && i < b->set.n; i++)
+        if (!b->mine || b->mine[i]) report_stimulus(&r, b, i);
     return report_close(&r, 17, e);
 }
 

@@ -131,10 +131,9 @@ static void check_one(struct cmd_call *c, const char *file, struct report *r, st
     else
         report_text(r, "%s: ok\n", name);
     if (remark) report_text(r, "%s: %s\n", name, remark);
-    if (!r->json) return;
-    report_object(r, NULL);
-    report_set(r, "file:s ok:b code:i errors:o", name, e->kind == ERR_NONE, (int)e->kind, message_collected(c));
-    report_end(r);
+    if (r->json)
+        report_set(r, ":{ file:s ok:b code:i errors:o }", name, e->kind == ERR_NONE, (int)e->kind,
+                   message_collected(c));
 }
 
 static int check_run(struct cmd_call *c, struct err *e)

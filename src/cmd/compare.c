@@ -177,10 +177,8 @@ static void report_form(struct report *r, const struct verdict *v)
         const struct wav *w = &v->sound[i];
         seconds[i] = (double)w->frames / w->rate;
         encoding[i] = w->bits ? arena_format(v->ask->arena, "%d-bit integers", w->bits) : "not integers";
-        report_object(r, i ? "b" : "a");
-        report_set(r, "file:s rate_hz:n channels:i frames:z duration_s:n bits:c", v->ask->files[i], w->rate,
-                   w->channels, w->frames, seconds[i], w->bits ? (long)w->bits : -1L);
-        report_end(r);
+        report_set(r, "$:{ file:s rate_hz:n channels:i frames:z duration_s:n bits:w }", i ? "b" : "a", v->ask->files[i],
+                   w->rate, w->channels, w->frames, seconds[i], w->bits);
     }
     if (a->rate != b->rate) report_text(r, "rate                A %.9g Hz, B %.9g Hz\n", a->rate, b->rate);
     if (a->channels != b->channels) report_text(r, "channels            A %d, B %d\n", a->channels, b->channels);
@@ -195,12 +193,11 @@ static void report_form(struct report *r, const struct verdict *v)
 
 static void report_place(struct report *r, const char *key, const struct verdict *v, const struct distance_place *p)
 {
-    report_set(r, arena_format(v->ask->arena, "%s:0", key));
-    if (!v->d.differing) return;
-    report_object(r, key);
-    report_set(r, "frame:z time_s:n channel:i a:n b:n", p->frame, (double)p->frame / v->sound[0].rate, p->channel + 1,
-               p->a, p->b);
-    report_end(r);
+    if (!v->d.differing)
+        report_set(r, "$:0", key);
+    else
+        report_set(r, "$:{ frame:z time_s:n channel:i a:n b:n }", key, p->frame, (double)p->frame / v->sound[0].rate,
+                   p->channel + 1, p->a, p->b);
 }
 
 static void report_samples(struct report *r, const struct verdict *v)
@@ -242,24 +239,18 @@ static bool report_sounds(const struct verdict *v, struct err *e)
         report_text(&r, "equal: %zu frames (%.6f s), %d channel%s, %.9g Hz\n", a->frames, (double)a->frames / a->rate,
                     a->channels, a->channels == 1 ? "" : "s", a->rate);
     report_samples(&r, v);
-    report_object(&r, "third_octave");
-    report_set(&r, "compared:i worst_db:n band_hz:n channel:c a_db:n b_db:n", d->compared, d->worst_db,
-               any ? distance_band_nominal(d->band) : NAN, any ? d->channel + 1L : -1L, any ? d->a_db : NAN,
+    report_set(&r, "third_octave:{ compared:i worst_db:n band_hz:n channel:w a_db:n b_db:n } criteria:[", d->compared,
+               d->worst_db, any ? distance_band_nominal(d->band) : NAN, any ? d->channel + 1 : 0, any ? d->a_db : NAN,
                any ? d->b_db : NAN);
-    report_end(&r);
     if (!v->equal && v->alike && any)
         report_text(&r, "third-octave bands  at most %.4g dB apart, at %s\n", d->worst_db, compare_sound_band(v));
     else if (!v->equal && v->alike)
         report_text(&r, "third-octave bands  none to compare\n");
-    report_list(&r, "criteria");
     for (int i = 0; i < v->n_criteria; i++) {
         const struct criterion *c = &v->criteria[i];
-        report_object(&r, NULL);
-        report_set(&r, "name:s held:b limit:n measured:n says:s", c->name, c->met, c->limit, c->measured, c->says);
-        report_end(&r);
+        report_set(&r, ":{ name:s held:b limit:n measured:n says:s }", c->name, c->met, c->limit, c->measured, c->says);
         if (!v->equal) report_text(&r, "%s %s: %s\n", c->met ? "ok  " : "FAIL", c->name, c->says);
     }
-    report_end(&r);
     return report_close(&r, 12, e);
 }
 
@@ -319,16 +310,12 @@ static void report_column(struct report *r, const struct tables *t, const struct
     char room[2][CSV_ROOM];
     const char *a = c->misses ? csv_text(&t->a, row, c->a, room[0]) : NULL,
                *b = c->misses ? csv_text(&t->b, row, c->b, room[1]) : NULL;
-    report_object(r, NULL);
-    report_set(r, "name:s exact:b abs:n rel:n misses:z largest_difference:n worst:0", c->name, to->exact,
+    report_set(r, ":{ name:s exact:b abs:n rel:n misses:z largest_difference:n worst:0", c->name, to->exact,
                to->exact ? 0.0 : to->abs, to->exact ? 0.0 : to->rel, c->misses, c->largest);
-    if (c->misses) {
-        report_object(r, "worst");
-        report_set(r, "row:z line_a:i line_b:i a:s b:s excess:n", row + 1, t->a.lines[row], t->b.lines[row], a, b,
-                   c->excess);
-        report_end(r);
-    }
-    report_end(r);
+    if (c->misses)
+        report_set(r, "worst:{ row:z line_a:i line_b:i a:s b:s excess:n }", row + 1, t->a.lines[row], t->b.lines[row],
+                   a, b, c->excess);
+    report_set(r, "}");
     if (c->misses == 0 && c->largest == 0) return;
     if (c->misses)
         report_text(r, "FAIL %s: %zu of %zu rows differ", c->name, c->misses, t->d.rows);
@@ -352,12 +339,8 @@ static bool report_tables(const struct tables *t, struct err *e)
         report_set(&r, "file_sha256:t", (const char *const[]){t->hash[0], t->hash[1]}, 2);
         report_text(&r, "sha256  A %s B %s\n", t->hash[0], t->hash[1]);
     }
-    for (int i = 0; i < 2; i++) {
-        report_object(&r, i ? "b" : "a");
-        report_set(&r, "file:s rows:z", t->ask->files[i], i ? t->b.rows : t->a.rows);
-        report_end(&r);
-    }
-    report_set(&r, "rows_compared:z", d->rows);
+    report_set(&r, "a:{ file:s rows:z } b:{ file:s rows:z } rows_compared:z", t->ask->files[0], t->a.rows,
+               t->ask->files[1], t->b.rows, d->rows);
     report_names(&r, "missing_columns:t", "FAIL columns: missing in B:", d->missing, d->n_missing);
     report_names(&r, "extra_columns:t", "FAIL columns: only in B:", d->extra, d->n_extra);
     report_set(&r, "columns_reordered:b differing_comment:s", d->reordered, d->comment);
@@ -366,10 +349,9 @@ static bool report_tables(const struct tables *t, struct err *e)
         report_text(&r, "FAIL rows: A has %zu, B has %zu; the first %zu are compared\n", t->a.rows, t->b.rows, d->rows);
     if (d->comment)
         report_text(&r, "%s comments: they differ, first in '%s'\n", t->ask->exact ? "FAIL" : "note", d->comment);
-    report_list(&r, "columns");
+    report_set(&r, "columns:[");
     for (size_t i = 0; i < d->n_columns; i++)
         report_column(&r, t, &d->columns[i]);
-    report_end(&r);
     if (t->met)
         report_text(&r, "%s: %zu rows, %zu columns\n", t->equal ? "equal" : "within the tolerances", t->a.rows,
                     t->a.columns);

@@ -371,31 +371,23 @@ static void report_key(struct report *r, const struct key *k)
 {
     struct arena *a = arena_open();
     bool range = keys_text_range(k, a);
-    report_object(r, NULL);
-    report_set(r, "path:s meaning:s type:s unit:e low:n high:n must_be_given:b default:e only:e words:0", k->path,
+    report_set(r, ":{ path:s meaning:s type:s unit:e low:n high:n must_be_given:b default:e only:e words:0", k->path,
                k->meaning, k->type == KEY_CHOICE ? "word" : keys_text_type(k), keys_text_unit(k->dimension),
                range ? k->low : NAN, range ? k->high : NAN, !k->standard, k->standard, keys_text_applies(k, a));
-    if (k->choices) report_list(r, "words");
-    for (const struct choice *c = k->choices; c && c->word; c++) {
-        report_object(r, NULL);
-        report_set(r, "word:s meaning:s", c->word, c->meaning);
-        report_end(r);
-    }
-    if (k->choices) report_end(r);
-    report_end(r);
+    if (k->choices) report_set(r, "words:[");
+    for (const struct choice *c = k->choices; c && c->word; c++)
+        report_set(r, ":{ word:s meaning:s }", c->word, c->meaning);
+    report_set(r, k->choices ? "] }" : "}");
     arena_close(a);
 }
 
 static void report_knob(struct report *r, const struct key_knob *k, struct arena *a)
 {
-    report_object(r, NULL);
-    report_set(r, "path:s meaning:s type:s low:n high:n", arena_format(a, "accuracy.%s", k->name), k->meaning,
-               k->whole ? "whole number" : "number", k->low, k->high);
-    report_object(r, "presets");
+    report_set(r, ":{ path:s meaning:s type:s low:n high:n presets:{", arena_format(a, "accuracy.%s", k->name),
+               k->meaning, k->whole ? "whole number" : "number", k->low, k->high);
     for (int i = 0; keys_presets[i]; i++)
-        report_set(r, arena_format(a, "%s:n", keys_presets[i]), k->preset[i]);
-    report_end(r);
-    report_end(r);
+        report_set(r, "$:n", keys_presets[i], k->preset[i]);
+    report_set(r, "} }");
 }
 
 static bool is_scene_file(const char *word)
@@ -513,11 +505,11 @@ static void explain_json(json_t *schema, const char *word, const char **names, s
         if (!n || (!strncmp(k->path, path, n) && (!k->path[n] || k->path[n] == '.'))) report_key(&r, k);
     for (const struct key_knob *k = keys_knobs; k->name; k++)
         if (all || k == knob) report_knob(&r, k, a);
-    if (json_array_size(r.at[0]) > 0) {
+    if (json_array_size(r.open.at[0]) > 0) {
         report_close(&r, 0, e);
         return;
     }
-    json_decref(r.at[0]);
+    json_decref(r.open.at[0]);
     if (names_designs(word))
         err_set(e, ERR_USAGE, "designs' keys are in rasp explain --schema=design; --json is for scenes");
     else if (design_key(schema, word))
@@ -544,7 +536,8 @@ static int explain_run(struct cmd_call *c, struct err *e)
             printf(".It Ic %s\n%c%s.\n", t->name, toupper((unsigned char)t->meaning[0]), t->meaning + 1);
     } else if (args_given(&c->args, "schema")) {
         if (cmd_either(c, "schema", schemas, &of, e)) {
-            struct report r = {.out = stdout, .json = true, .at = {of ? json_incref(schema) : schema_scene(c->arena)}};
+            struct report r = {
+                .out = stdout, .json = true, .open = {{of ? json_incref(schema) : schema_scene(c->arena)}, 0}};
             report_close(&r, 0, e);
         }
     } else if (args_given(&c->args, "json"))

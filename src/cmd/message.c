@@ -147,27 +147,22 @@ bool message_begin(struct cmd_call *c, struct err *e)
 
 /* ------------------------------------------------------------------ JSON */
 
-static json_t *whole_or_null(int n) { return n > 0 ? json_integer(n) : json_null(); }
-
 static json_t *object(const char *severity, enum err_kind kind)
 {
-    return json_pack("{s:s, s:n, s:n, s:n, s:n, s:n, s:n, s:o}", "severity", severity, "file", "line", "column",
-                     "width", "message", "help", "code", whole_or_null((int)kind));
+    return json_value_object("severity:s file:0 line:0 column:0 width:0 message:0 help:0 code:w", severity, (int)kind);
 }
 
 static void set_place(json_t *o, int line, int column, int width)
 {
-    json_object_set_new(o, "line", whole_or_null(line));
-    json_object_set_new(o, "column", whole_or_null(line > 0 ? column : 0));
-    json_object_set_new(o, "width", whole_or_null(line > 0 ? width : 0));
+    json_value_set(o, "line:w column:w width:w", line, line > 0 ? column : 0, line > 0 ? width : 0);
 }
 
 /* An option, such as --set motion.rate, has neither file nor line. */
 static void set_source(json_t *o, const struct diag_place *at, struct arena *a)
 {
-    const char *name = at->source ? text_shown(a, at->source->name) : NULL;
     bool lines = at->source && !at->source->option && !at->source->made;
-    json_object_set_new(o, at->source && at->source->option ? "option" : "file", json_value_text(name));
+    json_value_set(o, "$:s", at->source && at->source->option ? "option" : "file",
+                   at->source ? text_shown(a, at->source->name) : NULL);
     set_place(o, lines ? at->line : 0, at->column, at->width);
 }
 
@@ -175,8 +170,7 @@ static json_t *of_diag(const struct diag_error *x, enum err_kind kind, struct ar
 {
     json_t *o = object("error", kind);
     set_source(o, &x->at, a);
-    json_object_set_new(o, "message", json_value_text(x->text));
-    if (x->help) json_object_set_new(o, "help", json_value_text(x->help));
+    json_value_set(o, "message:s help:s", x->text, x->help);
     if (!x->at.source || !x->at.source->named.source) return o;
     json_t *named = json_array();
     for (const struct diag_place *at = &x->at.source->named; at->source && !at->source->made; at = &at->source->named) {
@@ -192,13 +186,10 @@ static json_t *of_err(const struct err *e)
 {
     json_t *o = object("error", e->kind);
     const struct err_place *p = &e->place;
-    if (p->file > 0) {
-        json_t *file = json_stringn(e->text, (size_t)p->file);
-        json_object_set_new(o, "file", file ? file : json_null());
-    }
+    json_t *file = p->file > 0 ? json_stringn(e->text, (size_t)p->file) : NULL;
+    json_value_set(o, "file:o message:s", file ? file : json_null(),
+                   p->message < (int)strlen(e->text) ? e->text + p->message : e->text);
     set_place(o, p->line, p->column, p->width);
-    const char *message = p->message < (int)strlen(e->text) ? e->text + p->message : e->text;
-    json_object_set_new(o, "message", json_value_text(message));
     return o;
 }
 
@@ -284,8 +275,8 @@ void message_stimulus(struct cmd_call *c, const char *command, const char *stimu
         struct err placed = *e;
         placed.place = place_in(e->text);
         json_t *o = of_err(&placed);
-        if (!placed.place.file && file) json_object_set_new(o, "file", json_value_text(file));
-        json_object_set_new(o, "stimulus", json_value_text(stimulus));
+        if (!placed.place.file && file) json_value_set(o, "file:s", file);
+        json_value_set(o, "stimulus:s", stimulus);
         put(c, o);
     } else {
         struct err named = {0};
@@ -307,13 +298,9 @@ json_t *message_collected(struct cmd_call *c)
 
 static void warn_json(const struct warning *w)
 {
-    json_t *o = object("warning", ERR_NONE), *files = json_array();
-    for (int i = 0; i < w->n; i++)
-        json_array_append_new(files, json_value_text(w->files[i]));
-    json_object_set(o, w->stimuli ? "stimulus" : "file", json_array_get(files, 0));
-    json_object_set_new(o, "message", json_value_text(w->text));
-    if (w->n > 1) json_object_set(o, w->stimuli ? "stimuli" : "files", files);
-    json_decref(files);
+    json_t *o = object("warning", ERR_NONE);
+    json_value_set(o, "$:s message:s", w->stimuli ? "stimulus" : "file", w->files[0], w->text);
+    if (w->n > 1) json_value_set(o, "$:t", w->stimuli ? "stimuli" : "files", w->files, w->n);
     print(o);
     json_decref(o);
 }

@@ -15,14 +15,10 @@
 /* Names of bits [0, n) of a set. */
 static void set_names(struct report *r, const char *key, unsigned set, int n, const char *(*name)(int i))
 {
-    const char *names[64];
-    int count = 0;
+    report_set(r, "$:[", key);
     for (int i = 0; i < n; i++)
-        if (set & 1u << i) names[count++] = name(i);
-    report_list(r, key);
-    for (int i = 0; i < count; i++)
-        report_set(r, ":s", names[i]);
-    report_end(r);
+        if (set & 1u << i) report_set(r, ":s", name(i));
+    report_set(r, "]");
 }
 
 static const char *item_name(int i) { return plan_item((enum item)i); }
@@ -35,14 +31,13 @@ static void set_stage(struct report *r, const struct plan *p, const struct plan_
     const char *why = runs                            ? NULL
                       : row->verdict == PLAN_UNWANTED ? row->stage->idle
                                                       : "nothing that is asked for needs it";
-    report_object(r, NULL);
-    report_set(r, "name:s runs:b why_not:e does:s equations:e", row->stage->name, runs, why, row->stage->does,
+    report_set(r, ":{ name:s runs:b why_not:e does:s equations:e", row->stage->name, runs, why, row->stage->does,
                row->stage->paper);
     set_names(r, "reads", runs ? row->reads & p->alive : 0, ITEM_COUNT, item_name);
     set_names(r, "gives", runs ? row->stage->gives & p->alive : 0, ITEM_COUNT, item_name);
     report_set(r, "cycles_per_sample:n", runs ? row->work : NAN);
     set_names(r, "knobs", runs ? row->knobs : 0, KNOBS, knob_name);
-    report_end(r);
+    report_set(r, "}");
 }
 
 static const struct args_option plan_options[] = {
@@ -67,29 +62,23 @@ static bool plan_one(struct cmd_call *c, const char *file, struct report *r, str
     if (!plans) return scene_places_report(&s, e);
     for (int i = 0; warnings[i]; i++)
         message_warning(c, file, warnings[i]);
-    report_object(r, NULL);
-    report_set(r, "file:e accuracy:e", s.file, error_budget.text);
-    report_list(r, "contacts");
+    report_set(r, ":{ file:e accuracy:e contacts:[", s.file, error_budget.text);
     for (int i = 0; i < s.n_contacts; i++) {
         const struct plan *p = &plans[i];
         double whole = 0;
         for (int k = 0; k < p->n; k++)
             whole += p->rows[k].verdict == PLAN_RUNS ? p->rows[k].work : 0;
-        report_object(r, NULL);
-        report_set(r, "name:e", p->contact->name);
+        report_set(r, ":{ name:e", p->contact->name);
         set_names(r, "targets", p->targets, ITEM_COUNT, item_name);
         report_set(r, "cycles_per_sample:n", whole);
         set_names(r, "knobs", plan_knobs(p), KNOBS, knob_name);
-        report_set(r, "ablation:e", ablation_text(p->contact, c->arena));
-        report_list(r, "stages");
+        report_set(r, "ablation:e stages:[", ablation_text(p->contact, c->arena));
         for (int k = 0; k < p->n; k++)
             set_stage(r, p, &p->rows[k]);
-        report_end(r);
-        report_end(r);
+        report_set(r, "] }");
         if (!r->json) plan_print(p, r->out);
     }
-    report_end(r);
-    report_end(r);
+    report_set(r, "] }");
     if (error_budget.text) report_text(r, "%s\n", text_shown(c->arena, error_budget.text));
     return true;
 }
@@ -103,7 +92,7 @@ static int plan_run(struct cmd_call *c, struct err *e)
     if (ok)
         report_close(&r, 0, e);
     else
-        json_decref(r.at[0]);
+        json_decref(r.open.at[0]);
     return (int)e->kind;
 }
 

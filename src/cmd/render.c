@@ -13,6 +13,7 @@
 #include "cmd/accuracy.h"
 #include "cmd/cmd.h"
 #include "cmd/message.h"
+#include "file/json_value.h"
 #include "pipeline/outputs.h"
 #include "pipeline/plan.h"
 #include "pipeline/render.h"
@@ -89,7 +90,7 @@ static bool summary_again(struct render_report *r, double measured, struct arena
     struct outfile file = {.fd = -1};
     const char *path = NULL;
     if (!accuracy) json_object_set_new(whole, "accuracy", accuracy = json_object());
-    json_object_set_new(accuracy, "measured_db", isfinite(measured) ? json_real(measured) : json_null());
+    json_value_set(accuracy, "measured_db:n", measured);
     char *text = json_dumps(whole, JSON_INDENT(2) | JSON_REAL_PRECISION(9) | JSON_ENSURE_ASCII);
     r->summary = arena_format(a, "%s\n", text ? text : "{}");
     free(text);

@@ -10,14 +10,12 @@
 #include <stdio.h>
 
 #include "base/err.h"
-
-enum { REPORT_DEPTH = 8 };
+#include "file/json_value.h"
 
 struct report {
     FILE *out;
-    bool json, ascii;         /* ascii: other characters of JSON as \\u.... */
-    json_t *at[REPORT_DEPTH]; /* objects and lists that are open, the outermost first */
-    int depth;
+    bool json, ascii; /* ascii: other characters of JSON as \\u.... */
+    struct json_value_open open;
 };
 
 /* Opens the outermost object; text is printed from here on. */
@@ -28,10 +26,7 @@ struct report report_open_list(FILE *out, bool json);
 /* Prints the JSON with so many significant digits (0: all), and ends its line. ERR_IO */
 bool report_close(struct report *r, int digits, struct err *e);
 
-/* Members of the object that is open: words "KEY:TYPE" with blanks between, a value for each. n: double, null where it
-   is not finite; s: text, null for NULL and for what is not UTF-8; e: the same, null for "" too; b, i: int; l: long; c:
-   long, null below 0; z: size_t; a: const double *, int; t: const char *const *, int; o: json_t *, which JSON takes and
-   text leaves; 0: null, without a value. A later member of the same key takes the place of the first. */
+/* Members as json_value_put has them; of JSON alone. */
 void report_set(struct report *r, const char *members, ...);
 
 /* A member of the object that is open, which JSON takes; of JSON alone. */

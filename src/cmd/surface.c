@@ -170,8 +170,7 @@ static void report_heights(struct report *r, const struct surface_info *i)
     report_row(r, "levelling", "%s%s", word, i->levelling ? " subtracted" : "");
     report_row(r, "as stored", map ? "mean %s, slope %.4g um/mm in x, %.4g um/mm in y" : "mean %s, slope %.4g um/mm",
                len(i, i->tilt.mean), i->tilt.slope_x * 1e3, i->tilt.slope_y * 1e3);
-    report_object(r, "heights");
-    report_set(r, "mean_m:n", s->mean);
+    report_set(r, "heights:{ mean_m:n", s->mean);
     report_figure(r, "sa_m", s->sa, map ? "Sa" : "Ra", "%s", len(i, s->sa));
     report_figure(r, "sq_m", s->sq, map ? "Sq" : "Rq", "%s", len(i, s->sq));
     if (!isnan(s->ssk) || r->json) {
@@ -183,27 +182,23 @@ static void report_heights(struct report *r, const struct surface_info *i)
     report_set(r, "slope_rms_y:n", s->slope_y);
     report_figure(r, "curvature_rms_x_per_m", s->curvature, "rms curvature",
                   map ? "%.4g 1/m in x, %.4g 1/m in y" : "%.4g 1/m", s->curvature, s->curvature_y);
-    report_set(r, "curvature_rms_y_per_m:n", s->curvature_y);
-    report_end(r);
+    report_set(r, "curvature_rms_y_per_m:n }", s->curvature_y);
 }
 
 static void report_steps(struct report *r, const struct surface_info *i)
 {
     const struct surface_heights_steps *s = &i->steps;
     const char *shares = "";
-    report_object(r, "quantisation");
-    report_set(r, "step_m:n levels:z heights_looked_at:z curvature_noise_per_m:n curvature_noise_at_knots_per_m:n",
+    report_set(r,
+               "quantisation:{ step_m:n levels:z heights_looked_at:z curvature_noise_per_m:n "
+               "curvature_noise_at_knots_per_m:n limiter:[",
                s->step, s->levels, s->looked_at, s->noise, 2.45 * s->noise);
-    report_list(r, "limiter");
     for (int k = 0; k < ALPHAS; k++) {
-        report_object(r, NULL);
-        report_set(r, "alpha_m:n noise_over_limit:n", alphas[k], s->noise * alphas[k]);
-        report_end(r);
+        report_set(r, ":{ alpha_m:n noise_over_limit:n }", alphas[k], s->noise * alphas[k]);
         shares = arena_format(i->arena, "%s%s %.3g %% of the limiter's %g 1/m", shares, k ? "," : "",
                               100 * s->noise * alphas[k], 1 / alphas[k]);
     }
-    report_end(r);
-    report_end(r);
+    report_set(r, "] }");
     if (s->step == 0)
         report_row(r, "quantisation", "none seen (%zu of %zu heights are different)", s->levels, s->looked_at);
     else if (2.45 * s->noise < 0.01 / alphas[ALPHAS - 1])
@@ -227,12 +222,11 @@ static void report_band(struct report *r, const struct surface_info *i, int down
         report_row(r, label, "unknown: %s", i->heights.sz > 0 ? "too few samples in a row without holes" : "flat");
         return;
     }
-    report_object(r, down ? "band_y" : "band_x");
-    report_set(
-        r, "limit_cycles_per_m:n limit_is_noise_floor:b curvature_above_limit:n nyquist_cycles_per_m:n oversampling:n",
-        b->limit, b->noise, b->beyond, b->nyquist, limit ? b->nyquist / b->limit : 1.0);
-    report_set(r, "exponent:n exponent_from_cycles_per_m:n exponent_to_cycles_per_m:n", b->exponent, b->from, b->to);
-    report_end(r);
+    report_set(r,
+               "$:{ limit_cycles_per_m:n limit_is_noise_floor:b curvature_above_limit:n nyquist_cycles_per_m:n "
+               "oversampling:n exponent:n exponent_from_cycles_per_m:n exponent_to_cycles_per_m:n }",
+               down ? "band_y" : "band_x", b->limit, b->noise, b->beyond, b->nyquist,
+               limit ? b->nyquist / b->limit : 1.0, b->exponent, b->from, b->to);
     if (limit)
         report_row(r, label, "%.4g cycles/mm (wavelength %s), where it %s; %.3g times oversampled", b->limit * 1e-3,
                    len(i, 1 / b->limit), b->noise ? "meets the noise floor" : "is 80 dB down", b->nyquist / b->limit);
@@ -247,13 +241,12 @@ static void report_band(struct report *r, const struct surface_info *i, int down
 static void report_surface(struct report *r, const struct surface_info *i)
 {
     const struct surface_heights_period *p = &i->period;
-    report_object(r, NULL);
     const struct heightfile *h = &i->h;
     bool map = h->rows > 1;
     double x = h->pitch_x, y = h->pitch_y, columns = (double)h->columns, rows = (double)h->rows;
     const char *bits = h->step > 0 ? ", integers of %d bits" : ", floating point of %d bits", *filled = "";
-    report_set(r, "file:s format:s title:s columns:z rows:z", i->file, h->format, h->title, h->columns, h->rows);
-    report_set(r, "pitch_x_m:n pitch_y_m:n missing:z filled:z", x, map ? y : NAN, h->holes, h->filled);
+    report_set(r, ":{ file:s format:s title:s columns:z rows:z pitch_x_m:n pitch_y_m:n missing:z filled:z", i->file,
+               h->format, h->title, h->columns, h->rows, x, map ? y : NAN, h->holes, h->filled);
     bits = h->bits ? arena_format(i->arena, bits, h->bits == 24 ? 32 : h->bits == 53 ? 64 : h->bits) : "";
     filled = h->filled ? arena_format(i->arena, ", and %zu filled", h->filled) : "";
     report_text(r, "%s\n", i->file);
@@ -276,28 +269,20 @@ static void report_surface(struct report *r, const struct surface_info *i)
         const char *where = i->h.rows == 1 ? "" : down ? " in y" : " in x";
         report_band(r, i, down, where);
         const struct surface_heights_ends *s = &i->ends[down];
-        report_object(r, down ? "ends_y" : "ends_x");
-        report_set(r, "step_rms_m:n jump_repeated_m:n slope_jump_mirrored:n", s->step, s->jump, s->kink);
-        report_list(r, "fall_samples");
-        report_set(r, ":z :z", s->fall[0], s->fall[1]);
-        report_end(r);
-        report_set(r, "fall_m:a", s->drop, 2);
-        report_end(r);
+        report_set(r, "$:{ step_rms_m:n jump_repeated_m:n slope_jump_mirrored:n fall_samples:[ :z :z ] fall_m:a }",
+                   down ? "ends_y" : "ends_x", s->step, s->jump, s->kink, s->fall[0], s->fall[1], s->drop, 2);
         report_row(r, arena_format(i->arena, "repeated%s", where), "jumps by %s at the seam (neighbours differ by %s)",
                    len(i, s->jump), len(i, s->step));
         report_row(r, arena_format(i->arena, "mirrored%s", where), "slope changes by %.3g at the ends", s->kink);
     }
     if (!isnan(p->peak)) {
-        report_object(r, "repetition");
-        report_set(r, "lag_samples:z autocorrelation:n stands_out:b", p->lag, p->peak, p->stands_out);
-        report_end(r);
+        report_set(r, "repetition:{ lag_samples:z autocorrelation:n stands_out:b }", p->lag, p->peak, p->stands_out);
         report_row(r, "autocorrelation", "highest %.2f at %s (%zu samples)", p->peak,
                    len(i, (double)p->lag * i->h.pitch_x), p->lag);
     }
-    report_set(r, "warnings:t", i->notes, i->n_notes);
+    report_set(r, "warnings:t }", i->notes, i->n_notes);
     for (int k = 0; k < i->n_notes; k++)
         report_note(r, "  warning: ", i->notes[k]);
-    report_end(r);
 }
 
 /* ------------------------------------------------------------------ the action */
@@ -327,7 +312,7 @@ static int surface_info_run(struct cmd_call *c, struct err *e)
     int worst = 0, n = 0;
     if (!surface_options(c, HEIGHTFILE_LEAVE, &o, e)) return (int)e->kind;
     struct report r = report_open(stdout, args_given(&c->args, "json"));
-    report_list(&r, "surfaces");
+    report_set(&r, "surfaces:[");
     for (int k = 0; k < c->args.n_operands; k++) {
         struct err mine = {0};
         struct arena *own = arena_open(); /* the maps of many files need not all stay */
@@ -341,8 +326,7 @@ static int surface_info_run(struct cmd_call *c, struct err *e)
         worst = (int)mine.kind > worst ? (int)mine.kind : worst;
         arena_close(own);
     }
-    report_end(&r);
-    if (n == 0) json_decref(r.at[0]);
+    if (n == 0) json_decref(r.open.at[0]);
     return n > 0 && !report_close(&r, 12, e) ? (int)e->kind : worst;
 }
 

@@ -209,12 +209,11 @@ static const char *impacted(const struct impact_report *o, struct arena *a)
 
 static json_t *impacts_json(const struct impact_report *o)
 {
-    return json_pack("{s:I, s:o, s:I, s:I, s:I, s:o, s:o, s:o}", "count", (json_int_t)o->count, "per_second",
-                     json_value_number((double)o->count / o->time), "limited_amplitudes",
-                     (json_int_t)o->limited_amplitude, "limited_intervals", (json_int_t)o->limited_interval, "overlaps",
-                     (json_int_t)o->overlaps, "mean_amplitude_n", json_value_number(o->mean_amplitude),
-                     "mean_interval_s", json_value_number(o->mean_interval), "longest_s",
-                     json_value_number(o->longest));
+    return json_value_object("count:l per_second:n limited_amplitudes:l limited_intervals:l overlaps:l "
+                             "mean_amplitude_n:n mean_interval_s:n longest_s:n",
+                             (long)o->count, (double)o->count / o->time, (long)o->limited_amplitude,
+                             (long)o->limited_interval, (long)o->overlaps, o->mean_amplitude, o->mean_interval,
+                             o->longest);
 }
 
 /* NULL: there are few of them. */

@@ -217,33 +217,23 @@ void summary_warnings(const struct scene *s, const struct run *const *runs, stru
                           report->older[i]));
 }
 
-/* Each listening place of several: what is heard there, unscaled. */
-static json_t *channels_json(const struct scene *s, const struct sound_report *o, const struct render_file *wav)
-{
-    json_t *all = json_array();
-    for (int k = 0; k < o->channels; k++) {
-        const double *place = s->output.listen.places + 3 * k;
-        json_array_append_new(all,
-                              json_pack("{s:[o, o, o], s:o, s:o, s:b}", "place_m", json_value_number(place[0]),
-                                        json_value_number(place[1]), json_value_number(place[2]), "peak",
-                                        json_value_number(o->channel_peak[k]), "rms",
-                                        json_value_number(o->channel_rms[k]), "silent", !wav->written->audible[k]));
-    }
-    return all;
-}
-
 static json_t *sound_json(const struct scene *s, const struct render_report *report)
 {
     const struct sound_report *o = &report->sound;
     const struct render_file *wav = summary_sound(report);
-    json_t *sound = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "unit",
-                              report->quantity >= 0 ? modes_quantity_unit(report->quantity) : "the impulse response's",
-                              "peak", json_value_number(o->peak), "rms", json_value_number(o->rms), "gain",
-                              json_value_number(o->gain), "gain_db", json_value_number(decibel(o->gain)), "peak_dbfs",
-                              json_value_number(decibel(o->gain * o->peak)), "rms_dbfs",
-                              json_value_number(decibel(o->gain * o->rms)));
+    json_t *sound = json_value_object(
+               "unit:s peak:n rms:n gain:n gain_db:n peak_dbfs:n rms_dbfs:n",
+               report->quantity >= 0 ? modes_quantity_unit(report->quantity) : "the impulse response's", o->peak,
+               o->rms, o->gain, decibel(o->gain), decibel(o->gain * o->peak), decibel(o->gain * o->rms)),
+           *channels = json_array();
     summary_written(wav, sound);
-    if (o->channels > 1) json_object_set_new(sound, "channels", channels_json(s, o, wav));
+    for (int k = 0; o->channels > 1 && k < o->channels;
+         k++) /* what is heard at each listening place of several, unscaled */
+        json_array_append_new(channels,
+                              json_value_object("place_m:a peak:n rms:n silent:b", s->output.listen.places + 3 * k, 3,
+                                                o->channel_peak[k], o->channel_rms[k], !wav->written->audible[k]));
+    if (o->channels > 1) json_object_set(sound, "channels", channels);
+    json_decref(channels);
     return sound;
 }
 
@@ -252,10 +242,9 @@ static json_t *stages_json(const struct run *run, double cpu)
     json_t *all = json_array();
     for (int i = 0; i < run->n; i++) {
         const struct stage_run *st = &run->stages[i];
-        json_array_append_new(all, json_pack("{s:s, s:o, s:o, s:I, s:I}", "stage", st->stage->name, "cpu_s",
-                                             json_value_number(st->seconds), "share",
-                                             json_value_number(cpu > 0 ? st->seconds / cpu : 0), "blocks",
-                                             (json_int_t)st->blocks, "bytes", (json_int_t)st->bytes));
+        json_array_append_new(all, json_value_object("stage:s cpu_s:n share:n blocks:l bytes:l", st->stage->name,
+                                                     st->seconds, cpu > 0 ? st->seconds / cpu : 0.0, (long)st->blocks,
+                                                     (long)st->bytes));
     }
     return all;
 }
@@ -264,31 +253,25 @@ static json_t *stages_json(const struct run *run, double cpu)
 static json_t *response_json(const struct ring_choice *c, const struct scene *s)
 {
     static const char *const readings[] = {"auto", "fixed", "launch", "glide", "readout"};
-    json_t *r = json_pack("{s:s, s:i}", "moving", readings[c->reading], "modes", c->modes.n);
+    json_t *r = json_value_object("moving:s modes:i", readings[c->reading], c->modes.n);
     if (c->moves && c->engine != RING_RESONATORS)
-        json_object_set_new(r, "hop_s", json_value_number(ring_choice_hop(c, &s->accuracy) / s->output.sample_rate));
+        json_value_set(r, "hop_s:n", ring_choice_hop(c, &s->accuracy) / s->output.sample_rate);
     return r;
 }
 
 static json_t *roll_json(const struct roll_report *o)
 {
-    json_t *r = json_pack("{s:o, s:o, s:I, s:o, s:o}", "contact_share",
-                          json_value_number(o->time > 0 ? o->contact / o->time : NAN), "contact_s",
-                          json_value_number(o->contact), "lift_offs", (json_int_t)o->lift_offs, "stiffness",
-                          json_value_number(o->stiffness), "rest_penetration_m", json_value_number(o->rest));
-    if (o->resonance > 0) json_object_set_new(r, "resonance_hz", json_value_number(o->resonance));
-    if (!isnan(o->roughness))
-        json_object_update_new(r, json_pack("{s:o, s:o}", "hertz_penetration_m", json_value_number(o->hertz),
-                                            "roughness_rms_m", json_value_number(o->roughness)));
-    if (!o->steps) return r;
-    json_t *more = json_pack(
-        "{s:I, s:o, s:I, s:[o, o], s:o, s:o, s:[o, o]}", "bounces", (json_int_t)o->bounces, "step_s",
-        json_value_number(o->step), "steps", (json_int_t)o->steps, "contact_samples_mean_least",
-        json_value_number(o->contact_samples[0]), json_value_number(o->contact_samples[1]), "fastest_impact_m_per_s",
-        json_value_number(o->fastest), "energy_residual", json_value_number(o->residual), "iterations_mean_most",
-        json_value_number(o->iterations[0]), json_value_number(o->iterations[1]));
-    json_object_update(r, more);
-    json_decref(more);
+    json_t *r = json_value_object("contact_share:n contact_s:n lift_offs:l stiffness:n rest_penetration_m:n",
+                                  o->time > 0 ? o->contact / o->time : NAN, o->contact, (long)o->lift_offs,
+                                  o->stiffness, o->rest);
+    if (o->resonance > 0) json_value_set(r, "resonance_hz:n", o->resonance);
+    if (!isnan(o->roughness)) json_value_set(r, "hertz_penetration_m:n roughness_rms_m:n", o->hertz, o->roughness);
+    if (o->steps)
+        json_value_set(r,
+                       "bounces:l step_s:n steps:l contact_samples_mean_least:a fastest_impact_m_per_s:n "
+                       "energy_residual:n iterations_mean_most:a",
+                       (long)o->bounces, o->step, (long)o->steps, o->contact_samples, 2, o->fastest, o->residual,
+                       o->iterations, 2);
     return r;
 }
 
@@ -297,7 +280,7 @@ static json_t *contact_json(const struct run *run, const struct scene *s, double
 {
     const struct board *b = &run->board;
     const struct ring_choice *choice = run->plan.contact->surface.response.choice;
-    json_t *c = json_pack("{s:s, s:o}", "name", run->plan.contact->name, "lifted_off_s", json_value_number(b->lifted));
+    json_t *c = json_value_object("name:s lifted_off_s:n", run->plan.contact->name, b->lifted);
     if (!isnan(cpu)) json_object_set_new(c, "stages", stages_json(run, cpu));
     if (choice && !choice->recorded) json_object_set_new(c, "response", response_json(choice, s));
     if (b->rolls) json_object_set_new(c, "roll", roll_json(&b->roll));
@@ -305,9 +288,7 @@ static json_t *contact_json(const struct run *run, const struct scene *s, double
     int n = reports_make(run, a, all);
     for (int k = 0; k < n; k++)
         json_object_set_new(c, all[k].key, all[k].value);
-    if (b->load)
-        json_object_set_new(c, "normal_force_n",
-                            json_pack("[o, o]", json_value_number(b->load->least), json_value_number(b->load->most)));
+    if (b->load) json_value_set(c, "normal_force_n:[ :n :n ]", b->load->least, b->load->most);
     return c;
 }
 
@@ -318,9 +299,8 @@ static json_t *files_json(const struct render_report *report)
     for (int i = 0; i < report->n_files; i++) {
         const struct render_file *f = &report->files[i];
         if (!strcmp(f->kind, "summary")) continue;
-        json_t *one =
-            json_pack("{s:s, s:o, s:s*, s:s*, s:s*}", "kind", f->kind, "name", json_value_shown(basename(f->path)),
-                      "contact", f->contact, "stem", f->stem, "sha256", f->sha256);
+        json_t *one = json_value_object("kind:s name:v contact:? stem:? sha256:?", f->kind, basename(f->path),
+                                        f->contact, f->stem, f->sha256);
         summary_written(f, one);
         json_array_append_new(all, one);
     }
@@ -345,21 +325,17 @@ static json_t *error_budget_json(const struct error_budget *p, bool times)
     json_t *by = json_array();
     for (int i = 0; i < p->n; i++)
         json_array_append_new(by,
-                              json_pack("{s:s, s:o, s:o, s:b}", "knob", keys_knobs[p->parts[i].knob].name, "value",
-                                        json_value_number(p->parts[i].value), "error_db",
-                                        json_value_number(decibel(p->parts[i].error)), "said", p->parts[i].by_user));
-    json_t *j = json_pack("{s:o, s:o, s:b, s:o}", "asked_db", json_value_number(p->error), "predicted_db",
-                          json_value_number(p->predicted), "chosen", p->chosen, "by", by);
-    if (times) json_object_set_new(j, "cpu_s", json_value_number(p->cpu));
+                              json_value_object("knob:s value:n error_db:n said:b", keys_knobs[p->parts[i].knob].name,
+                                                p->parts[i].value, decibel(p->parts[i].error), p->parts[i].by_user));
+    json_t *j = json_value_object("asked_db:n predicted_db:n chosen:b by:o", p->error, p->predicted, p->chosen, by);
+    if (times) json_value_set(j, "cpu_s:n", p->cpu);
     return j;
 }
 
 static void add_times(json_t *whole, const struct render_report *report, double duration, struct arena *a)
 {
-    json_object_set_new(whole, "wall_s", json_value_number(report->seconds));
-    json_object_set_new(whole, "cpu_s", json_value_number(report->cpu));
-    json_object_set_new(whole, "real_time_factor",
-                        json_value_number(report->cpu > 0 ? duration / report->cpu : HUGE_VAL));
+    json_value_set(whole, "wall_s:n cpu_s:n real_time_factor:n", report->seconds, report->cpu,
+                   report->cpu > 0 ? duration / report->cpu : HUGE_VAL);
     set_older(whole, report, a);
 }
 
@@ -372,10 +348,9 @@ const char *summary_text(const struct scene *s, const struct run *const *runs, c
         if (runs[i]) json_array_append_new(contacts, contact_json(runs[i], s, times ? report->cpu : NAN, a));
     for (int i = 0; i < report->n_warnings; i++)
         json_array_append_new(remarks, json_value_shown(report->warnings[i]));
-    json_t *whole =
-        json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o}", "scene", s->title ? s->title : "", "frames",
-                  (json_int_t)report->frames, "sample_rate_hz", json_value_number(s->output.sample_rate), "duration_s",
-                  json_value_number(duration), "contacts", contacts, "warnings", remarks, "files", files_json(report));
+    json_t *whole = json_value_object("scene:s frames:l sample_rate_hz:n duration_s:n contacts:o warnings:o files:o",
+                                      s->title ? s->title : "", (long)report->frames, s->output.sample_rate, duration,
+                                      contacts, remarks, files_json(report));
     if (times) add_times(whole, report, duration, a);
     if (report->error_budget.asked)
         json_object_set_new(whole, "accuracy", error_budget_json(&report->error_budget, times));
@@ -438,9 +413,8 @@ const char *summary_beyond(const struct scene *s, const struct render_file *f, s
 void summary_written(const struct render_file *f, json_t *to)
 {
     if (!f->written) return;
-    json_object_set_new(to, "silent", json_boolean(!wav_written_audible(f->written)));
-    json_object_set_new(to, "samples_beyond_full_scale",
-                        has_full_scale(f) ? json_integer((json_int_t)f->written->beyond) : json_null());
+    json_value_set(to, "silent:b samples_beyond_full_scale:o", !wav_written_audible(f->written),
+                   has_full_scale(f) ? json_integer((json_int_t)f->written->beyond) : json_null());
 }
 
 const struct render_file *summary_sound(const struct render_report *report)
