@@ -209,6 +209,20 @@ void outfile_drop(struct outfile *o)
     o->target[0] = o->temporary[0] = '\0';
 }
 
+int outfile_commit_all(struct outfile *all, int n, struct err *e)
+{
+    int done = 0;
+    for (int i = 0; e->kind == ERR_NONE && i < n; i++)
+        outfile_finalise(&all[i], e);
+    interrupt_hold();
+    while (e->kind == ERR_NONE && done < n && outfile_commit(&all[done], e))
+        done++;
+    interrupt_go();
+    for (int i = 0; i < n; i++)
+        outfile_drop(&all[i]);
+    return done;
+}
+
 /* ------------------------------------------------------------------ files without a name */
 
 const char *outfile_scratch_folder(void)

@@ -28,6 +28,9 @@ bool outfile_finalise(
     struct outfile *o,
     struct err *e); /* all of a commit but the rename: with several outputs, settle all, then commit */
 bool outfile_commit(struct outfile *o, struct err *e); /* settles and renames; closes either way; ERR_IO */
+/* All get their names once all are complete; none is open afterwards. With an error set already none does. How many
+   have it. ERR_IO */
+int outfile_commit_all(struct outfile *all, int n, struct err *e);
 bool outfile_hash(struct outfile *o, char hex[HASH_TEXT],
                   struct err *e);     /* of what is written so far; ERR_IO, then it is dropped */
 void outfile_drop(struct outfile *o); /* closes and leaves nothing; harmless when closed */

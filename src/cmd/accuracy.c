@@ -658,19 +658,13 @@ static bool sweep(struct accuracy_sweep *s, struct err *e)
 /* All that can fail is done before the first file gets its name. */
 static bool report(struct accuracy_sweep *s, struct err *e)
 {
-    struct outfile csv = {.fd = -1}, plot = {.fd = -1};
-    bool ok = !s->csv || outfile_open(&csv, s->csv, e);
-    if (ok && s->csv) {
-        accuracy_report_table(s, csv.stream);
-        ok = outfile_finalise(&csv, e);
-    }
-    ok = ok && (!s->plot || gnuplot_draw(&plot, s->plot, text_ends(s->plot, ".svg"), accuracy_report_plot, s, e));
-    interrupt_hold();
-    ok = ok && (!s->plot || outfile_commit(&plot, e)) && (!s->csv || outfile_commit(&csv, e));
-    interrupt_go();
-    outfile_drop(&csv);
-    outfile_drop(&plot);
-    return ok && accuracy_report(s, e);
+    struct outfile files[2];
+    int n = 0;
+    if (s->plot && gnuplot_draw(&files[n], s->plot, text_ends(s->plot, ".svg"), accuracy_report_plot, s, e)) n++;
+    if (s->csv && e->kind == ERR_NONE && outfile_open(&files[n], s->csv, e))
+        accuracy_report_table(s, files[n++].stream);
+    outfile_commit_all(files, n, e);
+    return e->kind == ERR_NONE && accuracy_report(s, e);
 }
 
 static int accuracy_run(struct cmd_call *c, struct err *e)

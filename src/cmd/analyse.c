@@ -11,7 +11,6 @@
 #include <string.h>
 
 #include "analysis/distribution_fit.h"
-#include "base/interrupt.h"
 #include "base/text.h"
 #include "cmd/cmd.h"
 #include "file/bytes.h"
@@ -480,27 +479,17 @@ static bool analyse_all(struct cmd_call *c, struct analysis *a, struct err *e)
     return true;
 }
 
-/* All that is written is complete before any of it gets its name. */
-static bool analyse_write(struct cmd_call *c, struct analysis *a, int svg, struct err *e)
+static void analyse_write(struct cmd_call *c, struct analysis *a, int svg, struct err *e)
 {
     struct analyse_files *all = ARENA_TAKE(a->arena, struct analyse_files, 1);
     const char *output = args_value(&c->args, "output"), *plot = args_value(&c->args, "plot");
-    if (!output && !plot) return true;
-    if (!a->counted)
-        return err_set(
-            e, ERR_SCENE, "%s: %d impact%s; statistics, of which --output and --plot are made, take at least %d",
-            a->source.file, a->source.found.events.n, a->source.found.events.n == 1 ? "" : "s", STATISTICS_LEAST);
-    if (output) analyse_report_part(a, output, all, e);
+    if ((output || plot) && !a->counted)
+        err_set(e, ERR_SCENE, "%s: %d impact%s; statistics, of which --output and --plot are made, take at least %d",
+                a->source.file, a->source.found.events.n, a->source.found.events.n == 1 ? "" : "s", STATISTICS_LEAST);
+    if (output && e->kind == ERR_NONE) analyse_report_part(a, output, all, e);
     if (plot && e->kind == ERR_NONE) analyse_report_plot(a, plot, svg, all, e);
-    for (int i = 0; e->kind == ERR_NONE && i < all->n; i++)
-        outfile_finalise(&all->o[i], e);
-    interrupt_hold();
-    for (int i = 0; e->kind == ERR_NONE && i < all->n; i++)
-        if (outfile_commit(&all->o[i], e)) a->written[a->n_written++] = all->name[i];
-    interrupt_go();
-    for (int i = 0; i < all->n; i++)
-        outfile_drop(&all->o[i]);
-    return e->kind == ERR_NONE;
+    a->written = all->name;
+    a->n_written = outfile_commit_all(all->o, all->n, e);
 }
 
 /* The report is printed even where a file cannot be written. */

@@ -43,7 +43,7 @@ struct analysis {
     bool force;                       /* the parameter file and its tables may be overwritten          */
     const char *notes[ANALYSE_NOTES]; /* warnings                                            */
     int n_notes;
-    const char *written[8]; /* files                                                         */
+    const char **written; /* files                                                           */
     int n_written;
 };
 

@@ -11,6 +11,7 @@
 #include "base/outfile.h"
 #include "base/relpath.h"
 #include "base/text.h"
+#include "cmd/cmd.h"
 #include "cmd/report.h"
 #include "file/csv.h"
 #include "num/real.h"
@@ -436,11 +437,9 @@ static void put_table(const struct part *p, int k, FILE *f)
 static FILE *files_open(const struct analysis *a, struct analyse_files *all, const char *file, struct err *e)
 {
     const char *const read[2] = {a->source.file, a->single.file};
-    struct stat there, was;
     if (!mark_absent(file, a->force, e)) return NULL;
     for (int i = 0; i < 2; i++)
-        if (read[i] && stat(file, &there) == 0 && stat(read[i], &was) == 0 && there.st_dev == was.st_dev &&
-            there.st_ino == was.st_ino)
+        if (cmd_same_file(file, read[i]))
             return err_set(e, ERR_CREATE, "%s is what was analysed; give --output another name", file), NULL;
     if (!outfile_open(&all->o[all->n], file, e)) return NULL;
     all->name[all->n] = file;

@@ -133,13 +133,16 @@ const char *cmd_recipe_remark(struct cmd_call *c, const char *file, const char *
     return line;
 }
 
+bool cmd_same_file(const char *a, const char *b)
+{
+    struct stat x, y;
+    return a && b && stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}
+
 bool cmd_spares(const char *output, const char *what, const char *input, const char *cure, struct err *e)
 {
-    struct stat o, i;
-    if (!output || !input || stat(output, &o) != 0 || stat(input, &i) != 0 || o.st_dev != i.st_dev ||
-        o.st_ino != i.st_ino)
-        return true;
-    return err_set(e, ERR_CREATE, "%s: %s would overwrite the input %s; write elsewhere: %s", output, what, input,
+    return !cmd_same_file(output, input) ||
+           err_set(e, ERR_CREATE, "%s: %s would overwrite the input %s; write elsewhere: %s", output, what, input,
                    cure);
 }
 

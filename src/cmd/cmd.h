@@ -95,7 +95,10 @@ bool cmd_quantity(const struct cmd_call *c, const char *name, enum key_dimension
 /* A recipe's remark, `title` or `source`, as one line; NULL: it has none. The file has been read before. */
 const char *cmd_recipe_remark(struct cmd_call *c, const char *file, const char *key);
 
-/* The output is not the input, under whatever name (same device and inode; NULL: none is read or written). what: "the
+/* Are they one file, under whatever names (same device and inode)? NULL: no file. */
+bool cmd_same_file(const char *a, const char *b);
+
+/* The output is not the input, under whatever name (NULL: none is read or written). what: "the
  * table"; cure: "-o OTHER.csv". ERR_CREATE */
 bool cmd_spares(const char *output, const char *what, const char *input, const char *cure, struct err *e);
 

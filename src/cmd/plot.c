@@ -631,8 +631,7 @@ static bool plot_spares(const struct plot_page *p, const char *target, struct er
     if (stat(target, &t) != 0) return true;
     for (int i = 0; i < 5; i++) { /* nor of the sound, or what lies beside it */
         const char *file = arena_format(p->arena, "%.*s%s", (int)strlen(p->file) - 4, p->file, endings[i]);
-        struct stat s;
-        if (stat(file, &s) == 0 && s.st_dev == t.st_dev && s.st_ino == t.st_ino)
+        if (cmd_same_file(file, target))
             return err_set(e, ERR_CREATE,
                            "%s: the picture would overwrite %s, which it shows; write elsewhere: -o OTHER.png", target,
                            file);

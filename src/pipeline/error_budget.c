@@ -157,13 +157,6 @@ static double energy(const struct budgeting *m, bool difference)
     return sum;
 }
 
-static void subtract(struct budgeting *m)
-{
-    for (int i = 0; i < m->chosen->n_contacts; i++)
-        for (long n = 0; is_audible(m, i) && n < m->segments[i].frames; n++)
-            m->force[1][i][n] -= m->force[0][i][n];
-}
-
 /* What comes in its order may begin with silence: longer beginnings, until something is heard. */
 static bool begin_pilot(struct budgeting *m, int knob, double value, struct err *e)
 {
@@ -219,15 +212,6 @@ static bool compare_ramps(const struct budgeting *m, int contact, const double r
     return ok;
 }
 
-static bool pilot_ramp(struct budgeting *m, struct error_curve *c, struct err *e)
-{
-    double ramp[2] = {error_curve_value(c, c->n), error_curve_value(c, c->n + 1)}, all = 0, distance = 0;
-    for (int i = 0; i < m->chosen->n_contacts; i++)
-        if (is_audible(m, i) && !compare_ramps(m, i, ramp, &all, &distance, e)) return false;
-    c->distance[c->n++] = all > 0 ? sqrt(distance / all) : 0;
-    return true;
-}
-
 static bool pilot_knob(struct budgeting *m, int knob, double error, struct err *e)
 {
     const struct key_knob *k = &keys_knobs[knob];
@@ -237,17 +221,22 @@ static bool pilot_knob(struct budgeting *m, int knob, double error, struct err *
            end = finest(m, knob, low, down ? k->low : k->high);
     if (fixed && (down ? low < 2 * end : low > end / 2)) low = floor(down ? 2 * end : end / 2);
     *c = (struct error_curve){.order = k->order, .low = low, .down = down, .end = end};
-    if (knob == KNOB_gain_ramp && !coupled(m)) {
-        while (!error_curve_enough(c, error) && !(fixed && c->n == 2))
-            if (!pilot_ramp(m, c, e)) return false;
-        return true;
-    }
-    if (!begin_pilot(m, knob, low, e)) return false;
+    bool ramp = knob == KNOB_gain_ramp && !coupled(m);
+    if (!ramp && !begin_pilot(m, knob, low, e)) return false;
     while (!error_curve_enough(c, error) && !(fixed && c->n == 2)) {
-        if (!pilot_at(m, knob, error_curve_value(c, c->n + 1), e)) return false;
-        double all = energy(m, false);
-        subtract(m);
-        c->distance[c->n++] = all > 0 ? sqrt(energy(m, true) / all) : 0;
+        const double values[2] = {error_curve_value(c, c->n), error_curve_value(c, c->n + 1)};
+        double all = 0, distance = 0;
+        for (int i = 0; ramp && i < m->chosen->n_contacts; i++)
+            if (is_audible(m, i) && !compare_ramps(m, i, values, &all, &distance, e)) return false;
+        if (!ramp && !pilot_at(m, knob, values[1], e)) return false;
+        if (!ramp) {
+            all = energy(m, false);
+            for (int i = 0; i < m->chosen->n_contacts; i++)
+                for (long n = 0; is_audible(m, i) && n < m->segments[i].frames; n++)
+                    m->force[1][i][n] -= m->force[0][i][n];
+            distance = energy(m, true);
+        }
+        c->distance[c->n++] = all > 0 ? sqrt(distance / all) : 0;
     }
     return true;
 }
@@ -273,21 +262,18 @@ static bool run_chaos_pilot(const struct budgeting *m, bool failed, struct err *
     return false;
 }
 
-static bool prepare(struct budgeting *m, struct err *e)
-{
-    m->segments = ARENA_TAKE(m->arena, struct segments, m->chosen->n_contacts);
-    for (int k = 0; k < 2; k++)
-        m->force[k] = ARENA_TAKE(m->arena, double *, m->chosen->n_contacts);
-    m->first = ARENA_TAKE(m->arena, double *, m->chosen->n_contacts);
-    return make_segments(m, FIRST, e);
-}
-
 /* The curves of all knobs whose errors are piloted, each until it tells which value has at most that error; 0: until
    all of them are settled. ERR_SCENE: of a ball that bounces; else those of stages. */
 static bool run_pilot(struct budgeting *m, double error, struct err *e)
 {
     static const int first = KNOB_contact_steps; /* oversampling asks for it */
-    if (!m->segments && !prepare(m, e)) return false;
+    if (!m->segments) {
+        m->segments = ARENA_TAKE(m->arena, struct segments, m->chosen->n_contacts);
+        m->force[0] = ARENA_TAKE(m->arena, double *, m->chosen->n_contacts);
+        m->force[1] = ARENA_TAKE(m->arena, double *, m->chosen->n_contacts);
+        m->first = ARENA_TAKE(m->arena, double *, m->chosen->n_contacts);
+        if (!make_segments(m, FIRST, e)) return false;
+    }
     for (int i = -1; i < KNOBS; i++) {
         int k = i < 0 ? first : i;
         bool known = error_curve_converged(&m->curves[k]) && !(k == KNOB_oversampling && coupled(m));
@@ -310,20 +296,6 @@ struct sources { /* what is free to be chosen */
     double cost, left; /* left: of the budget's square, share that what is said does not use */
 };
 
-/* The plans' predicted work. */
-static double cost_of(const struct budgeting *m, const struct accuracy *set)
-{
-    struct scene s = *m->chosen;
-    double all = 0;
-    s.accuracy = *set;
-    for (int i = 0; i < s.n_contacts; i++) {
-        const struct plan *p = &m->parts.parts[i].plan;
-        for (int k = 0; k < p->n; k++)
-            all += p->rows[k].verdict == PLAN_RUNS ? stages_work(p->rows[k].stage, p->contact, &s) : 0;
-    }
-    return all;
-}
-
 /* Sets the knobs for shares of what is left; false: one has no such value. */
 static bool take(const struct budgeting *m, const struct sources *s, const int *tenths, struct accuracy *set,
                  double *spent)
@@ -340,16 +312,20 @@ static bool take(const struct budgeting *m, const struct sources *s, const int *
     return true;
 }
 
+/* Are these shares cheaper, by the plans' predicted work, than all before? */
 static void try_shares(const struct budgeting *m, struct sources *s)
 {
-    struct accuracy set = m->chosen->accuracy;
-    double spent;
-    if (!take(m, s, s->tenths, &set, &spent)) return;
-    double cost = cost_of(m, &set);
-    if (cost < s->cost) {
-        s->cost = cost;
-        memcpy(s->best, s->tenths, sizeof s->best);
+    struct scene set = *m->chosen;
+    double spent, cost = 0;
+    if (!take(m, s, s->tenths, &set.accuracy, &spent)) return;
+    for (int i = 0; i < set.n_contacts; i++) {
+        const struct plan *p = &m->parts.parts[i].plan;
+        for (int k = 0; k < p->n; k++)
+            cost += p->rows[k].verdict == PLAN_RUNS ? stages_work(p->rows[k].stage, p->contact, &set) : 0;
     }
+    if (cost >= s->cost) return;
+    s->cost = cost;
+    memcpy(s->best, s->tenths, sizeof s->best);
 }
 
 /* All ways to share out what is left among the sources from i on, a tenth at least to each. */
@@ -365,19 +341,6 @@ static void share(const struct budgeting *m, struct sources *s, int i, int left)
         share(m, s, i + 1, left - chosen);
         s->tenths[i] = chosen;
     }
-}
-
-/* Of the budget's square, the share that knobs which are said leave. */
-static double left_over(const struct budgeting *m)
-{
-    double left = 1;
-    for (int k = 0; k < KNOBS; k++)
-        if (budget_used(m, k) && is_users(m, k)) {
-            double error =
-                error_curve_error(&m->curves[k], accuracy_knob(&m->asked->accuracy, (enum knob)k)) / m->whole;
-            left -= error * error;
-        }
-    return left;
 }
 
 /* Every knob as fine as helps, however the budget is then shared. */
@@ -396,10 +359,15 @@ static bool take_best(const struct budgeting *m, const struct sources *s, struct
 /* Sets the knobs that the scene leaves open. False: there are no such values. */
 static bool share_budget(struct budgeting *m)
 {
-    struct sources s = {.cost = HUGE_VAL, .left = left_over(m)};
+    struct sources s = {.cost = HUGE_VAL, .left = 1};
     double spent = 0;
     for (int k = 0; k < KNOBS; k++)
-        if (!is_users(m, k) && budget_used(m, k) && s.n < SOURCES) s.knob[s.n++] = k;
+        if (budget_used(m, k) && is_users(m, k)) { /* what knobs that are said leave of the budget's square */
+            double error =
+                error_curve_error(&m->curves[k], accuracy_knob(&m->asked->accuracy, (enum knob)k)) / m->whole;
+            s.left -= error * error;
+        } else if (budget_used(m, k) && s.n < SOURCES)
+            s.knob[s.n++] = k;
     if (s.n == 0) /* nothing is free: the margin is no matter */
         return s.left >= 1 - real_exp10(ERROR_BUDGET_MARGIN / 10);
     if (s.left > 0) share(m, &s, 0, TENTHS);
@@ -411,32 +379,7 @@ static bool share_budget(struct budgeting *m)
 
 static double decibel(double x) { return 20 * real_log10(x); }
 
-static double amplitude(double db) { return real_exp10(db / 20); }
-
-/* ------------------------------------------------------------------ plans */
-
-static bool plan(struct budgeting *m, struct err *e)
-{
-    m->parts = render_parts_make(m->chosen, "", m->arena);
-    if (!render_parts_plan(&m->parts, e)) return false;
-    m->sounds = m->parts.asked & ITEM_BIT(ITEM_SOUND);
-    for (int i = 0; i < m->chosen->n_contacts; i++)
-        m->used |= plan_knobs(&m->parts.parts[i].plan);
-    return true;
-}
-
-static void begin_cheaply(struct budgeting *m)
-{
-    for (int k = 0; k < KNOBS; k++)
-        if (!is_users(m, k)) accuracy_turn(&m->chosen->accuracy, (enum knob)k, keys_knobs[k].preset[0]);
-}
-
 /* ------------------------------------------------------------------ telling */
-
-static void part_add(struct error_budget *p, int knob, bool fixed, double value, double error)
-{
-    if (error > 0) p->parts[p->n++] = (struct error_budget_part){(enum knob)knob, fixed, value, error};
-}
 
 static void parts_text(struct budgeting *m)
 {
@@ -445,17 +388,12 @@ static void parts_text(struct budgeting *m)
     p->n = 0;
     for (int k = 0; k < KNOBS; k++) {
         double value = accuracy_knob(&m->chosen->accuracy, (enum knob)k);
-        if (budget_used(m, k)) part_add(p, k, is_users(m, k), value, error_curve_error(&m->curves[k], value));
+        double error = budget_used(m, k) ? error_curve_error(&m->curves[k], value) : 0;
+        if (error > 0) p->parts[p->n++] = (struct error_budget_part){(enum knob)k, is_users(m, k), value, error};
     }
     for (int i = 0; i < p->n; i++)
         sum += p->parts[i].error * p->parts[i].error;
     p->predicted = sum > 0 ? decibel(sqrt(sum)) : -HUGE_VAL;
-}
-
-static const char *part_text(struct arena *a, const struct error_budget_part *p)
-{
-    return arena_format(a, "%s %.6g %.1f dB%s", keys_knobs[p->knob].name, p->value, decibel(p->error),
-                        p->by_user ? " (said)" : "");
 }
 
 static const char *budget_text(struct arena *a, const struct error_budget *p)
@@ -465,7 +403,8 @@ static const char *budget_text(struct arena *a, const struct error_budget *p)
     if (p->n == 0) return arena_format(a, "%sno knob leaves an error", text);
     text = arena_format(a, "%s%.1f dB predicted: ", text, p->predicted);
     for (int i = 0; i < p->n; i++)
-        text = arena_format(a, "%s%s%s", text, i ? ", " : "", part_text(a, &p->parts[i]));
+        text = arena_format(a, "%s%s%s %.6g %.1f dB%s", text, i ? ", " : "", keys_knobs[p->parts[i].knob].name,
+                            p->parts[i].value, decibel(p->parts[i].error), p->parts[i].by_user ? " (said)" : "");
     return text;
 }
 
@@ -496,27 +435,24 @@ static bool refuse(struct budgeting *m, struct err *e)
 
 /* ------------------------------------------------------------------ choosing */
 
-/* That an error cannot be kept is believed when all is piloted, and not before. */
-static bool choose(struct budgeting *m, struct err *e)
+/* From the cheapest values of all knobs on. That an error cannot be kept is believed when all is piloted, and not
+   before. The engines are chosen then, and need not be again. */
+static bool make(struct budgeting *m, struct err *e)
 {
-    return run_pilot(m, m->whole, e) && (share_budget(m) || (run_pilot(m, 0, e) && (share_budget(m) || refuse(m, e))));
-}
-
-/* The engines are chosen: they need not be again. */
-static void save_choices(struct budgeting *m)
-{
+    for (int k = 0; k < KNOBS; k++)
+        if (!is_users(m, k)) accuracy_turn(&m->chosen->accuracy, (enum knob)k, keys_knobs[k].preset[0]);
+    m->parts = render_parts_make(m->chosen, "", m->arena);
+    if (!render_parts_plan(&m->parts, e)) return false;
+    m->sounds = m->parts.asked & ITEM_BIT(ITEM_SOUND);
+    for (int i = 0; i < m->chosen->n_contacts; i++)
+        m->used |= plan_knobs(&m->parts.parts[i].plan);
+    if (!run_pilot(m, m->whole, e) || !(share_budget(m) || (run_pilot(m, 0, e) && (share_budget(m) || refuse(m, e)))))
+        return false;
+    parts_text(m);
     struct contact *c = ARENA_TAKE(m->arena, struct contact, m->chosen->n_contacts);
     for (int i = 0; i < m->chosen->n_contacts; i++)
         c[i] = *m->parts.parts[i].plan.contact;
     m->chosen->contacts = c;
-}
-
-static bool make(struct budgeting *m, struct err *e)
-{
-    begin_cheaply(m);
-    if (!plan(m, e) || !choose(m, e)) return false;
-    parts_text(m);
-    save_choices(m);
     return true;
 }
 
@@ -528,7 +464,7 @@ bool error_budget_apply(const struct scene *asked, struct arena *a, struct scene
                           .chosen = chosen,
                           .arena = a,
                           .to = p ? p : &own,
-                          .whole = amplitude(asked->accuracy.error - ERROR_BUDGET_MARGIN)};
+                          .whole = real_exp10((asked->accuracy.error - ERROR_BUDGET_MARGIN) / 20)};
     double start = stopwatch_cpu();
     *chosen = *asked;
     *m.to =

@@ -34,12 +34,6 @@ static double order_at(const struct error_curve *c, int i)
     return p < SLOWEST ? SLOWEST : p > c->order ? c->order : p;
 }
 
-/* Octaves from the first pilot run. */
-static double octaves(const struct error_curve *c, double value)
-{
-    return real_log(c->down ? c->low / value : value / c->low) / LOG2;
-}
-
 static double log_error(const struct error_curve *c, int i)
 {
     return real_log(fmax(c->distance[i], 1e-30)) - real_log(1 - real_exp(-LOG2 * order_at(c, i)));
@@ -51,22 +45,18 @@ double error_curve_error(const struct error_curve *c, double value)
     for (int i = 0; i < c->n; i++)
         same = same && c->distance[i] == 0;
     if (same) return 0;
-    double x = octaves(c, value), last = c->n - 1;
+    double x = real_log(c->down ? c->low / value : value / c->low) / LOG2, last = c->n - 1;
     int i = x < 0 ? 0 : x > last ? c->n - 1 : (int)x;
     double slope = i < c->n - 1 && x >= 0 ? log_error(c, i) - log_error(c, i + 1) : LOG2 * order_at(c, i);
     return fmax(real_exp(log_error(c, i) - slope * (x - i)), ERROR_BUDGET_FLOOR);
 }
 
-static bool ended(const struct error_curve *c)
-{
-    double next = error_curve_value(c, c->n + 1);
-    return c->n == ERROR_CURVE_MOST || c->distance[c->n - 1] == 0 || (c->down ? next < c->end : next > c->end);
-}
-
 bool error_curve_converged(const struct error_curve *c)
 {
     if (c->n < 1) return false;
-    if (ended(c)) return true;
+    double next = error_curve_value(c, c->n + 1);
+    if (c->n == ERROR_CURVE_MOST || c->distance[c->n - 1] == 0 || (c->down ? next < c->end : next > c->end))
+        return true;
     if (c->n < ERROR_CURVE_FAR) return false;
     double last = order_at(c, c->n - 2), before = order_at(c, c->n - 3);
     return last > SLOWEST && before > SLOWEST && fabs(last - before) <= ALIKE;

@@ -12,13 +12,6 @@
 #include "scene/scene_places.h"
 #include "scene/scene_write.h"
 
-static const char *why_unreadable(const char *file)
-{
-    struct stat s;
-    if (stat(file, &s) != 0 || access(file, R_OK) != 0) return strerror(errno);
-    return S_ISREG(s.st_mode) ? NULL : "is not a file";
-}
-
 /* A response may be a folder, whose reader looks for its places in index.csv (response/ir.h). */
 static bool may_be_folder(const char *where, const char *file)
 {
@@ -38,8 +31,11 @@ struct missing {
 static void add(struct missing *m, const char *contact, const char *key, const char *file)
 {
     const char *index = may_be_folder(key, file) ? arena_format(m->arena, "%s/index.csv", file) : NULL;
-    const char *why = file ? why_unreadable(index ? index : file) : NULL;
-    if (!why) return;
+    const char *read = index ? index : file;
+    struct stat s;
+    bool there = read && stat(read, &s) == 0 && access(read, R_OK) == 0;
+    if (!read || (there && S_ISREG(s.st_mode))) return;
+    const char *why = there ? "is not a file" : strerror(errno);
     const struct scene_place *p = scene_places_find(m->scene, contact, key, file);
     if (index)
         file =
@@ -49,18 +45,6 @@ static void add(struct missing *m, const char *contact, const char *key, const c
         arena_format(m->arena, "%s%s%s: %s: %s%s", m->text, between, p ? p->label : key, file, why, p ? p->named : "");
     m->contact = m->key ? m->contact : contact;
     m->key = m->key ? m->key : key;
-}
-
-static bool are_there(const struct scene *s, struct arena *a, struct err *e)
-{
-    struct missing m = {.scene = s, .arena = a, .text = ""};
-    for (int i = 0; i < s->n_contacts; i++)
-        for (const struct key *k = keys_table; k->path; k++)
-            if (k->of == KEY_CONTACT && k->type == KEY_FILE && !ball_copies(&s->contacts[i], k->path))
-                add(&m, s->contacts[i].name, k->path, *(const char **)keys_field(k, &s->contacts[i]));
-    for (int i = 0; i < s->n_inputs && !m.key; i++)
-        add(&m, NULL, "inputs", s->inputs[i].file);
-    return !m.key || err_set(e, ERR_INPUT, "%s", m.text) || err_about(e, m.contact, m.key);
 }
 
 static bool is_pinned(const struct scene *s, const struct input *p, struct arena *a, struct err *e)
@@ -77,7 +61,14 @@ static bool is_pinned(const struct scene *s, const struct input *p, struct arena
 
 bool inputs_check(const struct scene *s, struct arena *a, struct err *e)
 {
-    if (!are_there(s, a, e)) return false;
+    struct missing m = {.scene = s, .arena = a, .text = ""};
+    for (int i = 0; i < s->n_contacts; i++)
+        for (const struct key *k = keys_table; k->path; k++)
+            if (k->of == KEY_CONTACT && k->type == KEY_FILE && !ball_copies(&s->contacts[i], k->path))
+                add(&m, s->contacts[i].name, k->path, *(const char **)keys_field(k, &s->contacts[i]));
+    for (int i = 0; i < s->n_inputs && !m.key; i++)
+        add(&m, NULL, "inputs", s->inputs[i].file);
+    if (m.key) return err_set(e, ERR_INPUT, "%s", m.text) || err_about(e, m.contact, m.key);
     for (int i = 0; i < s->n_inputs; i++)
         if (!is_pinned(s, &s->inputs[i], a, e)) return false;
     return true;

@@ -85,14 +85,6 @@ static int place_order(const void *a, const void *b)
     return names ? names : p->at - q->at;
 }
 
-static const char *real_path(const char *path, struct arena *a)
-{
-    char *real = memory_realpath(path);
-    const char *copy = real ? arena_text(a, real) : path;
-    free(real);
-    return copy;
-}
-
 bool outputs_distinct(const struct outputs *o, int n, struct arena *a, struct err *e)
 {
     int all = 0, k = 0;
@@ -100,8 +92,11 @@ bool outputs_distinct(const struct outputs *o, int n, struct arena *a, struct er
         all += o[i].n;
     struct place *places = ARENA_TAKE(a, struct place, all);
     for (int i = 0; i < n; i++)
-        for (int j = 0; j < o[i].n; j++, k++)
-            places[k] = (struct place){o[i].paths[j], real_path(o[i].paths[j], a), o[i].scene, k};
+        for (int j = 0; j < o[i].n; j++, k++) {
+            char *real = memory_realpath(o[i].paths[j]);
+            places[k] = (struct place){o[i].paths[j], real ? arena_text(a, real) : o[i].paths[j], o[i].scene, k};
+            free(real);
+        }
     qsort(places, (size_t)all, sizeof *places, place_order);
     for (k = 1; k < all; k++)
         if (strcmp(places[k].real, places[k - 1].real) == 0)
@@ -130,24 +125,20 @@ static void note(struct sources *all, const struct scene *s, const char *file, c
     all->list[all->n++] = (struct outputs_source){file, what, s, status.st_dev, status.st_ino};
 }
 
-/* What a key names; of a folder what is read of it, too. */
-static void note_key(struct sources *all, const struct scene *s, const char *file, const char *what)
-{
-    int n = 0;
-    const char **files = file ? csv_folder_files(file, &n, all->arena) : NULL;
-    note(all, s, file, what);
-    for (int i = 0; i < n; i++)
-        note(all, s, files[i], what);
-}
-
 static void note_scene(struct sources *all, const struct scene *s)
 {
     for (int i = 0; s->sources && s->sources[i]; i++)
         note(all, s, s->sources[i], i ? "a file that it includes" : "the scene itself");
     for (int i = 0; i < s->n_contacts; i++)
-        for (const struct key *k = keys_table; k->path; k++)
-            if (k->of == KEY_CONTACT && k->type == KEY_FILE && !ball_copies(&s->contacts[i], k->path))
-                note_key(all, s, *(const char *const *)keys_field(k, &s->contacts[i]), k->path);
+        for (const struct key *k = keys_table; k->path; k++) {
+            if (k->of != KEY_CONTACT || k->type != KEY_FILE || ball_copies(&s->contacts[i], k->path)) continue;
+            const char *file = *(const char *const *)keys_field(k, &s->contacts[i]);
+            int n = 0; /* of a folder what is read of it, too */
+            const char **files = file ? csv_folder_files(file, &n, all->arena) : NULL;
+            note(all, s, file, k->path);
+            for (int j = 0; j < n; j++)
+                note(all, s, files[j], k->path);
+        }
     for (int i = 0; i < s->n_inputs; i++)
         note(all, s, s->inputs[i].file, "inputs");
 }
@@ -188,24 +179,22 @@ static bool unchanged(const struct outputs *o, int k, struct arena *a)
     return strcmp(is, becomes) == 0;
 }
 
-static bool spared(const struct outputs *o, int k, const struct sources *all, struct arena *a, struct err *e)
+bool outputs_check_overwrite(const struct outputs *outputs, int n, struct arena *a, struct err *e)
 {
-    const struct outputs_source *hit = source_find(all, o->paths[k]);
-    if (!hit || unchanged(o, k, a)) return true;
-    bool other = hit->scene != o->scene, differs = o->kinds[k] == OUTPUT_EFFECTIVE && hit->file == o->scene->sources[0];
-    return err_set(
-        e, ERR_CREATE,
-        "%s: the output %s would overwrite the input %s (%s%s%s%s); write elsewhere: -o FOLDER/ or -o OTHER.wav",
-        o->scene->file, o->paths[k], hit->file, hit->what, differs ? ", which is not its own effective scene" : "",
-        other ? ", scene " : "", other ? hit->scene->file : "");
-}
-
-bool outputs_check_overwrite(const struct outputs *o, int n, struct arena *a, struct err *e)
-{
-    struct sources all = sources_of(o, n, a);
-    for (int i = 0; i < n; i++)
-        for (int k = 0; k < o[i].n; k++)
-            if (!spared(&o[i], k, &all, a, e)) return false;
+    struct sources all = sources_of(outputs, n, a);
+    for (const struct outputs *o = outputs; o < outputs + n; o++)
+        for (int k = 0; k < o->n; k++) {
+            const struct outputs_source *hit = source_find(&all, o->paths[k]);
+            if (!hit || unchanged(o, k, a)) continue;
+            bool other = hit->scene != o->scene,
+                 differs = o->kinds[k] == OUTPUT_EFFECTIVE && hit->file == o->scene->sources[0];
+            return err_set(e, ERR_CREATE,
+                           "%s: the output %s would overwrite the input %s (%s%s%s%s); write elsewhere: -o FOLDER/ or "
+                           "-o OTHER.wav",
+                           o->scene->file, o->paths[k], hit->file, hit->what,
+                           differs ? ", which is not its own effective scene" : "", other ? ", scene " : "",
+                           other ? hit->scene->file : "");
+        }
     return true;
 }
 

@@ -48,36 +48,18 @@ static const char *const plan_names[ITEM_COUNT] = {
 
 const char *plan_item(enum item item) { return plan_names[item]; }
 
-/* Stems of a contact that is heard. */
-static unsigned plan_stems(const struct contact *c, const struct output *o)
-{
-    return (stems_asked(o, STEM_FORCE) ? ITEM_BIT(ITEM_FORCE) : 0) |
-           (stems_asked(o, STEM_SURFACE) && rules_surface_rings(c) ? ITEM_BIT(ITEM_SURFACE_SOUND) : 0) |
-           (stems_asked(o, ball_rolls(c) ? STEM_BALL : STEM_SCRAPER) && rules_tool_rings(c)
-                ? ITEM_BIT(ITEM_SCRAPER_SOUND)
-                : 0);
-}
-
 unsigned plan_targets(const struct contact *c, const struct scene *s)
 {
-    unsigned sounds =
-        c->gain != 0 ? (rules_audible(c, &s->output) ? ITEM_BIT(ITEM_SOUND) : 0) | plan_stems(c, &s->output) : 0;
-    return sounds | (s->output.diagnostics.given ? ITEM_BIT(ITEM_TABLE) : 0) |
-           (rules_listed(c, &s->output) ? ITEM_BIT(ITEM_LISTING) : 0);
-}
-
-static bool plan_muted(const struct contact *c, const struct scene *s)
-{
-    return c->gain == 0 && rules_audible(c, &s->output);
-}
-
-static bool plan_nothing_asked(const struct contact *c, struct err *e)
-{
-    return err_set(e, ERR_SCENE,
-                   "contact '%s': nothing is asked of it: give surface.response (or %s.response) for a sound, or "
-                   "output.diagnostics for "
-                   "a table of its physics",
-                   c->name, ball_tool(c));
+    const struct output *o = &s->output;
+    unsigned all =
+        (o->diagnostics.given ? ITEM_BIT(ITEM_TABLE) : 0) | (rules_listed(c, o) ? ITEM_BIT(ITEM_LISTING) : 0);
+    if (c->gain == 0) return all;
+    if (rules_audible(c, o)) all |= ITEM_BIT(ITEM_SOUND);
+    if (stems_asked(o, STEM_FORCE)) all |= ITEM_BIT(ITEM_FORCE);
+    if (stems_asked(o, STEM_SURFACE) && rules_surface_rings(c)) all |= ITEM_BIT(ITEM_SURFACE_SOUND);
+    if (stems_asked(o, ball_rolls(c) ? STEM_BALL : STEM_SCRAPER) && rules_tool_rings(c))
+        all |= ITEM_BIT(ITEM_SCRAPER_SOUND);
+    return all;
 }
 
 /* One bit of a set, for a message. */
@@ -136,7 +118,12 @@ bool plan_make(const struct stage *const *table, const struct contact *c, const 
 {
     struct liveness l = {0};
     *p = (struct plan){.contact = c, .targets = plan_targets(c, s)};
-    if (!p->targets && !plan_muted(c, s)) return plan_nothing_asked(c, e);
+    if (!p->targets && !(c->gain == 0 && rules_audible(c, &s->output)))
+        return err_set(e, ERR_SCENE,
+                       "contact '%s': nothing is asked of it: give surface.response (or %s.response) for a sound, or "
+                       "output.diagnostics for "
+                       "a table of its physics",
+                       c->name, ball_tool(c));
     if (p->targets & ITEM_BIT(ITEM_SOUND) && s->output.quantity != QUANTITY_FORCE &&
         !(p->contact = c = plan_choose(c, s, a, e)))
         return false;
@@ -216,21 +203,6 @@ static void row_print(const struct plan *p, const struct plan_row *r, double who
             r->stage->paper[0] ? "]" : "");
 }
 
-/* A surface whose ground is kept as it is made says how much memory that may be. */
-static void memory_print(const struct plan *p, FILE *out)
-{
-    if (p->alive & ITEM_BIT(ITEM_SURFACE) && roughness_bytes(p->contact) > 0)
-        fprintf(out, "  up to %.0f MB of memory for roughness in the plane\n", roughness_bytes(p->contact) / 1e6);
-}
-
-static void ablation_print(const struct plan *p, FILE *out)
-{
-    struct arena *a = arena_open();
-    const char *text = ablation_text(p->contact, a);
-    if (text) fprintf(out, "  ablation: %s\n", text);
-    arena_close(a);
-}
-
 void plan_print(const struct plan *p, FILE *out)
 {
     char targets[200];
@@ -244,9 +216,11 @@ void plan_print(const struct plan *p, FILE *out)
     fprintf(out, "  about %.0f cycles per audio sample%s\n", whole, whole > REAL_TIME ? ": slower than real time" : "");
     struct arena *a = arena_open();
     fprintf(out, "  turned by accuracy: %s\n", plan_knobs_text(plan_knobs(p), a));
+    if (p->alive & ITEM_BIT(ITEM_SURFACE) && roughness_bytes(p->contact) > 0) /* the ground is kept as it is made */
+        fprintf(out, "  up to %.0f MB of memory for roughness in the plane\n", roughness_bytes(p->contact) / 1e6);
+    const char *ablation = ablation_text(p->contact, a);
+    if (ablation) fprintf(out, "  ablation: %s\n", ablation);
     arena_close(a);
-    memory_print(p, out);
-    ablation_print(p, out);
     for (int i = 0; i < p->n; i++)
         if (p->rows[i].verdict == PLAN_UNWANTED)
             fprintf(out, "  not run: %-20s %s\n", p->rows[i].stage->name, p->rows[i].stage->idle);
@@ -254,39 +228,27 @@ void plan_print(const struct plan *p, FILE *out)
             fprintf(out, "  not run: %-20s nothing that is asked for needs it\n", p->rows[i].stage->name);
 }
 
-/* The parts of a render are opened and closed again; what they write into their tables goes nowhere.
- */
-static bool open_part(const struct scene *s, struct render_part *one, FILE *nowhere, struct err *e)
-{
-    one->rows.stream = one->impacts.stream = nowhere;
-    if (!one->plan.targets) return true;
-    one->open = run_open(&one->run, &one->plan, s, &(struct run_sinks){&one->rows, &one->impacts}, e);
-    return one->open;
-}
-
-static const char **warnings_of(const struct render_parts *p, struct arena *a)
-{
-    enum { MOST = (int)(sizeof((struct board *)0)->warnings / sizeof((struct board *)0)->warnings[0]) };
-    const char **all = ARENA_TAKE(a, const char *, p->scene->n_contacts *MOST + 1);
-    int n = 0;
-    for (int i = 0; i < p->scene->n_contacts; i++) {
-        const struct board *b = &p->parts[i].run.board;
-        for (int k = 0; p->parts[i].open && k < b->n_warnings && k < MOST; k++)
-            all[n++] = arena_text(a, b->warnings[k]); /* the text ends with its run */
-    }
-    return all;
-}
-
-/* What is found of all parts goes into x, but for the cost. */
+/* The parts of a render are opened and closed again; what they write into their tables goes nowhere. What is found of
+   all parts goes into x, but for the cost. */
 static bool open_parts(struct render_parts *p, struct arena *a, struct plan_scene_estimate *x, struct err *e)
 {
+    enum { MOST = (int)(sizeof((struct board *)0)->warnings / sizeof((struct board *)0)->warnings[0]) };
     FILE *nowhere = memory_fopen("/dev/null", "w");
     bool ok = nowhere || err_set(e, ERR_IO, "/dev/null cannot be opened");
-    for (int i = 0; ok && i < p->scene->n_contacts; i++)
-        ok = open_part(p->scene, &p->parts[i], nowhere, e);
+    for (int i = 0; ok && i < p->scene->n_contacts; i++) {
+        struct render_part *one = &p->parts[i];
+        one->rows.stream = one->impacts.stream = nowhere;
+        if (!one->plan.targets) continue;
+        ok = one->open = run_open(&one->run, &one->plan, p->scene, &(struct run_sinks){&one->rows, &one->impacts}, e);
+    }
     ok = ok && render_parts_agree(p, e) && render_parts_length(p, &x->length, e);
     x->quantity = ok ? render_parts_quantity(p) : -1;
-    x->warnings = warnings_of(p, a);
+    x->warnings = ARENA_TAKE(a, const char *, p->scene->n_contacts *MOST + 1);
+    for (int i = 0, n = 0; i < p->scene->n_contacts; i++) {
+        const struct board *b = &p->parts[i].run.board;
+        for (int k = 0; p->parts[i].open && k < b->n_warnings && k < MOST; k++)
+            x->warnings[n++] = arena_text(a, b->warnings[k]); /* the text ends with its run */
+    }
     render_parts_close(p);
     if (nowhere) fclose(nowhere);
     return ok;

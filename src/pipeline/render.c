@@ -37,23 +37,6 @@ struct render {
     struct render_report *report;
 };
 
-static bool render_open_sounds(struct render *r, struct err *e)
-{
-    r->block = ARENA_TAKE(r->arena, double, STAGE_BLOCK *listener_channels(&r->scene->output));
-    if (r->sounds && !(r->sound = sound_open(r->scene, r->wav_path, r->length.frames, r->arena, e))) return false;
-    return !r->scene->output.stems ||
-           (r->stems = stems_open(r->scene, r->stem_paths, r->length.frames, r->arena, e)) != NULL;
-}
-
-static void find_paths(struct render *r, const char *sounds)
-{
-    r->wav_path = outputs_path(r->scene, sounds, OUTPUT_SOUND, NULL, r->arena);
-    r->scene_path = outputs_path(r->scene, r->base, OUTPUT_EFFECTIVE, NULL, r->arena);
-    r->summary_path = outputs_path(r->scene, r->base, OUTPUT_SUMMARY, NULL, r->arena);
-    for (int k = 0; k < STEMS; k++)
-        r->stem_paths[k] = outputs_path(r->scene, sounds, OUTPUT_STEM + k, NULL, r->arena);
-}
-
 static bool render_open(struct render *r, struct err *e)
 {
     if (!inputs_check(r->scene, r->arena, e) || !render_parts_plan(&r->parts, e) ||
@@ -62,29 +45,27 @@ static bool render_open(struct render *r, struct err *e)
         !render_parts_length(&r->parts, &r->length, e))
         return false;
     r->sounds = r->parts.asked & ITEM_BIT(ITEM_SOUND);
-    return render_open_sounds(r, e);
-}
-
-/* What has just been run, to the files. */
-static bool render_put(struct render *r, long from, long to, struct err *e)
-{
-    for (int k = 0; k < STEMS; k++) {
-        if (!stems_asked(&r->scene->output, (enum stem)k)) continue;
-        render_parts_stem(&r->parts, (enum stem)k, from, to, r->block);
-        if (!stems_add(r->stems, (enum stem)k, r->block, to - from, e)) return false;
-    }
-    if (!r->sound) return true;
-    render_parts_sum(&r->parts, from, to, r->block);
-    return sound_add(r->sound, r->block, to - from, e);
+    r->block = ARENA_TAKE(r->arena, double, STAGE_BLOCK *listener_channels(&r->scene->output));
+    if (r->sounds && !(r->sound = sound_open(r->scene, r->wav_path, r->length.frames, r->arena, e))) return false;
+    return !r->scene->output.stems ||
+           (r->stems = stems_open(r->scene, r->stem_paths, r->length.frames, r->arena, e)) != NULL;
 }
 
 static bool render_blocks(struct render *r, struct err *e)
 {
-    for (long from = 0; from < r->length.frames; from += STAGE_BLOCK) {
-        long to = from + STAGE_BLOCK < r->length.frames ? from + STAGE_BLOCK : r->length.frames;
+    for (long from = 0, to; from < r->length.frames; from = to) {
+        to = from + STAGE_BLOCK < r->length.frames ? from + STAGE_BLOCK : r->length.frames;
         if (interrupt_seen())
             return err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written, run the same command again");
-        if (!render_parts_run(&r->parts, to, e) || !render_put(r, from, to, e)) return false;
+        if (!render_parts_run(&r->parts, to, e)) return false;
+        for (int k = 0; k < STEMS; k++) {
+            if (!stems_asked(&r->scene->output, (enum stem)k)) continue;
+            render_parts_stem(&r->parts, (enum stem)k, from, to, r->block);
+            if (!stems_add(r->stems, (enum stem)k, r->block, to - from, e)) return false;
+        }
+        if (!r->sound) continue;
+        render_parts_sum(&r->parts, from, to, r->block);
+        if (!sound_add(r->sound, r->block, to - from, e)) return false;
     }
     return true;
 }
@@ -220,7 +201,12 @@ static struct render *make(const struct scene *s, const char *base, const struct
     report->accuracy = copy->accuracy;
     r->parts = render_parts_make(copy, base, a);
     r->effective.fd = r->summary.fd = -1;
-    find_paths(r, r->waits ? names->sounds : base);
+    const char *sounds = r->waits ? names->sounds : base;
+    r->wav_path = outputs_path(copy, sounds, OUTPUT_SOUND, NULL, a);
+    r->scene_path = outputs_path(copy, base, OUTPUT_EFFECTIVE, NULL, a);
+    r->summary_path = outputs_path(copy, base, OUTPUT_SUMMARY, NULL, a);
+    for (int k = 0; k < STEMS; k++)
+        r->stem_paths[k] = outputs_path(copy, sounds, OUTPUT_STEM + k, NULL, a);
     if (render_open(r, e) && render_blocks(r, e) && render_finish(r, start, e) && render_finalise(r, e) &&
         inputs_still(&r->inputs, e))
         return r;
@@ -305,24 +291,19 @@ bool render_parts_agree(const struct render_parts *p, struct err *e)
     return true;
 }
 
-static bool part_files(const struct render_parts *p, struct render_part *one, struct err *e)
-{
-    one->table_path = outputs_path(p->scene, p->base, OUTPUT_TABLE, one->plan.contact, p->arena);
-    one->listing_path = outputs_path(p->scene, p->base, OUTPUT_LISTING, one->plan.contact, p->arena);
-    if ((one->plan.targets & ITEM_BIT(ITEM_TABLE) && !outfile_open(&one->table, one->table_path, e)) ||
-        (one->plan.targets & ITEM_BIT(ITEM_LISTING) && !outfile_open(&one->listing, one->listing_path, e)))
-        return false;
-    one->rows.stream = one->table.stream;
-    one->impacts.stream = one->listing.stream;
-    return true;
-}
-
 bool render_parts_open(struct render_parts *p, struct err *e)
 {
     for (int i = 0; i < p->scene->n_contacts; i++) {
         struct render_part *one = &p->parts[i];
-        if (!part_files(p, one, e)) return false;
-        if (!one->plan.targets) continue;
+        unsigned targets = one->plan.targets;
+        one->table_path = outputs_path(p->scene, p->base, OUTPUT_TABLE, one->plan.contact, p->arena);
+        one->listing_path = outputs_path(p->scene, p->base, OUTPUT_LISTING, one->plan.contact, p->arena);
+        if ((targets & ITEM_BIT(ITEM_TABLE) && !outfile_open(&one->table, one->table_path, e)) ||
+            (targets & ITEM_BIT(ITEM_LISTING) && !outfile_open(&one->listing, one->listing_path, e)))
+            return false;
+        one->rows.stream = one->table.stream;
+        one->impacts.stream = one->listing.stream;
+        if (!targets) continue;
         if (!run_open(&one->run, &one->plan, p->scene, &(struct run_sinks){&one->rows, &one->impacts}, e)) return false;
         one->open = true;
     }
@@ -386,18 +367,15 @@ void render_parts_sum(const struct render_parts *p, long from, long to, double *
         part_sum(&p->parts[i], ITEM_SOUND, (const long[2]){from, to}, sum);
 }
 
-/* What touches the surface is of one stem or of the other. */
-static bool part_of(const struct contact *c, enum stem stem)
-{
-    return (stem != STEM_BALL || ball_rolls(c)) && (stem != STEM_SCRAPER || !ball_rolls(c));
-}
-
 void render_parts_stem(const struct render_parts *p, enum stem stem, long from, long to, double *sum)
 {
     static const enum item items[STEMS] = {ITEM_FORCE, ITEM_SURFACE_SOUND, ITEM_SCRAPER_SOUND, ITEM_SCRAPER_SOUND};
     memset(sum, 0, (size_t)((to - from) * stems_channels(&p->scene->output, stem)) * sizeof *sum);
-    for (int i = 0; i < p->scene->n_contacts; i++)
-        if (part_of(&p->scene->contacts[i], stem)) part_sum(&p->parts[i], items[stem], (const long[2]){from, to}, sum);
+    for (int i = 0; i < p->scene->n_contacts; i++) { /* what touches the surface is of one stem or of the other */
+        bool rolls = ball_rolls(&p->scene->contacts[i]);
+        if (stem != (rolls ? STEM_SCRAPER : STEM_BALL))
+            part_sum(&p->parts[i], items[stem], (const long[2]){from, to}, sum);
+    }
 }
 
 const struct run *const *render_parts_runs(const struct render_parts *p)

@@ -22,16 +22,6 @@ unsigned run_reads(const struct stage_run *r)
     return r->stage->needs | r->stage->takes | (r->stage->asks ? r->stage->asks(r->contact, r->scene) : 0);
 }
 
-static void run_offsets(struct run *r)
-{
-    for (int i = r->n - 1; i >= 0; i--)
-        for (int k = i + 1; k < r->n; k++)
-            if (run_reads(&r->stages[k]) & r->stages[i].stage->gives) {
-                long lead = r->stages[k].offset + r->stages[k].ahead;
-                r->stages[i].offset = lead > r->stages[i].offset ? lead : r->stages[i].offset;
-            }
-}
-
 static int item_per_frame(const struct board *b, enum item item)
 {
     if (item == ITEM_MOTION || item == ITEM_SURFACE || item == ITEM_TABLE || item == ITEM_LISTING) return 0;
@@ -101,15 +91,6 @@ static bool run_open_stages(struct run *r, struct err *e)
 
 static long later(long frame, long by) { return frame > LONG_MAX - by ? LONG_MAX : frame + by; }
 
-/* The end of what the stage reads, given what each item's is so far. */
-static long end_of_input(const struct stage_run *r, const long *zero)
-{
-    long end = 0;
-    for (int item = 0; item < ITEM_COUNT; item++)
-        if (r->stage->needs & ITEM_BIT(item) && zero[item] > end) end = zero[item];
-    return end;
-}
-
 static void find_zeros(struct run *r)
 {
     long zero[ITEM_COUNT];
@@ -117,7 +98,10 @@ static void find_zeros(struct run *r)
         zero[item] = LONG_MAX;
     for (int i = 0; i < r->n; i++) {
         struct stage_run *st = &r->stages[i];
-        st->limit = st->stage->spreads ? later(end_of_input(st, zero), st->back + st->ahead + 1) : st->ends;
+        long end = 0; /* of what it reads */
+        for (int item = 0; item < ITEM_COUNT; item++)
+            if (st->stage->needs & ITEM_BIT(item) && zero[item] > end) end = zero[item];
+        st->limit = st->stage->spreads ? later(end, st->back + st->ahead + 1) : st->ends;
         for (int item = 0; item < ITEM_COUNT; item++)
             if (st->stage->gives & ITEM_BIT(item)) zero[item] = st->limit;
     }
@@ -147,7 +131,7 @@ static void stop_givers(struct run *r, int refiner)
         if (r->stages[i].stage->gives & refined && by->limit < r->stages[i].limit) r->stages[i].limit = by->limit;
 }
 
-/* Sets the `limit` of all stages, which are open and have their leads (run_offsets): the frame from which what a stage
+/* Sets the `limit` of all stages, which are open and have their leads (offset): the frame from which what a stage
    gives is zero, or is read by nobody. The runner makes zeros of it there. LONG_MAX: none is known. */
 static void run_limits(struct run *r)
 {
@@ -176,7 +160,12 @@ bool run_open(struct run *r, const struct plan *p, const struct scene *s, const 
         run_close(r);
         return false;
     }
-    run_offsets(r);
+    for (int i = r->n - 1; i >= 0; i--)
+        for (int k = i + 1; k < r->n; k++)
+            if (run_reads(&r->stages[k]) & r->stages[i].stage->gives) {
+                long lead = r->stages[k].offset + r->stages[k].ahead;
+                r->stages[i].offset = lead > r->stages[i].offset ? lead : r->stages[i].offset;
+            }
     run_limits(r);
     for (int i = 0; i < ITEM_COUNT; i++)
         run_signal(r, (enum item)i);
@@ -234,15 +223,6 @@ static bool run_finite(const struct stage_run *r, long from, long to, struct err
     return true;
 }
 
-static bool stage_work(struct stage_run *st, long to, struct err *e)
-{
-    for (int i = 0; i < ITEM_COUNT; i++)
-        if (st->stage->gives & ITEM_BIT(i))
-            st->board->signals[i].worked = st->board->signals[i].first + st->board->signals[i].capacity;
-    st->blocks++;
-    return st->stage->run(st, st->done, to, e) && run_finite(st, st->done, to, e);
-}
-
 /* *clock: CPU time when the stage before was done. A reading asks the system: two for each block were 2 % of a draft.
  */
 static bool stage_block(struct stage_run *st, long to, double *clock, struct err *e)
@@ -252,7 +232,14 @@ static bool stage_block(struct stage_run *st, long to, double *clock, struct err
         for (int i = 0; i < ITEM_COUNT; i++)
             if (st->stage->gives & ITEM_BIT(i) && !(st->stage->needs & ITEM_BIT(i)))
                 signal_slide(&st->board->signals[i], end + 1);
-        if (st->done < st->limit && !stage_work(st, st->limit < end ? st->limit : end, e)) return false;
+        if (st->done < st->limit) {
+            long until = st->limit < end ? st->limit : end;
+            for (int i = 0; i < ITEM_COUNT; i++)
+                if (st->stage->gives & ITEM_BIT(i))
+                    st->board->signals[i].worked = st->board->signals[i].first + st->board->signals[i].capacity;
+            st->blocks++;
+            if (!st->stage->run(st, st->done, until, e) || !run_finite(st, st->done, until, e)) return false;
+        }
         st->done = end;
         double now = stopwatch_cpu();
         st->seconds += now - *clock;

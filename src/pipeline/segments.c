@@ -68,41 +68,28 @@ static void strike(struct contact *c, const double place[2], double rate, struct
         .path = PATH_STILL, .at = {place[0], place[1]}, .duration = AUDIBLE_FRAMES / rate, .speed = NAN};
 }
 
-/* One channel's spectrum onto the bands. */
-static void power_add(struct fft *f, const double *x, double *work[2], double *power)
+static bool measure(struct run *r, struct arena *a, double *power, struct err *e)
 {
     enum { WIDE = AUDIBLE_FRAMES / 2 / (AUDIBLE_BINS - 1) };
-    fft_forward(f, x, work[0], work[1]);
-    for (int k = 0; k <= AUDIBLE_FRAMES / 2; k++)
-        power[(k + WIDE / 2) / WIDE] += work[0][k] * work[0][k] + work[1][k] * work[1][k];
-}
-
-/* Sum of the force; sound[channels][AUDIBLE_FRAMES] */
-static bool record(struct run *r, double *sound, double *pushed, struct err *e)
-{
     int channels = r->board.channels;
+    double *sound = ARENA_TAKE(a, double, (size_t)channels *AUDIBLE_FRAMES), pushed = 0;
+    double *re = ARENA_TAKE(a, double, AUDIBLE_FRAMES / 2 + 1), *im = ARENA_TAKE(a, double, AUDIBLE_FRAMES / 2 + 1);
     for (long from = 0; from < AUDIBLE_FRAMES; from += STAGE_BLOCK) {
         if (!run_block(r, from + STAGE_BLOCK, e)) return false;
-        const double *x = board_at(&r->board, ITEM_SOUND, from), *f = board_at(&r->board, ITEM_FORCE, from);
+        const double *x = board_at(&r->board, ITEM_SOUND, from), *force = board_at(&r->board, ITEM_FORCE, from);
         for (long i = 0; i < STAGE_BLOCK; i++) {
-            *pushed += f[i];
+            pushed += force[i];
             for (int k = 0; k < channels; k++)
                 sound[k * (long)AUDIBLE_FRAMES + from + i] = x[i * channels + k];
         }
     }
-    return true;
-}
-
-static bool measure(struct run *r, struct arena *a, double *power, struct err *e)
-{
-    int channels = r->board.channels;
-    double *sound = ARENA_TAKE(a, double, (size_t)channels *AUDIBLE_FRAMES), pushed = 0;
-    double *work[2] = {ARENA_TAKE(a, double, AUDIBLE_FRAMES / 2 + 1), ARENA_TAKE(a, double, AUDIBLE_FRAMES / 2 + 1)};
-    if (!record(r, sound, &pushed, e)) return false;
     struct fft *f = fft_open(AUDIBLE_FRAMES);
     memset(power, 0, AUDIBLE_BINS * sizeof *power);
-    for (int k = 0; k < channels; k++)
-        power_add(f, sound + k * (long)AUDIBLE_FRAMES, work, power);
+    for (int k = 0; k < channels; k++) { /* each channel's spectrum onto the bands */
+        fft_forward(f, sound + k * (long)AUDIBLE_FRAMES, re, im);
+        for (int i = 0; i <= AUDIBLE_FRAMES / 2; i++)
+            power[(i + WIDE / 2) / WIDE] += re[i] * re[i] + im[i] * im[i];
+    }
     fft_close(f);
     for (int k = 0; k < AUDIBLE_BINS; k++)
         power[k] /= pushed * pushed * (k == 0 || k == AUDIBLE_BINS - 1 ? 8.5 : 16);
@@ -157,22 +144,6 @@ static void stretch_add(struct segments *x, long from, long frames, double weigh
     x->stretch[at] = s;
 }
 
-/* Cumulated squares of the speed at GRID instants' ends; the fastest of them. */
-static int squares(const struct trajectory *tr, double *sum)
-{
-    int fastest = 0;
-    double most = 0;
-    sum[0] = 0;
-    for (int i = 0; i < GRID; i++) {
-        double t = (i + 0.5) * tr->duration / GRID, v;
-        trajectory_at(tr, 1, &t, (struct trajectory_out){.du = &v});
-        fastest = v * v > most ? i : fastest;
-        most = fmax(most, v * v);
-        sum[i + 1] = sum[i] + v * v;
-    }
-    return fastest;
-}
-
 static void stretch_at(struct segments *x, const double *sum, double step, int cell, int parts)
 {
     double rate = x->scene.output.sample_rate, share = (sum[cell + 1] - sum[cell]) / sum[GRID],
@@ -185,18 +156,21 @@ static void stretch_at(struct segments *x, const double *sum, double step, int c
                 SEGMENTS_WINDOW, stands * rate / (SEGMENTS_WINDOW * TAPERED));
 }
 
-/* As many as the motion has windows, twelve times over, so that they cost little of it. */
-static int parts_of(const struct segments *x)
-{
-    long n = x->moving / (12 * SEGMENTS_WINDOW);
-    return n < SEGMENTS_LEAST ? SEGMENTS_LEAST : n > SEGMENTS_MOST ? SEGMENTS_MOST : (int)n;
-}
-
+/* As many parts as the motion has windows, twelve times over, so that they cost little of it. sum: squares of the
+   speed, cumulated, at GRID instants' ends. */
 static void choose_spread(struct segments *x, const struct trajectory *tr)
 {
-    int parts = parts_of(x);
-    double sum[GRID + 1];
-    int cell = 0, fastest = squares(tr, sum);
+    long windows = x->moving / (12 * SEGMENTS_WINDOW);
+    int parts = windows < SEGMENTS_LEAST ? SEGMENTS_LEAST : windows > SEGMENTS_MOST ? SEGMENTS_MOST : (int)windows;
+    double sum[GRID + 1] = {0}, most = 0;
+    int cell = 0, fastest = 0;
+    for (int i = 0; i < GRID; i++) {
+        double t = (i + 0.5) * tr->duration / GRID, v;
+        trajectory_at(tr, 1, &t, (struct trajectory_out){.du = &v});
+        fastest = v * v > most ? i : fastest;
+        most = fmax(most, v * v);
+        sum[i + 1] = sum[i] + v * v;
+    }
     for (int k = 0; k < parts - 1; k++) {
         double golden = 0.6180339887498949 * (k + 1), at = (k + golden - floor(golden)) / (parts - 1);
         while (cell < GRID - 1 && sum[cell + 1] <= at * sum[GRID])
@@ -217,16 +191,6 @@ static void choose(struct segments *x, const struct trajectory *tr, double first
     if (some > x->moving || anywhere(&x->contact)) some = x->moving;
     some = some < SEGMENTS_WINDOW ? SEGMENTS_WINDOW : some;
     stretch_add(x, 0, some, (double)x->moving / (double)some / (2 * TAPERED));
-}
-
-static void places(struct segments *x, const struct trajectory *tr)
-{
-    for (int i = 0; i < x->n; i++) {
-        struct segments_stretch *s = &x->stretch[i];
-        double t = ((double)s->from + 0.5 * (double)s->frames) / x->scene.output.sample_rate;
-        trajectory_at(tr, 1, &t, (struct trajectory_out){.x = &s->place[0], .y = &s->place[1]});
-        x->frames += s->frames;
-    }
 }
 
 /* One power for all, or of a response that moves, that in the middle of each third of the stretches. */
@@ -264,7 +228,12 @@ bool segments_make(const struct scene *s, const struct contact *c, double first,
     if (!trajectory_make(&c->motion, trajectory_seed(s, c), a, &tr, e)) return err_at(e, "contact '%s'", c->name);
     x->moving = trajectory_frames(&tr, s->output.sample_rate);
     choose(x, &tr, first);
-    places(x, &tr);
+    for (int i = 0; i < x->n; i++) {
+        struct segments_stretch *at = &x->stretch[i];
+        double t = ((double)at->from + 0.5 * (double)at->frames) / s->output.sample_rate;
+        trajectory_at(&tr, 1, &t, (struct trajectory_out){.x = &at->place[0], .y = &at->place[1]});
+        x->frames += at->frames;
+    }
     x->drift = c->contact.model == CONTACT_ROLL_COUPLED ? fmax(1, (double)x->moving / (double)x->frames) : 1;
     if (!plan_make(stages_table, &x->contact, &x->scene, a, &x->plan, e) || !hear(s, c, moves, x, e)) return false;
     x->knobs = plan_knobs(&x->plan);
@@ -272,19 +241,6 @@ bool segments_make(const struct scene *s, const struct contact *c, double first,
 }
 
 /* ------------------------------------------------------------------ running */
-
-/* Frames [at, end) to `to`, which takes those from `from` on. */
-static bool run_through(struct run *r, long at, const long range[2], double *to, struct err *e)
-{
-    for (long end; at < range[1]; at = end) {
-        end = at + STAGE_BLOCK < range[1] ? at + STAGE_BLOCK : range[1];
-        if (!run_block(r, end, e)) return false;
-        long first = at > range[0] ? at : range[0];
-        if (first < end)
-            memcpy(to + (first - range[0]), board_at(&r->board, ITEM_FORCE, first), (size_t)(end - first) * sizeof *to);
-    }
-    return true;
-}
 
 /* Each stretch begins as many frames before as the stages look back, unless what was run last ends there anyway. Where
    it begins the limited trajectory begins, too, and that is felt for a while: so it is where the first, coarsest run
@@ -298,8 +254,14 @@ static bool run_stretches(struct segments *x, struct run *r, double *force, stru
     for (int i = 0; i < x->n; force += x->stretch[i++].frames) {
         const struct segments_stretch *s = &x->stretch[i];
         if (s->from - x->lead > at) run_skip(r, at = s->from - x->lead);
-        if (!run_through(r, at, (const long[2]){s->from, s->from + s->frames}, force, e)) return false;
-        at = s->from + s->frames;
+        for (long end, last = s->from + s->frames; at < last; at = end) {
+            end = at + STAGE_BLOCK < last ? at + STAGE_BLOCK : last;
+            if (!run_block(r, end, e)) return false;
+            long first = at > s->from ? at : s->from;
+            if (first < end)
+                memcpy(force + (first - s->from), board_at(&r->board, ITEM_FORCE, first),
+                       (size_t)(end - first) * sizeof *force);
+        }
     }
     return true;
 }
