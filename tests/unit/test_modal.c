@@ -379,30 +379,31 @@ START_TEST(strikes_alike)
 END_TEST
 
 /* What the model leaves is not always white: noise that fades within 20 ms, 30 dB above what stays. Errors of two modes
-   over their standard errors, rms over three recordings: 1 if they were those of that noise, 5.2 if it were taken for
+   over their standard errors, rms over two recordings: 1 if they were those of that noise, 4.5 if it were taken for
    white. */
 START_TEST(noise_that_fades)
 {
+    enum { LONG = 6000 };
     static const struct known m[] = {{800, 20, 1, 0}, {1500, 12, 0.6, 0}};
     double square = 0.0;
-    for (unsigned seed = 1; seed <= 3; seed++) {
+    for (unsigned seed = 1; seed <= 2; seed++) {
         struct arena *a = arena_open();
         struct modal_result r;
         struct err e = {0};
-        double *y = ARENA_TAKE(a, double, N + 1), *noise = ARENA_TAKE(a, double, 2 * (N + 1));
-        sound(m, 2, &one, 1, 0, N + 1, y);
-        noise_normal(noise_make(seed, "fades"), 1, 2 * (N + 1), noise);
-        for (long i = 0; i <= N; i++)
+        double *y = ARENA_TAKE(a, double, LONG + 1), *noise = ARENA_TAKE(a, double, 2 * (LONG + 1));
+        sound(m, 2, &one, 1, 0, LONG + 1, y);
+        noise_normal(noise_make(seed, "fades"), 1, 2 * (LONG + 1), noise);
+        for (long i = 0; i <= LONG; i++)
             y[i] += 1e-4 * noise[2 * i] + 3e-3 * real_exp(-(double)i / (0.02 * RATE)) * noise[2 * i + 1];
-        struct modal_stretch s = {.y = y + 1, .first = 1, .n = modal_length(N), .fitted = true, .pulse = {0, 1, &one}};
+        struct modal_stretch s = {.y = y + 1, .first = 1, .n = modal_length(LONG), .fitted = true, .pulse = {0, 1, &one}};
         struct modal_data d = {.rate = RATE, .places = 1, .stretches = 1, .stretch = &s};
-        struct modal_options o = {.most = 50, .low = 20, .high = 7800, .fastest = 600};
+        struct modal_options o = {.most = 50, .low = 400, .high = 3900, .fastest = 600};
         ck_assert_msg(modal_find(&d, &o, a, &r, &e), "%s", e.text);
         for (int i = 0; i < 2; i++) {
             const struct modal_mode *k = nearest(&r, &m[i]);
             double off = (k->frequency - m[i].f) / k->frequency_se;
             ck_assert_double_eq_tol(k->frequency, m[i].f, 0.01);
-            square += off * off / 6.0;
+            square += off * off / 4.0;
         }
         arena_close(a);
     }
