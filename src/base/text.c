@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum { NUMBER_MAX = 400, WORD_MAX = 63, FAR = 99, ESCAPE_MAX = 4 };
 
@@ -203,6 +204,12 @@ bool text_is_one(const char *word, const char *const *names)
     while (*names && strcmp(*names, word) != 0)
         names++;
     return *names;
+}
+
+bool text_ends_in(const char *s, const char *ending)
+{
+    size_t n = strlen(s), m = strlen(ending);
+    return n > m && strcasecmp(s + n - m, ending) == 0;
 }
 
 bool text_ends(const char *s, const char *ending)

@@ -53,6 +53,9 @@ const char *text_shown(struct arena *a, const char *s);
 /* Does it end so, and is more than the ending? */
 bool text_ends(const char *s, const char *ending);
 
+/* The same, whatever the case of the letters. */
+bool text_ends_in(const char *s, const char *ending);
+
 /* Prints plain text in lines of at most 100 columns, for help and generated comments, and ends the line. The first line
    begins at `column` (what has been printed before it); further lines begin with `margin`. A newline in the text begins
    a new line. Words are never cut. */

@@ -28,9 +28,9 @@
 #include "pipeline/error_budget.h"
 #include "pipeline/outputs.h"
 #include "pipeline/plan.h"
+#include "response/response.h"
 #include "scene/accuracy.h"
 #include "scene/keys.h"
-#include "scene/rules.h"
 #include "scene/scene_places.h"
 
 /* --values KNOB=N,N... of `rasp accuracy`: which values of which knobs are rendered besides those of the presets. */
@@ -583,7 +583,7 @@ static bool ask_read(struct accuracy_sweep *s, struct err *e)
 bool accuracy_silent(const struct scene *s)
 {
     for (int i = 0; i < s->n_contacts; i++)
-        if (s->contacts[i].gain != 0 && rules_audible(&s->contacts[i], &s->output)) return false;
+        if (s->contacts[i].gain != 0 && response_audible(&s->contacts[i], &s->output)) return false;
     return true;
 }
 

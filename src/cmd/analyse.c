@@ -21,7 +21,6 @@
 #include "force/impact_series.h"
 #include "num/real.h"
 #include "output/mark.h"
-#include "scene/rules.h"
 
 #define MOST 1e50
 
@@ -206,7 +205,7 @@ bool analyse_read(const char *file, const struct analyse_given *g, struct arena 
                   struct err *e)
 {
     *s = (struct analyse_source){.file = file, .kind = "CSV", .has_force = true};
-    if (!(rules_ends_in(file, ".csv") ? table_take(s, g, a, e) : samples_take(s, g, a, e))) return false;
+    if (!(text_ends_in(file, ".csv") ? table_take(s, g, a, e) : samples_take(s, g, a, e))) return false;
     if (s->has_force && !impact_find(&s->signal, &g->options, a, &s->found, e)) return err_at(e, "%s", file);
     const struct impact_events *v = &s->found.events;
     double amplitude = 0, least = HUGE_VAL, longest = 0;

@@ -20,10 +20,10 @@
 #include "response/mode_table.h"
 #include "response/object_kinds.h"
 #include "response/space.h"
-#include "scene/ball.h"
 #include "scene/keys.h"
 #include "scene/material.h"
 #include "scene/units.h"
+#include "trajectory/contact.h"
 
 bool modes_output_spares(const char *output, const char *input, struct err *e)
 {
@@ -133,9 +133,9 @@ static bool body_read(struct cmd_call *c, const char *file, struct body *b, stru
     if (b->scene.n_contacts > 1)
         return err_set(e, ERR_SCENE, "%s: has %d contacts; rasp modes takes a recipe, or a scene of one contact", file,
                        b->scene.n_contacts);
-    if (tool && strcmp(b->key, ball_tool(b->scene.contacts)) != 0)
+    if (tool && strcmp(b->key, contact_tool(b->scene.contacts)) != 0)
         return err_set(e, ERR_USAGE, "--body %s: what touches the surface of %s is a %s", b->key, file,
-                       ball_tool(b->scene.contacts));
+                       contact_tool(b->scene.contacts));
     b->title = scene ? b->scene.title : cmd_recipe_remark(c, file, "title");
     b->remark = scene ? NULL : cmd_recipe_remark(c, file, "source");
     b->response = tool ? &b->scene.contacts[0].scraper.response : &b->scene.contacts[0].surface.response;

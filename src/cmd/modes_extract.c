@@ -11,11 +11,11 @@
 #include "base/interrupt.h"
 #include "base/outfile.h"
 #include "base/relpath.h"
+#include "base/text.h"
 #include "file/csv.h"
 #include "file/wav.h"
 #include "num/real.h"
 #include "output/mark.h"
-#include "scene/rules.h"
 #include "scene/units.h"
 
 /* ------------------------------------------------------------------ options */
@@ -86,8 +86,8 @@ static bool outputs(struct modes_extract *x, struct err *e)
                 return err_set(e, ERR_USAGE, "%s and %s are both %s", output_names[i], output_names[k], file);
     }
     const char *plot = g->file[MODES_EXTRACT_PLOT];
-    g->svg = plot && rules_ends_in(plot, ".svg");
-    if (plot && !g->svg && !rules_ends_in(plot, ".png"))
+    g->svg = plot && text_ends_in(plot, ".svg");
+    if (plot && !g->svg && !text_ends_in(plot, ".png"))
         return err_set(e, ERR_USAGE, "--plot: '%s' ends in neither .png nor .svg", plot);
     return g->file[MODES_EXTRACT_TABLE] || err_set(e, ERR_USAGE, "-o FILE.csv is needed: the mode table to write");
 }

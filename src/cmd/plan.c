@@ -8,9 +8,9 @@
 #include "cmd/report.h"
 #include "pipeline/error_budget.h"
 #include "pipeline/plan.h"
-#include "scene/ablation.h"
 #include "scene/keys.h"
 #include "scene/scene_places.h"
+#include "trajectory/contact.h"
 
 /* Names of bits [0, n) of a set. */
 static void set_names(struct report *r, const char *key, unsigned set, int n, const char *(*name)(int i))
@@ -72,7 +72,7 @@ static bool plan_one(struct cmd_call *c, const char *file, struct report *r, str
         set_names(r, "targets", p->targets, ITEM_COUNT, item_name);
         report_set(r, "cycles_per_sample:n", whole);
         set_names(r, "knobs", plan_knobs(p), KNOBS, knob_name);
-        report_set(r, "ablation:e stages:[", ablation_text(p->contact, c->arena));
+        report_set(r, "ablation:e stages:[", contact_ablation(p->contact, c->arena));
         for (int k = 0; k < p->n; k++)
             set_stage(r, p, &p->rows[k]);
         report_set(r, "] }");

@@ -21,8 +21,8 @@
 #include "response/mode_table.h"
 #include "response/object.h"
 #include "response/space.h"
-#include "scene/ball.h"
 #include "scene/scene_read.h"
+#include "trajectory/contact.h"
 #include "trajectory/trajectory.h"
 
 const char *const plot_panels_words[PLOT_PANELS] = {"waveform", "spectrogram", "force", "normal",
@@ -379,7 +379,7 @@ static bool add_ground(struct plot_page *p, const struct response *r, const stru
 
 static bool add_contact(struct plot_page *p, const struct scene *s, const struct contact *c, struct err *e)
 {
-    const char *which = s->n_contacts > 1 ? arena_format(p->arena, " of %s", c->name) : "", *tool = ball_tool(c);
+    const char *which = s->n_contacts > 1 ? arena_format(p->arena, " of %s", c->name) : "", *tool = contact_tool(c);
     struct modes m = {0};
     if (!path_of(p, s, c) && !path_of_scene(p, s, c, e)) return false;
     if (!modes_of(&c->surface.response, s->output.sample_rate, p->arena, &m, e) ||

@@ -24,8 +24,8 @@
 #include "convolution/resonators.h"
 #include "convolution/ring.h"
 #include "num/real.h"
+#include "response/response.h"
 #include "scene/rows.h"
-#include "scene/rules.h"
 #include "scene/scene_part.h"
 #include "stage.h"
 #include "trajectory/trajectory.h"
@@ -51,8 +51,8 @@ static void check(const struct scene_part *p, const struct contact *c, const voi
     (void)own;
     const struct response *r = &c->surface.response;
     const char *path = "contact.enhance";
-    if ((rules_responds(r) && !rules_is_recorded(r))) return;
-    if (rules_is_recorded(r))
+    if ((response_given(r) && !response_is_recorded(r))) return;
+    if (response_is_recorded(r))
         scene_part_refuse(p, path, "surface.response",
                           "give a mode table (.csv), surface.object or surface.space, or remove contact.enhance",
                           " needs the surface's modes, and '%s' is recorded", diag_shown(p->yaml->diag, r->file));

@@ -5,12 +5,12 @@
 #include "num/scaled.h"
 #include "response/listener.h"
 #include "response/modes.h"
-#include "scene/rules.h"
+#include "response/response.h"
 #include "stage.h"
 
 static bool mix_wanted(const struct contact *c, const struct scene *s)
 {
-    return rules_rings(c) && s->output.quantity != QUANTITY_FORCE;
+    return response_rings(c) && s->output.quantity != QUANTITY_FORCE;
 }
 
 static double mix_work(const struct contact *c, const struct scene *s)

@@ -10,8 +10,7 @@
 #include "num/lanes.h"
 #include "response/object.h"
 #include "response/places.h"
-#include "scene/ablation.h"
-#include "scene/ball.h"
+#include "trajectory/contact.h"
 
 /* What sampling folds into a voice's sound is taken out again (alias.h), in the same way for every engine. */
 
@@ -197,7 +196,7 @@ struct modes_where ring_where(const struct trajectory *tr, double t)
 struct modes_where ring_first_place(const struct contact *c, const struct trajectory *tr)
 {
     const double *place = c->ablation.place;
-    return ablation_one_place(c) && !isnan(place[0]) ? (struct modes_where){place[0], place[1], 0} : ring_where(tr, 0);
+    return contact_one_place(c) && !isnan(place[0]) ? (struct modes_where){place[0], place[1], 0} : ring_where(tr, 0);
 }
 
 /* The power of two at the larger of two gains: in such units they can be squared and multiplied, whatever their size,
@@ -243,7 +242,7 @@ static bool returns(const struct modes *m, const struct trajectory *tr, double t
 
 static bool refuse_reach(const struct modes *m, const struct stage_run *r, const double p[2], double out, struct err *e)
 {
-    bool place = ablation_one_place(r->contact) && !isnan(r->contact->ablation.place[0]);
+    bool place = contact_one_place(r->contact) && !isnan(r->contact->ablation.place[0]);
     return err_set(e, ERR_SCENE,
                    "contact '%s': %s: %s [%g m, %g m], %.3g m beyond the places of %s%s%s; move it, or set "
                    "surface.extrapolate: nearest",
@@ -257,7 +256,7 @@ bool ring_reach(const struct modes *m, const struct stage_run *r, struct err *e)
     const struct response *given = &r->contact->surface.response;
     const struct trajectory *tr = r->board->trajectory;
     struct modes_point point = modes_point_make(r->arena, m->n);
-    bool one = ablation_one_place(r->contact);
+    bool one = contact_one_place(r->contact);
     struct modes_where first = ring_first_place(r->contact, tr);
     long steps = one ? 0 : tr->straight ? 1 : tr->detail;
     for (long i = 0; i <= steps && given->extrapolate == EXTRAPOLATE_ERROR; i++) {
@@ -373,7 +372,7 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
                        .choice = given->choice,
                        .board = r->board,
                        .contact = r->contact,
-                       .key = surface ? "surface" : ball_tool(r->contact),
+                       .key = surface ? "surface" : contact_tool(r->contact),
                        .out = surface ? ITEM_SURFACE_SOUND : ITEM_SCRAPER_SOUND,
                        .weight = surface ? 1 : r->contact->scraper.weight,
                        .moves = given->choice->moves,

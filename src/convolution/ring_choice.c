@@ -28,11 +28,10 @@
 #include "num/lanes.h"
 #include "response/listener.h"
 #include "response/object.h"
+#include "response/response.h"
 #include "response/space.h"
-#include "scene/ablation.h"
-#include "scene/ball.h"
-#include "scene/rules.h"
 #include "stage.h"
+#include "trajectory/contact.h"
 
 #define COMPUTED_DB 140.0  /* how far a computed response is followed down */
 #define COMPUTED_MOST 60.0 /* s, and how long */
@@ -92,7 +91,7 @@ static bool read_modes(struct ring_choosing *c, struct err *e)
 static bool moves(const struct ring_choosing *c, enum ring_body body)
 {
     const struct modes *m = &c->to->modes;
-    return body == RING_SURFACE && !ablation_one_place(c->contact) &&
+    return body == RING_SURFACE && !contact_one_place(c->contact) &&
            ((m->moves && c->contact->motion.path != PATH_STILL) || m->travels);
 }
 
@@ -208,7 +207,7 @@ static bool choose_modal(struct ring_choosing *c, enum ring_body body, struct er
     if (!read_modes(c, e)) return err_about(e, c->contact->name, ring_choice_about(c->contact, body));
     if (!choose_reading(c, body, e)) return false;
     if (!gammatone_fits(c, e))
-        return err_about(e, c->contact->name, gammatones[body == RING_SURFACE ? 0 : ball_rolls(c->contact) ? 2 : 1]);
+        return err_about(e, c->contact->name, gammatones[body == RING_SURFACE ? 0 : contact_rolls(c->contact) ? 2 : 1]);
     if (!choose_engine(c, e)) return false;
     const struct output *o = &c->scene->output;
     double moving = isnan(c->contact->motion.duration) ? 1 : c->contact->motion.duration,
@@ -220,10 +219,10 @@ static bool choose_modal(struct ring_choosing *c, enum ring_body body, struct er
 static void choose_recorded(struct ring_choosing *c, enum ring_body body)
 {
     c->to->recorded = true;
-    c->to->folder = rules_is_folder(c->given);
+    c->to->folder = response_is_folder(c->given);
     c->to->reading = MOVING_FIXED;
     c->to->moves = c->to->folder && body == RING_SURFACE && c->contact->motion.path != PATH_STILL &&
-                   !ablation_one_place(c->contact);
+                   !contact_one_place(c->contact);
     c->to->engine = RING_OVERLAP_ADD;
     c->to->seconds = isnan(c->given->length) ? 1 : c->given->length;
 }
@@ -233,17 +232,17 @@ bool ring_choice_make(const struct contact *c, const struct scene *s, enum ring_
 {
     const struct response *given = given_of(c, body);
     *choice = NULL;
-    if (!rules_responds(given) || (body == RING_SCRAPER && c->scraper.weight == 0)) return true;
+    if (!response_given(given) || (body == RING_SCRAPER && c->scraper.weight == 0)) return true;
     struct ring_choice *to = ARENA_TAKE(a, struct ring_choice, 1);
     struct ring_choosing me = {.contact = c,
                                .scene = s,
                                .given = given,
-                               .key = body == RING_SURFACE ? "surface" : ball_tool(c),
+                               .key = body == RING_SURFACE ? "surface" : contact_tool(c),
                                .arena = a,
                                .to = to};
     *choice = to;
     to->gamma = given->gammatone > 1 ? given->gammatone : 1;
-    if (given->file && !rules_is_table(given)) {
+    if (given->file && !response_is_table(given)) {
         choose_recorded(&me, body);
         return true;
     }
@@ -256,7 +255,11 @@ const char *ring_choice_about(const struct contact *c, enum ring_body body)
                                            {"scraper.response", "scraper.object", "scraper.response"},
                                            {"ball.response", "ball.object", "ball.response"}};
     const struct response *given = given_of(c, body);
-    return keys[body == RING_SURFACE ? 0 : ball_rolls(c) ? 2 : 1][given->object.given ? 1 : given->space.given ? 2 : 0];
+    return keys[body == RING_SURFACE ? 0
+                : contact_rolls(c)   ? 2
+                                     : 1][given->object.given  ? 1
+                                        : given->space.given ? 2
+                                                             : 0];
 }
 
 enum ring_engine ring_choice_engine(const struct contact *c, enum ring_body body)

@@ -10,7 +10,7 @@
 #include "convolution/ring.h"
 #include "response/ir.h"
 #include "response/places.h"
-#include "scene/ablation.h"
+#include "trajectory/contact.h"
 
 enum { CHUNK = OVERLAP_ADD_BLOCK };
 
@@ -111,7 +111,7 @@ static bool read_folder(struct ring_overlap *s, struct stage_run *r, const struc
     s->y = ARENA_TAKE(r->arena, double, CHUNK);
     s->mix = ARENA_TAKE(r->arena, struct places_mix, CHUNK);
     s->first = -1;
-    if (ablation_one_place(r->contact)) {
+    if (contact_one_place(r->contact)) {
         struct modes_where first = ring_first_place(r->contact, r->board->trajectory);
         s->one = ARENA_TAKE(r->arena, struct places_mix, 1);
         places_at(s->set.places, first.x, first.y, s->one);

@@ -16,7 +16,7 @@
    into the ground, with no vertical speed. That the ground bore it before is known to the equations, but not to what
    sounds (ring_*), for which a weight that is there at once is a blow; so
    the force rises over load.approach where the ball lies at the start, and falls over load.release at the motion's end
-   (force/approach.c, scene/rules.h). The equations and the account (ITEM_ROLL) are of the ball without them. */
+   (force/approach.c, trajectory/load.h). The equations and the account (ITEM_ROLL) are of the ball without them. */
 #include "convolution/roll_coupled.h"
 
 #include <math.h>
@@ -26,11 +26,12 @@
 #include "force/approach.h"
 #include "force/hertz.h"
 #include "num/real.h"
-#include "scene/ablation.h"
-#include "scene/ball.h"
-#include "scene/rules.h"
+#include "response/response.h"
+#include "scene/params.h"
+#include "scene/scene_part.h"
 #include "stage.h"
 #include "surface/relief.h"
+#include "trajectory/contact.h"
 #include "trajectory/spin.h"
 #include "trajectory/trajectory.h"
 
@@ -124,7 +125,7 @@ struct rolling {
 static bool is_modal(const struct contact *c)
 {
     const struct response *given = &c->surface.response;
-    return c->contact.roll.ground != GROUND_RIGID && rules_responds(given) && !rules_is_recorded(given);
+    return c->contact.roll.ground != GROUND_RIGID && response_given(given) && !response_is_recorded(given);
 }
 
 static void ground_phi(const struct roll_ground *g, long frame, double *phi)
@@ -137,7 +138,7 @@ static void ground_phi(const struct roll_ground *g, long frame, double *phi)
 
 static void ground_ramps(struct roll_ground *g, const struct stage_run *r)
 {
-    g->moves = g->shapes.moves && r->contact->motion.path != PATH_STILL && !ablation_one_place(r->contact);
+    g->moves = g->shapes.moves && r->contact->motion.path != PATH_STILL && !contact_one_place(r->contact);
     g->first = ring_first_place(r->contact, g->board->trajectory);
     g->ramp = (long)r->scene->accuracy.gain_ramp;
     g->phi = ARENA_TAKE(r->arena, double, g->shapes.n);
@@ -157,7 +158,7 @@ bool roll_coupled_ground_make(struct roll_ground *g, const struct stage_run *r, 
                err_set(e, ERR_SCENE,
                        "contact '%s': contact.roll.ground: elastic needs modes of the surface, and %s; give "
                        "surface.object, or take ground: rigid",
-                       c->name, rules_responds(given) ? "a recorded response has none" : "it has no response");
+                       c->name, response_given(given) ? "a recorded response has none" : "it has no response");
     if (!choice && !ring_choice_make(c, r->scene, RING_SURFACE, r->arena, &choice, e)) return false;
     if (!modes_shapes_make(&choice->modes, "surface", r->arena, &g->shapes, e))
         return err_at(e, "contact '%s'", c->name);
@@ -196,9 +197,9 @@ double roll_coupled_ground_modes(const struct contact *c)
 static bool rolling_body(struct rolling *w, const struct contact *c, struct err *e)
 {
     w->mass = c->scraper.mass;
-    w->gravity = ball_gravity(c);
+    w->gravity = contact_gravity(c);
     w->drop = c->contact.roll.drop;
-    w->stiffness = ball_stiffness(c);
+    w->stiffness = contact_stiffness(c);
     return !isnan(w->stiffness) || hertz_stiffness(c, &w->stiffness, e);
 }
 
@@ -376,7 +377,7 @@ static void report_bounces(const struct rolling *w, struct stage_run *r)
     const char *name = r->contact->name;
     double still = s->lift_offs > 0 ? fmax(s->hop[0], s->hop[1]) : 0, fastest = s->impact_most;
     double steps = fastest > 0 ? coupled_contact_time(w->mass, w->stiffness, fastest) / b->roll.step : HUGE_VAL;
-    if (ball_gravity(r->contact) == 0)
+    if (contact_gravity(r->contact) == 0)
         board_warn(b, arena_format(r->arena,
                                    "contact '%s': nothing presses the ball down: contact.gravity is 0, and once it is "
                                    "off the surface it stays off",
@@ -437,18 +438,81 @@ static unsigned rolling_turns(const struct contact *c, const struct scene *s)
 /* Cycles of a step: 160 on rigid ground, 110 of its place on the curve, 2 a mode, of rk4 11. */
 static double rolling_work(const struct contact *c, const struct scene *s)
 {
-    double k = ball_stiffness(c), rate = s->output.sample_rate * s->accuracy.oversampling;
+    double k = contact_stiffness(c), rate = s->output.sample_rate * s->accuracy.oversampling;
     struct err unknown = {0};
     if (isnan(k) && !hertz_stiffness(c, &k, &unknown)) return 0;
     double mode = c->contact.roll.integrator == INTEGRATOR_RK4 ? 11 : 2;
-    double time =
-        coupled_contact_time(c->scraper.mass, k, fmax(PAPER_SPEED, sqrt(2 * ball_gravity(c) * c->contact.roll.drop)));
+    double time = coupled_contact_time(c->scraper.mass, k,
+                                       fmax(PAPER_SPEED, sqrt(2 * contact_gravity(c) * c->contact.roll.drop)));
     return s->accuracy.oversampling * substeps_for(s->accuracy.contact_steps, time, rate) *
            (270 + mode * roll_coupled_ground_modes(c));
 }
 
+/* ------------------------------------------------------------------ what the scene must say */
+
+/* Why the surface cannot give way; NULL: it may, as far as the scene tells (the poles of a mode table are known when it
+ * has been read). */
+static const char *why_rigid(const struct response *r)
+{
+    if (!response_given(r)) return "the surface has no modes";
+    if (response_is_recorded(r)) return "what is recorded has no modes";
+    return response_travels(&r->space) ? "a surface.space that travels has no mode shapes" : NULL;
+}
+
+static void ground_check(const struct scene_part *p, const struct contact *c)
+{
+    const char *ground = "contact.roll.ground", *integrator = "contact.roll.integrator",
+               *why = why_rigid(&c->surface.response);
+    bool elastic = c->contact.roll.ground == GROUND_ELASTIC,
+         exact = c->contact.roll.integrator == INTEGRATOR_EXACT_IMPACT;
+    if (!scene_part_known(p, ground) || !scene_part_known(p, integrator)) return;
+    if (elastic && why)
+        scene_part_refuse(
+            p, ground, ground,
+            "give surface.object, or a mode table with shared poles as surface.response; or set it to rigid",
+            " is elastic, and %s", why);
+    else if (exact && (elastic || (c->contact.roll.ground == GROUND_AUTO && !why)))
+        scene_part_refuse(p, integrator, ground,
+                          "set contact.roll.ground to rigid, or leave contact.roll.integrator out",
+                          ": exact_impact needs rigid ground, and %s is %s", scene_part_label(p, ground),
+                          elastic ? "elastic" : "auto, which is elastic where the surface rings by modes");
+}
+
+/* What is dropped without gravity never arrives. */
+static void drop_check(const struct scene_part *p, const struct contact *c)
+{
+    const char *drop = "contact.roll.drop", *gravity = "contact.gravity";
+    if (c->contact.roll.drop > 0 && c->contact.gravity == 0)
+        scene_part_refuse(p, drop, gravity, "raise contact.gravity, or lay the ball down with drop: 0",
+                          " is %.4g m and %s is 0: the ball never arrives", c->contact.roll.drop,
+                          scene_part_label(p, gravity));
+}
+
+static void coupled_check(const struct scene_part *p, const struct contact *c, const void *own)
+{
+    (void)own;
+    if (!scene_part_known(p, "contact.model")) return;
+    if (c->ball.patch == 0 && relief_along(c) == ALONG_PLANE)
+        scene_part_refuse(
+            p, "ball.patch", "ball.patch",
+            "write for instance: patch: 20 um; or let the surface follow the path, by surface.along: path",
+            " must be above 0 on a surface in the plane: only along a line is the rolling curve known without "
+            "smoothing");
+    hertz_unit_check(p, &c->contact.roll);
+    ground_check(p, c);
+    drop_check(p, c);
+    if (!scene_part_given(p, "contact.roll.stiffness") && !scene_part_given(p, "contact.roll.kappa"))
+        hertz_check(p, c,
+                    "the stiffness of the contact follows from it, unless contact.roll.stiffness (or kappa) is given");
+}
+
+static bool rolls(const struct contact *c) { return c->contact.model == CONTACT_ROLL_COUPLED; }
+
+static const struct params coupled_params = {.section = "contact.roll", .check = coupled_check, .given = rolls};
+
 const struct stage roll_coupled_stage = {
     .name = "roll_coupled",
+    .params = &coupled_params,
     .does = "ball, contact and the surface's modes solved together: flights, impacts, rolling",
     .paper = "002 eq. 1 to 4",
     .idle = "contact.model is not roll_coupled",

@@ -6,7 +6,6 @@
 #include "force/approach.h"
 
 #include "force/gesture.h"
-#include "scene/rules.h"
 #include "trajectory/load.h"
 
 void approach_warn(struct stage_run *r, const char *what, double at)
@@ -26,7 +25,7 @@ void approach_warn(struct stage_run *r, const char *what, double at)
 static bool approach_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return !gesture_follows(c) && (rules_approach(c, false) > 0 || rules_approach(c, true) > 0);
+    return !gesture_follows(c) && (load_approach(c, false) > 0 || load_approach(c, true) > 0);
 }
 
 static double approach_work(const struct contact *c, const struct scene *s)
@@ -39,7 +38,7 @@ static bool approach_open(struct stage_run *r, struct err *e)
 {
     struct load_law *l = ARENA_TAKE(r->arena, struct load_law, 1);
     r->state = l;
-    if (rules_approach(r->contact, true) > 0) r->ends = r->board->moving;
+    if (load_approach(r->contact, true) > 0) r->ends = r->board->moving;
     if (r->board->load) *l = *r->board->load;
     return r->board->load || load_make(r->contact, r->board->trajectory, r->arena, l, e);
 }

@@ -24,9 +24,9 @@
 
 #include "num/real.h"
 #include "scene/rows.h"
-#include "scene/rules.h"
 #include "scene/scene_part.h"
 #include "stage.h"
+#include "trajectory/contact.h"
 #include "trajectory/load.h"
 #include "trajectory/trajectory.h"
 
@@ -70,7 +70,7 @@ static const struct params gesture_params = {
 
 bool gesture_follows(const struct contact *c)
 {
-    return params_given(c, &gesture_params) && (rules_driven(c) || c->contact.model == CONTACT_GIVEN);
+    return params_given(c, &gesture_params) && (contact_driven(c) || c->contact.model == CONTACT_GIVEN);
 }
 
 /* ------------------------------------------------------------------ the filter */
@@ -93,7 +93,7 @@ static bool gesture_wanted(const struct contact *c, const struct scene *s)
 static bool fade_make(const struct stage_run *r, struct load_law *fade, struct err *e)
 {
     if (!load_make(r->contact, r->board->trajectory, r->arena, fade, e)) return false;
-    if (r->contact->contact.model == CONTACT_GIVEN) fade->release = fmin(RULES_APPROACH, fade->duration);
+    if (r->contact->contact.model == CONTACT_GIVEN) fade->release = fmin(LOAD_APPROACH, fade->duration);
     return true;
 }
 

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "base/file_cache.h"
+#include "base/text.h"
 #include "file/bytes.h"
 #include "file/heightfile_formats.h"
 #include "file/npy.h"
@@ -12,7 +13,6 @@
 #include "force/approach.h"
 #include "num/resample.h"
 #include "scene/rows.h"
-#include "scene/rules.h"
 #include "scene/scene_part.h"
 #include "stage.h"
 #include "trajectory/series.h"
@@ -47,7 +47,7 @@ static void check(const struct scene_part *p, const struct contact *c, const voi
     if (g->scale == 0)
         scene_part_refuse(p, "contact.given.scale", "contact.given.scale", "write for instance: 10 N",
                           " is 0: there would be no force");
-    while (g->file && kind < 3 && !rules_ends_in(g->file, endings[kind]))
+    while (g->file && kind < 3 && !text_ends_in(g->file, endings[kind]))
         kind++;
     if (!g->file || kind == 3) return;
     if (kind == 0 && access(g->file, F_OK) == 0)
@@ -78,7 +78,7 @@ static const struct given_force *given_of(const struct contact *c) { return para
 
 /* ------------------------------------------------------------------ both kinds of files */
 
-bool given_is_table(const struct contact *c) { return given_of(c)->file && rules_ends_in(given_of(c)->file, ".csv"); }
+bool given_is_table(const struct contact *c) { return given_of(c)->file && text_ends_in(given_of(c)->file, ".csv"); }
 
 static double given_scale(const struct contact *c) { return isnan(given_of(c)->scale) ? 1 : given_of(c)->scale; }
 

@@ -9,9 +9,10 @@
 #include "force/hertz.h"
 
 #include <math.h>
+#include <string.h>
 
-#include "scene/ball.h"
 #include "scene/material.h"
+#include "trajectory/contact.h"
 
 /* (1 - nu^2) / E, 1/Pa; NAN: not known. */
 static double compliance(const struct object_given *o)
@@ -28,13 +29,13 @@ static double compliance(const struct object_given *o)
 
 static const char *own_key(const struct contact *c)
 {
-    return ball_rolls(c) ? "contact.roll.stiffness" : "contact.strike.stiffness";
+    return contact_rolls(c) ? "contact.roll.stiffness" : "contact.strike.stiffness";
 }
 
 static bool radius_missing(const struct contact *c, struct err *e)
 {
     return err_set(e, ERR_SCENE, "contact '%s': the stiffness of the %s is not known: give %s.radius, or %s", c->name,
-                   ball_rolls(c) ? "contact" : "impact", ball_tool(c), own_key(c));
+                   contact_rolls(c) ? "contact" : "impact", contact_tool(c), own_key(c));
 }
 
 static bool material_missing(const struct contact *c, const char *body, struct err *e)
@@ -43,14 +44,61 @@ static bool material_missing(const struct contact *c, const char *body, struct e
                    "contact '%s': the stiffness of the %s is not known: give %s.material (such as steel), or "
                    "youngs_modulus and poisson of %s.object, "
                    "or %s",
-                   c->name, ball_rolls(c) ? "contact" : "impact", body, body, own_key(c));
+                   c->name, contact_rolls(c) ? "contact" : "impact", body, body, own_key(c));
 }
 
 bool hertz_stiffness(const struct contact *c, double *stiffness, struct err *e)
 {
     double tool = compliance(&c->scraper.response.object), surface = compliance(&c->surface.response.object);
     if (isnan(c->scraper.radius)) return radius_missing(c, e);
-    if (isnan(tool) || isnan(surface)) return material_missing(c, isnan(tool) ? ball_tool(c) : "surface", e);
+    if (isnan(tool) || isnan(surface)) return material_missing(c, isnan(tool) ? contact_tool(c) : "surface", e);
     *stiffness = 4.0 / 3 * sqrt(c->scraper.radius) / (tool + surface);
     return true;
+}
+
+/* ------------------------------------------------------------------ what the scene must say */
+
+bool hertz_unit(const struct yaml_node *node, bool linear)
+{
+    const char *slash = node && node->kind == YAML_SCALAR ? strchr(node->text, '/') : NULL;
+    return slash && (strchr(slash, '.') || strchr(slash, '(')) != !linear;
+}
+
+/* Are the moduli of a body known: from its material, or its object's own keys? */
+static bool is_elastic(const struct scene_part *p, const char *body, const struct object_given *o)
+{
+    struct arena *a = p->yaml->arena;
+    return o->material != MATERIAL_CUSTOM || !scene_part_known(p, arena_format(a, "%s.material", body)) ||
+           (scene_part_given(p, arena_format(a, "%s.object.youngs_modulus", body)) &&
+            scene_part_given(p, arena_format(a, "%s.object.poisson", body)));
+}
+
+static void moduli_missing(const struct scene_part *p, const char *body, const char *because)
+{
+    struct arena *a = p->yaml->arena;
+    const char *material = arena_format(a, "%s.material", body),
+               *object = arena_format(a, "youngs_modulus and poisson of %s.object", body);
+    const struct yaml_node *custom = yaml_find(p->map, material);
+    if (custom)
+        diag_add(p->yaml->diag, custom->at, arena_format(a, "name a material, such as steel, or give %s", object),
+                 "%s is custom, and %s are not given: %s", scene_part_label(p, material), object, because);
+    else
+        scene_part_missing(p, material, "steel", arena_format(a, " (or %s): %s", object, because));
+}
+
+void hertz_check(const struct scene_part *p, const struct contact *c, const char *because)
+{
+    const struct object_given *const objects[2] = {&c->surface.response.object, &c->scraper.response.object};
+    const char *const bodies[2] = {"surface", contact_tool(c)};
+    for (int i = 0; i < 2; i++)
+        if (!is_elastic(p, bodies[i], objects[i])) moduli_missing(p, bodies[i], because);
+}
+
+void hertz_unit_check(const struct scene_part *p, const struct roll *r)
+{
+    const char *path = "contact.roll.stiffness";
+    if (!isnan(r->stiffness) && hertz_unit(yaml_find(p->map, path), false))
+        scene_part_refuse(p, path, path,
+                          "give it in N/m^1.5: the force is stiffness x penetration^1.5 (Hertz's contact)",
+                          " is in N/m^1.5, not in N/m");
 }

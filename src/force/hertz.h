@@ -5,10 +5,21 @@
 
 #include "base/err.h"
 #include "scene/scene.h"
+#include "scene/scene_part.h"
 
 /* k in N/m^1.5 from radius and materials (hertz.c). ERR_SCENE: the scene does not tell them; names the keys that would,
  * and the model's own key of stiffness. */
 bool hertz_stiffness(const struct contact *c, double *stiffness, struct err *e);
+
+/* Hertz's stiffness needs the moduli of the surface and of what touches it: reports what is missing, and BECAUSE. */
+void hertz_check(const struct scene_part *p, const struct contact *c, const char *because);
+
+/* Is a stiffness written with the unit of a linear spring (N/m), or, of a linear one, with that of Hertz's contact
+ * (N/m^1.5)? */
+bool hertz_unit(const struct yaml_node *node, bool linear);
+
+/* Of a ball's: that error. */
+void hertz_unit_check(const struct scene_part *p, const struct roll *r);
 
 /* The mean of Hertz's k xi^1.5 while the penetration goes in a straight line from xi to xi+: with a^2, b^2 = xi, xi+,
    both above 0, is

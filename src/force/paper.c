@@ -22,7 +22,6 @@
 #include "force/path_cells.h"
 #include "force/path_integral.h"
 #include "num/real.h"
-#include "scene/rules.h"
 #include "surface/relief.h"
 #include "trajectory/trajectory.h"
 
@@ -234,7 +233,7 @@ static bool paper_run(struct stage_run *r, long from, long to, struct err *e)
 
 static unsigned paper_asks(const struct contact *c, const struct scene *s)
 {
-    return path_cells_asks(c, s) | (rules_plane(c) ? ITEM_BIT(ITEM_CURVATURE_Y) : 0);
+    return path_cells_asks(c, s) | (relief_plane(c) ? ITEM_BIT(ITEM_CURVATURE_Y) : 0);
 }
 
 const struct stage paper_stage = {

@@ -16,12 +16,12 @@
 #include <string.h>
 
 #include "num/lanes.h"
-#include "scene/rules.h"
 #include "surface/height_map.h"
 #include "surface/limiter.h"
 #include "surface/relief.h"
 #include "surface/roughness.h"
 #include "trajectory/load.h"
+#include "trajectory/motion.h"
 #include "trajectory/trajectory.h"
 
 #define INLINE static inline __attribute__((always_inline))
@@ -394,7 +394,7 @@ bool path_cells_make(struct path_cells *w, struct stage_run *r, enum cells_kind 
     w->halves = w->curved || along == ALONG_PLANE || !linear_between_knots(w->relief);
     w->longest = w->halves ? fmin(longest, relief_finest(w->relief) / 2) : longest;
     if (!load_varies(r->contact)) {
-        double n = rules_load(r->contact);
+        double n = load_constant(r->contact);
         limiter_warn(r, n, n);
     }
     w->along = !w->curved && w->channels == 1 && kind == CELLS_ALONG && w->e[0] == 1 && w->e[1] == 0;
@@ -404,13 +404,13 @@ bool path_cells_make(struct path_cells *w, struct stage_run *r, enum cells_kind 
 unsigned path_cells_asks(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    bool field = !rules_straight(&c->motion) && rules_along(c) != ALONG_PATH;
+    bool field = !motion_straight(&c->motion) && relief_along(c) != ALONG_PATH;
     return field ? ITEM_BIT(ITEM_X) | ITEM_BIT(ITEM_Y) | ITEM_BIT(ITEM_VX) | ITEM_BIT(ITEM_VY) : 0;
 }
 
 double path_cells_work(const struct contact *c, const struct scene *s)
 {
     double rough = roughness_scale(c), finest = isnan(rough) ? height_map_pitch(c) : rough;
-    bool halves = rules_along(c) == ALONG_PLANE;
-    return (halves ? 2 : 1) * (s->accuracy.oversampling + rules_speed(&c->motion) / (s->output.sample_rate * finest));
+    bool halves = relief_along(c) == ALONG_PLANE;
+    return (halves ? 2 : 1) * (s->accuracy.oversampling + motion_speed(&c->motion) / (s->output.sample_rate * finest));
 }

@@ -37,10 +37,11 @@
 #include "num/noise.h"
 #include "num/real.h"
 #include "num/vecmath.h"
-#include "scene/ball.h"
-#include "scene/rules.h"
+#include "scene/params.h"
+#include "scene/scene_part.h"
 #include "surface/limiter.h"
 #include "surface/relief.h"
+#include "trajectory/contact.h"
 #include "trajectory/load.h"
 #include "trajectory/trajectory.h"
 
@@ -178,8 +179,8 @@ static double hertz_rest(const struct contact *c, double normal)
 static struct roll_stiffness roll_stiffness_make(const struct stage_run *r)
 {
     const struct contact *c = r->contact;
-    double given = ball_stiffness(c), depth = c->contact.roll.static_penetration;
-    struct roll_stiffness s = {.normal = rules_load(c), .stiffness = given, .roughness = NAN, .hertz = NAN};
+    double given = contact_stiffness(c), depth = c->contact.roll.static_penetration;
+    struct roll_stiffness s = {.normal = load_constant(c), .stiffness = given, .roughness = NAN, .hertz = NAN};
     if (!(s.normal > 0)) return s;
     if (isnan(given) && isnan(depth)) {
         s.roughness = roll_stiffness_roughness(r->board->relief->under);
@@ -351,7 +352,7 @@ static void warn_alpha(struct stage_run *r)
 
 static void warn_weightless(struct stage_run *r)
 {
-    if (ball_gravity(r->contact) == 0)
+    if (contact_gravity(r->contact) == 0)
         board_warn(r->board,
                    arena_format(r->arena,
                                 "contact '%s': nothing presses the ball down but its own turning: contact.gravity is "
@@ -427,7 +428,7 @@ static double roll_work(const struct contact *c, const struct scene *s)
 
 static bool roll_printed(const struct contact *c, struct roll_state *s, struct err *e)
 {
-    double k = s->law.stiffness = ball_stiffness(c), normal = rules_load(c);
+    double k = s->law.stiffness = contact_stiffness(c), normal = load_constant(c);
     s->law.mu = c->contact.roll.lambda / k;
     s->rests = (struct roll_stiffness){.normal = normal, .stiffness = k, .roughness = NAN, .hertz = NAN};
     s->rests.rest = normal > 0 ? real_pow(normal / k, 2.0 / 3) : 0;
@@ -677,8 +678,42 @@ static void roll_skip(struct stage_run *r, long frame)
     s->begun = false;
 }
 
+/* ------------------------------------------------------------------ what the scene must say */
+
+/* Defaults stand in every effective scene, so that only another value is one that was meant to do something. */
+static void paper_check(const struct scene_part *p, const struct roll *r)
+{
+    if (!scene_part_given(p, "contact.roll.stiffness") && !scene_part_given(p, "contact.roll.kappa"))
+        scene_part_missing(p, "contact.roll.stiffness", "2 kN/m^1.5",
+                           " (or contact.roll.kappa): under penetration: paper rho is about the ball's radius, and "
+                           "the stiffness is chosen by hand");
+    if (scene_part_given(p, "contact.roll.mu") && r->mu != 1)
+        scene_part_refuse(p, "contact.roll.mu", "contact.roll.mu",
+                          "give contact.roll.lambda in its place, or set contact.roll.penetration to deviation",
+                          " has no effect where contact.roll.penetration is paper");
+}
+
+static void roll_check(const struct scene_part *p, const struct contact *c, const void *own)
+{
+    const struct roll *r = &c->contact.roll;
+    (void)own;
+    if (!scene_part_known(p, "contact.model")) return;
+    if (c->ball.patch == 0)
+        scene_part_refuse(
+            p, "ball.patch", "ball.patch", "write for instance: patch: 20 um",
+            " must be above 0 where contact.model is roll: the force follows from the slope and curvature of the "
+            "rolling curve, which has kinks");
+    hertz_unit_check(p, r);
+    if (scene_part_known(p, "contact.roll.penetration") && r->penetration == PENETRATION_PAPER) paper_check(p, r);
+}
+
+static bool rolls(const struct contact *c) { return c->contact.model == CONTACT_ROLL; }
+
+static const struct params roll_params = {.section = "contact.roll", .check = roll_check, .given = rolls};
+
 const struct stage roll_stage = {
     .name = "roll",
+    .params = &roll_params,
     .does = "contact force of a ball that rolls: penetration, and the scraping terms of one limited trajectory",
     .paper = "000 eq. 15, 16, 18, 19",
     .idle = "contact.model is not roll, or contact.force is paper",

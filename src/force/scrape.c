@@ -28,7 +28,8 @@
 
 #include "num/lanes.h"
 #include "num/real.h"
-#include "scene/rules.h"
+#include "surface/relief.h"
+#include "trajectory/motion.h"
 
 bool scrape_make(struct scrape *s, struct stage_run *r, double share, struct err *e)
 {
@@ -118,7 +119,7 @@ static bool scrape_wanted(const struct contact *c, const struct scene *s)
  * anew. */
 static double scrape_work(const struct contact *c, const struct scene *s)
 {
-    bool straight = rules_straight(&c->motion), plane = rules_along(c) == ALONG_PLANE;
+    bool straight = motion_straight(&c->motion), plane = relief_along(c) == ALONG_PLANE;
     double limited = c->contact.limiter.curve == LIMITER_TANH ? 1 : 0.4, over = s->accuracy.oversampling,
            cells = path_cells_work(c, s);
     if (plane && !straight) return limited * (850 * over + 2200 * (cells / 2 - over));

@@ -26,12 +26,23 @@
 
 #include "num/filter.h"
 #include "num/lanes.h"
+#include "num/real.h"
 #include "num/vecmath.h"
-#include "scene/rules.h"
+#include "scene/params.h"
+#include "scene/scene_part.h"
 #include "stage.h"
 #include "surface/limiter.h"
 #include "surface/relief.h"
+#include "trajectory/contact.h"
 #include "trajectory/load.h"
+
+#define WIDEST 0.1 /* s: a wider sigma leaves nothing to hear, and its kernels cost minutes per second of sound */
+
+/* Standard deviation in s of the Gaussian smoothing for an alpha in m; without a limiter as for 3 cm. */
+static double sigma_of(const struct contact_model *c, double alpha)
+{
+    return c->smoothing * (c->limiter.curve == LIMITER_TANH ? alpha : 0.03) / 0.03;
+}
 
 enum { SPREAD_SEGMENT = 64, SPREAD_WIDE = 4 * LANES };
 
@@ -140,7 +151,7 @@ static bool smooth_varies(const struct contact *c)
 double smooth_still(const struct contact *c)
 {
     bool still = smooth_wanted(c, NULL) && !smooth_varies(c);
-    return still ? rules_sigma(&c->contact, smooth_alpha(c, limiter_constant(c))) : 0;
+    return still ? sigma_of(&c->contact, smooth_alpha(c, limiter_constant(c))) : 0;
 }
 
 static bool smooth_curvature_wanted(const struct contact *c, const struct scene *s)
@@ -151,7 +162,7 @@ static bool smooth_curvature_wanted(const struct contact *c, const struct scene 
 
 static bool smooth_curvature_y_wanted(const struct contact *c, const struct scene *s)
 {
-    return smooth_curvature_wanted(c, s) && rules_plane(c);
+    return smooth_curvature_wanted(c, s) && relief_plane(c);
 }
 
 static double smooth_work(const struct contact *c, const struct scene *s)
@@ -175,7 +186,7 @@ static bool smooth_too_wide(const struct stage_run *r, double sigma, struct err 
                    "contact '%s': contact.smoothing: the force is smoothed with a sigma of %.3g s (contact.smoothing x "
                    "alpha / 3 cm), and at most "
                    "%g s make sense; lower contact.smoothing or contact.limiter's alpha",
-                   r->contact->name, sigma, RULES_SMOOTHING_WIDEST);
+                   r->contact->name, sigma, WIDEST);
 }
 
 /* ratio: sigma over that of the first axis. */
@@ -188,8 +199,8 @@ static bool smooth_open_item(struct stage_run *r, enum item item, double ratio, 
     s->varies = b->limiter != NULL;
     s->per_alpha = ratio * c->contact.smoothing / 0.03 * b->rate * b->over;
     double widest = s->varies ? fmax(b->limiter->alpha_max, b->limiter->fixed) : smooth_alpha(c, limiter_constant(c));
-    if (ratio * rules_sigma(&c->contact, widest) > RULES_SMOOTHING_WIDEST)
-        return smooth_too_wide(r, ratio * rules_sigma(&c->contact, widest), e);
+    if (ratio * sigma_of(&c->contact, widest) > WIDEST)
+        return smooth_too_wide(r, ratio * sigma_of(&c->contact, widest), e);
     s->still.kernel = filter_gaussian(r->arena, s->per_alpha * widest);
     s->reach = s->still.kernel.reach;
     r->ahead = (s->reach + (s->varies ? SPREAD_SEGMENT : 0)) / b->over + 2;
@@ -346,8 +357,54 @@ static bool smooth_curvature_y_run(struct stage_run *r, long from, long to, stru
     return r->board->relief->along != ALONG_PLANE || smooth_run(r, from, to, e);
 }
 
+#define NARROWEST 1e-9 /* s: far below a sample, and kernels of it would underflow */
+
+/* The largest alpha there can be along x: that of the force under a constant load. */
+static double alpha_along_x(const struct contact *c)
+{
+    const struct limiter *l = &c->contact.limiter;
+    double n = load_constant(c);
+    if (!contact_steady(c) && (c->grip.given || c->load.recorded || (contact_rolls(c) && c->ball.offset > 0)))
+        return fmax(l->alpha_max, l->alpha);
+    if (isnan(l->force_range[0])) return l->alpha;
+    double share = (n - l->force_range[0]) / (l->force_range[1] - l->force_range[0]);
+    double nu = real_pow(share < 0 ? 0 : share > 1 ? 1 : share, l->zeta);
+    return (1 - nu) * l->alpha_max + nu * l->alpha_min;
+}
+
+static double alpha_widest(const struct contact *c)
+{
+    return alpha_along_x(c) * fmax(1, c->contact.limiter.ratio_y); /* NAN: not the paper's force */
+}
+
+/* Told at the smoothing if it is given, else at the alpha that makes it wide. */
+static void smoothing_check(const struct scene_part *p, const struct contact *c, const void *own)
+{
+    (void)own;
+    const char *path = "contact.smoothing";
+    double sigma = sigma_of(&c->contact, alpha_widest(c));
+    if (c->contact.smoothing > 0 && c->contact.smoothing < NARROWEST)
+        scene_part_refuse(p, path, path, "0 turns it off; or write for instance: smoothing: 50 us",
+                          " must be 0 or at least 1 ns");
+    if (sigma > WIDEST)
+        diag_add(p->yaml->diag,
+                 yaml_find(p->map, path) ? scene_part_later(p, path, path)
+                                         : scene_part_later(p, "contact.limiter.alpha", "contact.limiter.alpha_max"),
+                 "lower contact.smoothing or the alpha of contact.limiter; smoothing: 0 turns it off",
+                 "%s smooths the force with a sigma of %.3g s (smoothing x alpha / 3 cm), and at most %g s make sense",
+                 scene_part_label(p, path), sigma, WIDEST);
+}
+
+static bool smooths(const struct contact *c)
+{
+    return c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL;
+}
+
+static const struct params smooth_params = {.section = "contact.smoothing", .check = smoothing_check, .given = smooths};
+
 const struct stage smooth_stage = {
     .name = "smooth",
+    .params = &smooth_params,
     .does = "Gaussian smoothing of the force, sigma in proportion to alpha",
     .paper = "000 sec. 2.2",
     .idle = "contact.model is neither scrape nor roll, contact.smoothing is 0, or contact.force is paper",

@@ -22,8 +22,8 @@
 #include "num/vecmath.h"
 #include "scene/rows.h"
 #include "scene/scene_part.h"
-#include "scene/scene_sense_parts.h"
 #include "stage.h"
+#include "trajectory/motion.h"
 #include "trajectory/trajectory.h"
 
 /* ------------------------------------------------------------------ parameters */
@@ -60,7 +60,7 @@ static void unit_check(const struct scene_part *p, const struct strike *s)
     const char *path = "contact.strike.stiffness";
     const struct yaml_node *node = yaml_find(p->map, path);
     int other = s->pulse == PULSE_HERTZ ? PULSE_HALF_SINE : PULSE_HERTZ;
-    if (!isnan(s->stiffness) && scene_sense_model_unit(node, s->pulse != PULSE_HERTZ))
+    if (!isnan(s->stiffness) && hertz_unit(node, s->pulse != PULSE_HERTZ))
         diag_add(p->yaml->diag, node->at,
                  arena_format(p->yaml->arena, "give it in %s, or set contact.strike.pulse to %s", units[s->pulse],
                               pulses[other].word),
@@ -77,15 +77,14 @@ static void stiffness_check(const struct scene_part *p, const struct contact *c,
     }
     scene_part_missing(p, "scraper.radius", "5 mm",
                        ": the stiffness of the impact follows from it, unless contact.strike.stiffness is given");
-    scene_sense_model_moduli(p, c,
-                             "the stiffness of the impact follows from it, unless contact.strike.stiffness is given");
+    hertz_check(p, c, "the stiffness of the impact follows from it, unless contact.strike.stiffness is given");
 }
 
 static void train_check(const struct scene_part *p, const struct contact *c, const struct strike *s)
 {
     const char *count = "contact.strike.count", *first = "contact.strike.first", *gravity = "contact.gravity",
                *bounce = "contact.strike.restitution";
-    double lasts = scene_sense_lasts(&c->motion);
+    double lasts = motion_lasts(&c->motion);
     if (s->count > 1 && !scene_part_given(p, "contact.strike.interval") && !scene_part_given(p, bounce))
         scene_part_refuse(p, count, count, "add for instance: interval: 0.5 s; or restitution: 0.7 for a bounce train",
                           " is %d, and nothing says when the second impact comes", s->count);

@@ -9,11 +9,10 @@
 #include "force/impact_series.h"
 #include "force/strike.h"
 #include "num/decimal.h"
-#include "scene/ball.h"
 #include "scene/params.h"
-#include "scene/rules.h"
 #include "stage.h"
 #include "surface/limiter.h"
+#include "trajectory/contact.h"
 #include "trajectory/load.h"
 #include "trajectory/spin.h"
 #include "trajectory/trajectory.h"
@@ -57,7 +56,7 @@ enum { SAMPLED = sizeof sampled / sizeof sampled[0] };
 static void roll_rows_make(struct roll_rows *r, const struct contact *c)
 {
     *r = (struct roll_rows){0};
-    if (ball_rolls(c)) r->spin = spin_make(c);
+    if (contact_rolls(c)) r->spin = spin_make(c);
 }
 
 /* The column's value comes from ITEM_ROLL. */
@@ -66,7 +65,7 @@ static bool roll_rows_reads(const struct contact *c, enum column k)
     bool reads = k == CONTACT_SHARE || k == LIFT_OFFS;
     for (int i = 0; i < SAMPLED; i++)
         reads = reads || sampled[i].column == k;
-    return reads && ball_rolls(c);
+    return reads && contact_rolls(c);
 }
 
 /* One more frame of the row; `first`: it is the row's first. */
@@ -105,7 +104,7 @@ static double *asked(struct row_motion *m, enum column k) { return m->wanted[k] 
 static void row_motion_fill(struct row_motion *m, const struct stage_run *r, long row)
 {
     double at[ROW_MOTION_SOME], *v[COLUMNS],
-        start = (double)rules_first_frame(r->contact, r->board->rate) / r->board->rate;
+        start = (double)contact_first_frame(r->contact, r->board->rate) / r->board->rate;
     m->first = row;
     m->n = m->rows - row < ROW_MOTION_SOME ? m->rows - row : ROW_MOTION_SOME;
     for (int k = 0; k < COLUMNS; k++)
@@ -202,7 +201,7 @@ static unsigned force_table_asks(const struct contact *c, const struct scene *s)
 {
     unsigned items = 0;
     if (load_varies(c) &&
-        (column_asked(c, s, NORMAL, NORMAL) || (column_asked(c, s, LIFT_OFFS, LIFT_OFFS) && !ball_rolls(c))))
+        (column_asked(c, s, NORMAL, NORMAL) || (column_asked(c, s, LIFT_OFFS, LIFT_OFFS) && !contact_rolls(c))))
         items |= ITEM_BIT(ITEM_LOAD);
     for (int k = 0; k < COLUMNS; k++)
         if (roll_rows_reads(c, (enum column)k) && column_asked(c, s, k, k)) items |= ITEM_BIT(ITEM_ROLL);
@@ -226,7 +225,7 @@ static double force_table_work(const struct contact *c, const struct scene *s)
     return 4 + (column_asked(c, s, MEAN, PEAK) ? row : 0.6 * row) * s->output.diagnostics.rate / s->output.sample_rate;
 }
 
-/* The reader has told unknown columns, and those that this contact cannot have, with their place: scene/scene_sense.c.
+/* The reader has told unknown columns, and those that this contact cannot have, with their place: output/output.c.
  */
 static bool columns_choose(struct force_table *t, const struct stage_run *r, struct err *e)
 {

@@ -4,8 +4,8 @@
 #include "output/impact_rows.h"
 
 #include "force/impact_series.h"
-#include "scene/rules.h"
 #include "stage.h"
+#include "trajectory/contact.h"
 
 static bool impact_rows_add(struct impact_sink *k, const double row[4], struct err *e)
 {
@@ -13,7 +13,7 @@ static bool impact_rows_add(struct impact_sink *k, const double row[4], struct e
            err_set(e, ERR_IO, "the series of impacts cannot be written (is the disk full?)");
 }
 
-static bool rows_wanted(const struct contact *c, const struct scene *s) { return rules_listed(c, &s->output); }
+static bool rows_wanted(const struct contact *c, const struct scene *s) { return impact_rows_listed(c, &s->output); }
 
 static double rows_work(const struct contact *c, const struct scene *s)
 {
@@ -33,7 +33,7 @@ static bool rows_open(struct stage_run *r, struct err *e)
 static bool rows_run(struct stage_run *r, long from, long to, struct err *e)
 {
     struct impact_train *t = r->state;
-    double rate = r->board->rate, start = (double)rules_first_frame(r->contact, rate) / rate;
+    double rate = r->board->rate, start = (double)contact_first_frame(r->contact, rate) / rate;
     (void)from;
     while (t->any && t->next.time < (double)to / rate) {
         struct impact i = impact_series_take(t);

@@ -5,9 +5,16 @@
 #include <stdio.h>
 
 #include "base/err.h"
+#include "scene/scene.h"
 
 struct impact_sink {
     FILE *stream;
 };
+
+/* Is its series of impacts written? */
+static inline bool impact_rows_listed(const struct contact *c, const struct output *o)
+{
+    return o->impacts == LISTING_TABLE && c->contact.model == CONTACT_IMPACTS;
+}
 
 #endif

@@ -14,7 +14,6 @@
 #include "num/real.h"
 #include "output/loudness.h"
 #include "response/listener.h"
-#include "scene/rules.h"
 
 struct sound {
     const struct scene *scene;
@@ -146,7 +145,7 @@ static bool gain_find(struct sound *o, const struct sound_report *r, double *gai
     if (!isnan(level->rms))
         *gain = real_exp10(level->rms / 20) / r->rms;
     else if (isnan(level->lufs))
-        *gain = fmin(real_exp10((isnan(level->peak) ? RULES_PEAK : level->peak) / 20), largest) / r->peak;
+        *gain = fmin(real_exp10((isnan(level->peak) ? SOUND_PEAK : level->peak) / 20), largest) / r->peak;
     else if (find_loudness(o, r->peak, &lufs, e))
         *gain = real_exp10((level->lufs - lufs) / 20) / r->peak;
     else

@@ -8,6 +8,8 @@
 #include "output/track.h"
 #include "scene/scene.h"
 
+#define SOUND_PEAK (-3.0) /* dB re full scale: the level of a sound for which none is given */
+
 struct sound;
 
 struct sound_report {

@@ -7,10 +7,10 @@
 #include <unistd.h>
 
 #include "base/file_cache.h"
-#include "scene/ball.h"
 #include "scene/keys.h"
 #include "scene/scene_places.h"
 #include "scene/scene_write.h"
+#include "trajectory/contact.h"
 
 /* A response may be a folder, whose reader looks for its places in index.csv (response/ir.h). */
 static bool may_be_folder(const char *where, const char *file)
@@ -64,7 +64,7 @@ bool inputs_check(const struct scene *s, struct arena *a, struct err *e)
     struct missing m = {.scene = s, .arena = a, .text = ""};
     for (int i = 0; i < s->n_contacts; i++)
         for (const struct key *k = keys_table; k->path; k++)
-            if (k->of == KEY_CONTACT && k->type == KEY_FILE && !ball_copies(&s->contacts[i], k->path))
+            if (k->of == KEY_CONTACT && k->type == KEY_FILE && !contact_copies(&s->contacts[i], k->path))
                 add(&m, s->contacts[i].name, k->path, *(const char **)keys_field(k, &s->contacts[i]));
     for (int i = 0; i < s->n_inputs && !m.key; i++)
         add(&m, NULL, "inputs", s->inputs[i].file);

@@ -13,9 +13,9 @@
 #include "file/csv.h"
 #include "output/mark.h"
 #include "pipeline/plan.h"
-#include "scene/ball.h"
 #include "scene/keys.h"
 #include "scene/scene_write.h"
+#include "trajectory/contact.h"
 
 const char *outputs_kind(const struct scene *s, enum output_kind kind)
 {
@@ -131,7 +131,7 @@ static void note_scene(struct sources *all, const struct scene *s)
         note(all, s, s->sources[i], i ? "a file that it includes" : "the scene itself");
     for (int i = 0; i < s->n_contacts; i++)
         for (const struct key *k = keys_table; k->path; k++) {
-            if (k->of != KEY_CONTACT || k->type != KEY_FILE || ball_copies(&s->contacts[i], k->path)) continue;
+            if (k->of != KEY_CONTACT || k->type != KEY_FILE || contact_copies(&s->contacts[i], k->path)) continue;
             const char *file = *(const char *const *)keys_field(k, &s->contacts[i]);
             int n = 0; /* of a folder what is read of it, too */
             const char **files = file ? csv_folder_files(file, &n, all->arena) : NULL;

@@ -5,17 +5,17 @@
 
 #include "base/memory.h"
 #include "convolution/ring_choice.h"
+#include "output/impact_rows.h"
 #include "output/sound.h"
 #include "output/stems.h"
 #include "pipeline/inputs.h"
 #include "pipeline/render.h"
 #include "pipeline/stages.h"
-#include "scene/ablation.h"
+#include "response/response.h"
 #include "scene/accuracy.h"
-#include "scene/ball.h"
 #include "scene/keys.h"
-#include "scene/rules.h"
 #include "surface/roughness.h"
+#include "trajectory/contact.h"
 
 #define REAL_TIME 62500.0 /* cycles per audio sample of a core of 3 GHz at 48 kHz */
 
@@ -52,12 +52,12 @@ unsigned plan_targets(const struct contact *c, const struct scene *s)
 {
     const struct output *o = &s->output;
     unsigned all =
-        (o->diagnostics.given ? ITEM_BIT(ITEM_TABLE) : 0) | (rules_listed(c, o) ? ITEM_BIT(ITEM_LISTING) : 0);
+        (o->diagnostics.given ? ITEM_BIT(ITEM_TABLE) : 0) | (impact_rows_listed(c, o) ? ITEM_BIT(ITEM_LISTING) : 0);
     if (c->gain == 0) return all;
-    if (rules_audible(c, o)) all |= ITEM_BIT(ITEM_SOUND);
+    if (response_audible(c, o)) all |= ITEM_BIT(ITEM_SOUND);
     if (stems_asked(o, STEM_FORCE)) all |= ITEM_BIT(ITEM_FORCE);
-    if (stems_asked(o, STEM_SURFACE) && rules_surface_rings(c)) all |= ITEM_BIT(ITEM_SURFACE_SOUND);
-    if (stems_asked(o, ball_rolls(c) ? STEM_BALL : STEM_SCRAPER) && rules_tool_rings(c))
+    if (stems_asked(o, STEM_SURFACE) && response_surface_rings(c)) all |= ITEM_BIT(ITEM_SURFACE_SOUND);
+    if (stems_asked(o, contact_rolls(c) ? STEM_BALL : STEM_SCRAPER) && response_tool_rings(c))
         all |= ITEM_BIT(ITEM_SCRAPER_SOUND);
     return all;
 }
@@ -97,7 +97,7 @@ static bool plan_needs(const struct stage *st, const struct contact *c, const st
 static bool choose_body(const struct contact *c, const struct scene *s, enum ring_body body, struct arena *a,
                         const struct ring_choice **choice, struct err *e)
 {
-    bool rings = body == RING_SURFACE ? rules_surface_rings(c) : rules_tool_rings(c);
+    bool rings = body == RING_SURFACE ? response_surface_rings(c) : response_tool_rings(c);
     return !rings || *choice || ring_choice_make(c, s, body, a, choice, e);
 }
 
@@ -118,12 +118,12 @@ bool plan_make(const struct stage *const *table, const struct contact *c, const 
 {
     struct liveness l = {0};
     *p = (struct plan){.contact = c, .targets = plan_targets(c, s)};
-    if (!p->targets && !(c->gain == 0 && rules_audible(c, &s->output)))
+    if (!p->targets && !(c->gain == 0 && response_audible(c, &s->output)))
         return err_set(e, ERR_SCENE,
                        "contact '%s': nothing is asked of it: give surface.response (or %s.response) for a sound, or "
                        "output.diagnostics for "
                        "a table of its physics",
-                       c->name, ball_tool(c));
+                       c->name, contact_tool(c));
     if (p->targets & ITEM_BIT(ITEM_SOUND) && s->output.quantity != QUANTITY_FORCE &&
         !(p->contact = c = plan_choose(c, s, a, e)))
         return false;
@@ -218,7 +218,7 @@ void plan_print(const struct plan *p, FILE *out)
     fprintf(out, "  turned by accuracy: %s\n", plan_knobs_text(plan_knobs(p), a));
     if (p->alive & ITEM_BIT(ITEM_SURFACE) && roughness_bytes(p->contact) > 0) /* the ground is kept as it is made */
         fprintf(out, "  up to %.0f MB of memory for roughness in the plane\n", roughness_bytes(p->contact) / 1e6);
-    const char *ablation = ablation_text(p->contact, a);
+    const char *ablation = contact_ablation(p->contact, a);
     if (ablation) fprintf(out, "  ablation: %s\n", ablation);
     arena_close(a);
     for (int i = 0; i < p->n; i++)

@@ -14,8 +14,7 @@
 #include "pipeline/summary.h"
 #include "response/listener.h"
 #include "response/modes.h"
-#include "scene/ball.h"
-#include "scene/rules.h"
+#include "trajectory/contact.h"
 #include "trajectory/trajectory.h"
 
 struct render {
@@ -242,7 +241,7 @@ bool render_parts_plan(struct render_parts *p, struct err *e)
     for (int i = 0; i < p->scene->n_contacts; i++) {
         struct render_part *one = &p->parts[i];
         if (!plan_make(stages_table, &p->scene->contacts[i], p->scene, p->arena, &one->plan, e)) return false;
-        one->start = rules_first_frame(&p->scene->contacts[i], p->scene->output.sample_rate);
+        one->start = contact_first_frame(&p->scene->contacts[i], p->scene->output.sample_rate);
         p->asked |= one->plan.targets;
     }
     return p->asked || err_about(e, p->scene->contacts[0].name, "gain") ||
@@ -372,7 +371,7 @@ void render_parts_stem(const struct render_parts *p, enum stem stem, long from, 
     static const enum item items[STEMS] = {ITEM_FORCE, ITEM_SURFACE_SOUND, ITEM_SCRAPER_SOUND, ITEM_SCRAPER_SOUND};
     memset(sum, 0, (size_t)((to - from) * stems_channels(&p->scene->output, stem)) * sizeof *sum);
     for (int i = 0; i < p->scene->n_contacts; i++) { /* what touches the surface is of one stem or of the other */
-        bool rolls = ball_rolls(&p->scene->contacts[i]);
+        bool rolls = contact_rolls(&p->scene->contacts[i]);
         if (stem != (rolls ? STEM_SCRAPER : STEM_BALL))
             part_sum(&p->parts[i], items[stem], (const long[2]){from, to}, sum);
     }

@@ -24,8 +24,8 @@
 #include "num/real.h"
 #include "pipeline/run.h"
 #include "pipeline/stages.h"
+#include "response/response.h"
 #include "scene/params.h"
-#include "scene/rules.h"
 #include "scene/scene.h"
 #include "trajectory/trajectory.h"
 
@@ -105,7 +105,7 @@ static bool audible_power(const struct scene *s, const struct contact *c, const 
     struct run r;
     for (int k = 0; k < AUDIBLE_BINS; k++)
         power[k] = 1;
-    if (s->output.quantity == QUANTITY_FORCE || !rules_rings(c) || c->gain == 0) return true;
+    if (s->output.quantity == QUANTITY_FORCE || !response_rings(c) || c->gain == 0) return true;
     struct arena *a = arena_open();
     strike(&struck, place, s->output.sample_rate, a);
     own.contacts = &struck;

@@ -9,10 +9,22 @@ const struct stage *const stages_table[] = {
     NULL,
 };
 
+static const struct {
+    const struct stage *stage;
+    const struct params *params;
+} all[] = {
+#define STAGE(name) {&name##_stage, NULL},
+#define PARAMS(name) {NULL, &name##_params},
+#include "pipeline/stages.def"
+#undef STAGE
+};
+
 const struct params *stages_params(int i)
 {
-    for (const struct stage *const *s = stages_table; *s; s++)
-        if ((*s)->params && i-- == 0) return (*s)->params;
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        const struct params *p = all[k].stage ? all[k].stage->params : all[k].params;
+        if (p && i-- == 0) return p;
+    }
     return NULL;
 }
 

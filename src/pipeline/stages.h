@@ -4,6 +4,7 @@
 #include "stage.h"
 
 #define STAGE(name) extern const struct stage name##_stage;
+#define PARAMS(name) extern const struct params name##_params;
 #include "pipeline/stages.def"
 #undef STAGE
 

@@ -10,8 +10,8 @@
 #include "output/mark.h"
 #include "output/stems.h"
 #include "response/modes.h"
-#include "scene/ball.h"
 #include "scene/keys.h"
+#include "trajectory/contact.h"
 #include "trajectory/load.h"
 
 enum { MOST_OF_BOARD = (int)(sizeof((struct board *)0)->warnings / sizeof((struct board *)0)->warnings[0]) };
@@ -112,9 +112,9 @@ void summary_notes(const struct scene *s, const struct run *const *runs, struct 
  * is hardly heard. */
 static void warn_drowned(const struct contact *c, const struct board *b, struct render_report *report, struct arena *a)
 {
-    const char *other = ball_rolls(c) ? "ball" : "scraper", *under[2] = {other, "surface"}, *help = "";
+    const char *other = contact_rolls(c) ? "ball" : "scraper", *under[2] = {other, "surface"}, *help = "";
     double ratio = b->energy[1] / b->energy[0],
-           equal = (ball_rolls(c) ? c->ball.weight : c->scraper.weight) / sqrt(ratio);
+           equal = (contact_rolls(c) ? c->ball.weight : c->scraper.weight) / sqrt(ratio);
     if (!(ratio > 100) && !(ratio < 0.01)) return;
     bool surface = ratio > 100;
     if (equal >= 1e-6 && equal <= 1000) /* what can be set, and means something */
@@ -138,8 +138,8 @@ static void warn_contact(const struct contact *c, const struct run *r, struct re
         warn(report,
              arena_format(a,
                           "contact '%s': the %s lifts %s off for %.4g s in all (negative normal force); no force then",
-                          c->name, ball_rolls(c) ? "turning of the uneven ball" : "hand",
-                          ball_rolls(c) ? "it" : "the scraper", b->lifted));
+                          c->name, contact_rolls(c) ? "turning of the uneven ball" : "hand",
+                          contact_rolls(c) ? "it" : "the scraper", b->lifted));
     if (b->unstated && b->quantity >= 0)
         warn(report, arena_format(a,
                                   "contact '%s': its WAV response does not say what it is in, and is summed as if in "

@@ -84,7 +84,7 @@ static struct key *keys_add(struct key *k, const char *map)
 {
     const struct params *p;
     for (int i = 0; (p = stages_params(i)); i++)
-        for (const struct key *own = p->keys; own->path && is_here(p, map); own++, k++) {
+        for (const struct key *own = p->keys; own && own->path && is_here(p, map); own++, k++) {
             *k = *own;
             k->in = p;
             k->offset += params_at(p);
@@ -132,7 +132,7 @@ static void tables_make(void)
     size_t n = sizeof rows / sizeof *rows, m = sizeof sections / sizeof *sections;
     const struct params *p;
     for (int i = 0; (p = stages_params(i)); i++, m++)
-        for (const struct key *own = p->keys; own->path; own++)
+        for (const struct key *own = p->keys; own && own->path; own++)
             n++;
     struct key *table = memory_take(n * sizeof *table), *k = table;
     struct key_section *maps = memory_take(m * sizeof *maps), *s = maps;

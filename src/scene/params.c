@@ -30,8 +30,9 @@ struct contact *params_contacts(struct arena *a, int n)
 const void *params_block(const struct contact *c)
 {
     static const max_align_t nothing[256];
+    if (c->params) return c->params;
     assert(params_at(NULL) <= sizeof nothing);
-    return c->params ? c->params : nothing;
+    return nothing;
 }
 
 const void *params_of(const struct contact *c, const struct params *p)
@@ -41,7 +42,7 @@ const void *params_of(const struct contact *c, const struct params *p)
 
 bool params_given(const struct contact *c, const struct params *p)
 {
-    return p->given ? p->given(c) : *(const bool *)params_of(c, p);
+    return p->given ? p->given(c) : !p->size || *(const bool *)params_of(c, p);
 }
 
 void *params_edit(struct contact *c, const struct params *p, struct arena *a)

@@ -16,6 +16,7 @@
 
 struct scene_part;
 struct stage_run;
+struct yaml_node;
 
 /* The value of `path` is at most `factor` times that of `other`; both are numbers, NAN: it does not apply. All that is
  * no such multiple is said by `check`. */
@@ -44,14 +45,23 @@ struct params_ground {
 struct params {
     const char *section, *meaning;       /* "surface.ridges" */
     size_t size;                         /* of its struct */
-    const struct key *keys;              /* ends with path NULL */
+    const struct key *keys;              /* ends with path NULL; NULL: none */
     const struct params_rule *rules;     /* ends with path NULL; NULL: none */
     const struct params_column *columns; /* of a contact that has the section; ends with name NULL; NULL: none */
     void (*check)(const struct scene_part *, const struct contact *,
-                  const void *own);        /* what no row says; may be NULL */
+                  const void *own);   /* what no row says; may be NULL */
+    void (*settle)(struct contact *); /* sets what follows from the values given, before any check; may be NULL */
+    /* Of the scene's own keys; contacts: all have been read, and nothing is wrong yet. May be NULL. */
+    void (*check_scene)(const struct scene_part *top, bool contacts);
+    /* Of each contact, what the scene asks of it; good: nothing is wrong with the contact itself. May be NULL. */
+    void (*check_asked)(const struct scene_part *, struct yaml_node *root, const struct scene *, bool good);
+    /* Of a key that is not given, nor any of its alternatives: what is done instead, for the effective scene. NAN:
+       nothing; may be NULL. */
+    double (*instead)(const struct key *, const void *owner);
     unsigned gives;                        /* items that the table asks for where one of its columns is written */
     const struct params_ground *ground;    /* NULL: it is no part of the surface */
-    bool (*given)(const struct contact *); /* of keys that make no section of their own, meaning NULL: do they count? */
+    bool (*given)(const struct contact *); /* of keys that make no section of their own, meaning NULL: do they count?
+                                              NULL, and size 0: always */
     bool shown;                            /* on in the reference scene */
 };
 

@@ -11,8 +11,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "scene/ablated.h"
-
 /* ------------------------------------------------------------------ choices: same order as the words in keys.def */
 
 enum motion_path {
@@ -79,6 +77,11 @@ enum radiator { RADIATOR_CONTACT, RADIATOR_POINT, RADIATOR_MONOPOLE, RADIATOR_PL
 enum extrapolate { EXTRAPOLATE_ERROR, EXTRAPOLATE_NEAREST };
 enum encoding { ENCODING_PCM16, ENCODING_PCM24, ENCODING_FLOAT32, ENCODING_FLOAT64 };
 
+enum ablated_force { ABLATED_FORCE_VARYING, ABLATED_FORCE_CONSTANT };
+enum ablated_nonlinearity { ABLATED_NONLINEARITY_FULL, ABLATED_NONLINEARITY_OMITTED, ABLATED_NONLINEARITY_SMOOTHED };
+enum ablated_response { ABLATED_RESPONSE_BY_PLACE, ABLATED_RESPONSE_CONSTANT };
+enum ablated_sound { ABLATED_SOUND_BOTH, ABLATED_SOUND_SURFACE, ABLATED_SOUND_SCRAPER, ABLATED_SOUND_BALL };
+
 struct ring_choice;
 struct file_cache;
 
@@ -136,7 +139,7 @@ struct surface {
     struct response response;
 };
 
-struct scraper {   /* what touches the surface; of rolling models the ball, as scene/ball.h has settled it */
+struct scraper {   /* what touches the surface; of rolling models the ball, as trajectory/contact.h has settled it */
     double mass;   /* kg, m_p of eq. 1                                                  */
     double weight; /* eta: share of its response in the total                           */
     double radius; /* m of the tip; NAN: a point                                        */
@@ -144,7 +147,7 @@ struct scraper {   /* what touches the surface; of rolling models the ball, as s
     struct response response;
 };
 
-struct ball {           /* what rolls: scene/ball.h                                          */
+struct ball {           /* what rolls: trajectory/contact.h                                          */
     double radius;      /* m, R                                                              */
     double mass;        /* kg; NAN: from body, radius and material                           */
     int body;           /* enum ball_body                                                    */
@@ -208,12 +211,12 @@ struct limiter {                 /* eq. 4 to 7                                  
     double force_range[2]; /* N, N_min and N_max of eq. 7; NAN: the scene's own                 */
 };
 
-struct roll {         /* force/roll.h, convolution/coupled.h                               */
-    double stiffness; /* N/m^1.5, k; NAN: kappa, or static_penetration, or force/roll.h, or Hertz's */
-    double kappa;     /* N/(m^1.5 kg), k over the ball's mass                              */
-    double mu;        /* s/m, lambda / k                                                   */
-    double lambda;    /* N s/m^2.5, of penetration: paper                                  */
-    int penetration;  /* enum penetration (roll)                                           */
+struct roll {                  /* force/roll.h, convolution/coupled.h                               */
+    double stiffness;          /* N/m^1.5, k; NAN: kappa, or static_penetration, or force/roll.h, or Hertz's */
+    double kappa;              /* N/(m^1.5 kg), k over the ball's mass                              */
+    double mu;                 /* s/m, lambda / k                                                   */
+    double lambda;             /* N s/m^2.5, of penetration: paper                                  */
+    int penetration;           /* enum penetration (roll)                                           */
     double static_penetration; /* m, penetration at rest; NAN: of force/roll.h (roll)  */
     double damping_ratio;      /* zeta of the ball's mass on the contact, beside mu's part (roll)   */
     double scraping;           /* factor on equation 19's scraping terms (roll)                     */
@@ -232,6 +235,15 @@ struct contact_model {
     double smoothing;    /* s: sigma at alpha = 0.03 m; 0: none                               */
     double gravity;      /* m/s^2                                                             */
     struct limiter limiter;
+};
+
+struct ablation { /* what is left out: trajectory/contact.h                                */
+    bool given;
+    int normal_force; /* enum ablated_force                                                */
+    int nonlinearity; /* enum ablated_nonlinearity                                         */
+    int response;     /* enum ablated_response                                             */
+    double place[2];  /* m, of the response that is constant; NAN: where the motion starts  */
+    int sound;        /* enum ablated_sound                                                */
 };
 
 struct contact {

@@ -7,15 +7,12 @@
 
 #include "base/interrupt.h"
 #include "file/yaml.h"
-#include "scene/ablation.h"
 #include "scene/accuracy.h"
-#include "scene/ball.h"
 #include "scene/keys.h"
 #include "scene/params.h"
 #include "scene/scene_merge.h"
 #include "scene/scene_part.h"
 #include "scene/scene_places.h"
-#include "scene/scene_sense.h"
 #include "scene/scene_values.h"
 #include "scene/units.h"
 
@@ -178,17 +175,18 @@ static void name_check(struct yaml *y, const struct yaml_node *map)
 static void contact_read(const struct tree *t, struct yaml_node *map, const char *prefix, int errors, struct contact *c)
 {
     struct scene_part part = {t->yaml, map, prefix, KEY_CONTACT, c};
+    const struct params *own;
     name_check(t->yaml, map);
     scene_part_fill(&part);
     scene_places_note(&part, c->name, t->scene);
-    ball_apply(c);
-    ablation_apply(c);
+    for (int i = 0; (own = stages_params(i)); i++)
+        if (own->settle) own->settle(c);
     if (t->yaml->missing) /* values may stand in a file that is not there */
         return;
-    scene_sense_contact(&part);
-    if (t->yaml->diag->n == errors) scene_sense_asked(&part, t->scene);
-    scene_sense_output_columns(&part, t->root, t->scene);
-    scene_sense_output_audible(&part, t->root, t->scene);
+    params_check(&part, c);
+    bool good = t->yaml->diag->n == errors;
+    for (int i = 0; (own = stages_params(i)); i++)
+        if (own->check_asked) own->check_asked(&part, t->root, t->scene, good);
 }
 
 static const char *prefix_of(struct yaml *y, const struct yaml_node *map, int index)
@@ -271,24 +269,24 @@ static void note_accuracy(struct yaml *y, const struct yaml_node *accuracy, stru
         if (knob->at.source) scene_places_key(y, arena_format(y->arena, "accuracy.%s", knob->key->text), &knob->at, s);
 }
 
+static void check_scene(const struct scene_part *top, bool contacts)
+{
+    const struct params *own;
+    for (int i = 0; (own = stages_params(i)); i++)
+        if (own->check_scene) own->check_scene(top, contacts);
+}
+
 static void tree_read(struct yaml *y, struct yaml_node *root, struct scene *s)
 {
     struct scene_part top = {y, root, "", KEY_SCENE, s};
     scene_part_fill(&top);
     scene_places_note(&top, NULL, s);
-    if (!y->missing) {
-        scene_sense_output_rate(&top);
-        scene_sense_output(&top);
-    }
-    scene_sense_output_names(y, root);
+    check_scene(&top, false);
     contacts_read(y, root, s);
     accuracy_read(y, yaml_get(root, "accuracy"), &s->accuracy);
     note_accuracy(y, yaml_get(root, "accuracy"), s);
     inputs_read(y, yaml_get(root, "inputs"), s);
-    if (y->diag->n == 0 && !y->missing) {
-        scene_sense_output_stems(&top);
-        scene_sense_output_impacts(&top);
-    }
+    if (y->diag->n == 0 && !y->missing) check_scene(&top, true);
 }
 
 /* The source of a layer is the first: it builds on the scene, which is as if it included it. */

@@ -14,7 +14,7 @@
 #include "file/csv.h"
 #include "scene/keys.h"
 #include "scene/keys_yaml.h"
-#include "scene/rules.h"
+#include "scene/params.h"
 
 /* ------------------------------------------------------------------ inputs */
 
@@ -115,7 +115,6 @@ struct writer {
     struct arena *a;
     struct keys_line *lines; /* room for one owner's keys */
     int n;
-    bool sounds; /* some contact is heard */
 };
 
 static const void *field(const struct key *k, const void *owner) { return keys_field(k, owner); }
@@ -196,21 +195,22 @@ static bool alternative_given(const struct key *k, const void *owner)
     return false;
 }
 
-/* Two defaults are no values of their key but what is done when no alternative is given: the scraper's weight as the
-   load (a weight beyond the key's range cannot be written, and stays unsaid), and the level of what sounds. NAN:
-   neither. */
-static double unsaid(const struct key *k, const void *owner, const struct writer *w)
+/* A default that is no value of its key but what is done when no alternative is given, such as the scraper's weight as
+   the load; NAN: there is none, or it is beyond the key's range and cannot be written. */
+static double instead(const struct key *k, const void *owner)
 {
-    const struct contact *c = owner;
-    bool load = !strcmp(k->path, "load.constant"), peak = !strcmp(k->path, "output.level.peak") && w->sounds;
-    if ((!load && !peak) || alternative_given(k, owner)) return NAN;
-    double x = load ? rules_weight(c) : RULES_PEAK;
-    return x >= k->low && x <= k->high ? x : NAN;
+    const struct params *own;
+    if (alternative_given(k, owner)) return NAN;
+    for (int i = 0; (own = stages_params(i)); i++) {
+        double x = own->instead ? own->instead(k, owner) : NAN;
+        if (x >= k->low && x <= k->high) return x;
+    }
+    return NAN;
 }
 
 static const char *number_value(const struct key *k, const void *owner, struct writer *w)
 {
-    double x = isnan(number(k, owner)) ? unsaid(k, owner, w) : number(k, owner);
+    double x = isnan(number(k, owner)) ? instead(k, owner) : number(k, owner);
     return isnan(x) ? NULL : keys_yaml_number(x, w->a);
 }
 
@@ -321,9 +321,7 @@ const char *scene_write(const struct scene *s, const char *beside, struct arena 
     int n_keys = 0;
     while (keys_table[n_keys].path)
         n_keys++;
-    struct writer w = {memory_stream(&memory, &size), beside, a, ARENA_TAKE(a, struct keys_line, n_keys), 0, false};
-    for (int i = 0; i < s->n_contacts; i++)
-        w.sounds = w.sounds || (s->contacts[i].gain != 0 && rules_audible(&s->contacts[i], &s->output));
+    struct writer w = {memory_stream(&memory, &size), beside, a, ARENA_TAKE(a, struct keys_line, n_keys), 0};
     write_keys(&w, s);
     write_accuracy(&w, s);
     inputs_write(w.f, s, beside, a);

@@ -13,13 +13,13 @@
 
 #include "num/real.h"
 #include "scene/rows.h"
-#include "scene/rules.h"
 #include "scene/scene_part.h"
 #include "stage.h"
 #include "surface/relief.h"
 #include "surface/roughness.h"
 #include "surface/spectrum.h"
 #include "surface/tiles.h"
+#include "trajectory/motion.h"
 
 /* ------------------------------------------------------------------ parameters */
 
@@ -125,7 +125,7 @@ bool continuation_spectrum(struct arena *a, const struct continuation *c, const 
 static double continuation_work(const struct contact *c, const struct scene *s)
 {
     double finest = likely_finest(continuation_of(c)),
-           cells = rules_speed(&c->motion) / (s->output.sample_rate * finest);
+           cells = motion_speed(&c->motion) / (s->output.sample_rate * finest);
     if (c->surface.along != ALONG_PLANE) return 8 * relief_readings(s, finest);
     return isnan(c->scraper.radius) ? 800 * cells + 50 * s->accuracy.oversampling : 1;
 }
@@ -141,7 +141,7 @@ static bool continuation_open(struct stage_run *r, struct err *e)
         return err_at(e, "contact '%s'", r->contact->name);
     struct relief_part *part =
         relief->along == ALONG_PLANE
-            ? tiles_part(r->arena, &s, &(struct tiles_grain){1, 0, rules_once(r->contact)}, stream, &lost, e)
+            ? tiles_part(r->arena, &s, &(struct tiles_grain){1, 0, relief_once(r->contact)}, stream, &lost, e)
             : profile_part(r->arena, roughness_blocks(r->arena, &s, stream), "continuation", 0);
     part->name = "continuation";
     relief_add(relief, part);

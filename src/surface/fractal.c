@@ -22,7 +22,6 @@
 #include "num/fft.h"
 #include "num/real.h"
 #include "scene/rows.h"
-#include "scene/rules.h"
 #include "scene/scene_part.h"
 #include "stage.h"
 #include "surface/profile.h"
@@ -71,7 +70,7 @@ static void check(const struct scene_part *p, const struct contact *c, const voi
                           heights < FRACTAL_LEAST ? "raise length, or lower pitch" : "lower length, or raise pitch",
                           " over %s is %.4g, and from %d to %d heights are offered", scene_part_label(p, pitch),
                           f->length / f->pitch, FRACTAL_LEAST, FRACTAL_MOST);
-    if (scene_part_known(p, along) && rules_along(c) == ALONG_PLANE)
+    if (scene_part_known(p, along) && relief_along(c) == ALONG_PLANE)
         diag_add(p->yaml->diag,
                  yaml_find(p->map, along) ? scene_part_later(p, section, along) : yaml_find(p->map, section)->key->at,
                  "set surface.along to path or x", "%s is a profile, and this surface lies in the plane",

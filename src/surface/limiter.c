@@ -13,7 +13,8 @@
 #include "num/lanes.h"
 #include "num/real.h"
 #include "num/vecmath.h"
-#include "scene/rules.h"
+#include "scene/params.h"
+#include "scene/scene_part.h"
 #include "stage.h"
 #include "trajectory/load.h"
 
@@ -65,7 +66,7 @@ void limiter_alpha(const struct limiter_law *l, size_t n, const double *force, d
 double limiter_constant(const struct contact *c)
 {
     const struct limiter *given = &c->contact.limiter;
-    double n = rules_load(c), alpha = given->alpha;
+    double n = load_constant(c), alpha = given->alpha;
     struct limiter_law l = limiter_make(given, n, n);
     if (!isnan(given->force_range[0])) limiter_alpha(&l, 1, &n, &alpha);
     return alpha;
@@ -334,6 +335,37 @@ void limiter_cells(const struct limiter_cells *p, bool limiter)
 
 /* ------------------------------------------------------------------ the stage */
 
+static bool limits(const struct contact *c)
+{
+    return c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL;
+}
+
+static void alpha_check(const struct scene_part *p, const struct limiter *l)
+{
+    if (l->alpha_min > l->alpha_max)
+        scene_part_contradiction(p, "contact.limiter.alpha_min", "contact.limiter.alpha_max",
+                                 "must not be greater than", "lower alpha_min, or raise alpha_max");
+}
+
+/* Defaults stand in every effective scene, so that only another value is one that was meant to do something. */
+static void ratio_check(const struct scene_part *p, const struct limiter *l)
+{
+    const char *path = "contact.limiter.ratio_y", *curve = "contact.limiter.curve";
+    if (yaml_find(p->map, path) && l->ratio_y != 1 && scene_part_known(p, curve) && l->curve == LIMITER_NONE &&
+        !yaml_find(p->map, "ablation.nonlinearity"))
+        diag_add(p->yaml->diag, yaml_find(p->map, path)->key->at, "remove it, or set contact.limiter.curve to tanh",
+                 "%s has no effect where %s is none", scene_part_label(p, path), scene_part_label(p, curve));
+}
+
+static void limiter_check(const struct scene_part *p, const struct contact *c, const void *own)
+{
+    (void)own;
+    alpha_check(p, &c->contact.limiter);
+    ratio_check(p, &c->contact.limiter);
+}
+
+static const struct params limiter_params = {.section = "contact.limiter", .check = limiter_check, .given = limits};
+
 static bool limiter_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
@@ -368,6 +400,7 @@ static bool limiter_run(struct stage_run *r, long from, long to, struct err *e)
 
 const struct stage limiter_stage = {
     .name = "limiter",
+    .params = &limiter_params,
     .does = "alpha, the limit of curvature, follows the normal force",
     .paper = "000 eq. 6, 7",
     .idle = "alpha is constant (constant load or no limiter)",

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "scene/rules.h"
 #include "stage.h"
 
 void relief_add(struct relief *r, struct relief_part *part)
@@ -78,7 +77,7 @@ void relief_at(const struct relief *r, const struct relief_points *p, const stru
 
 void relief_decide(struct relief *r, const struct contact *c)
 {
-    if (r->along == ALONG_AUTO) r->along = rules_along(c);
+    if (r->along == ALONG_AUTO) r->along = relief_along(c);
 }
 
 double relief_finest(const struct relief *r)

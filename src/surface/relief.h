@@ -14,7 +14,8 @@
 #include <stddef.h>
 
 #include "base/arena.h"
-#include "scene/scene.h"
+#include "scene/params.h"
+#include "trajectory/motion.h"
 
 struct relief_points {
     size_t n;
@@ -69,7 +70,7 @@ double relief_shift(const struct relief *, int axis);
 /* All asked-for values, set to the sum of the parts. The points are in the scene's coordinates (along a path: u). */
 void relief_at(const struct relief *, const struct relief_points *, const struct relief_values *);
 
-/* Decides along where the scene left it auto and no map did: rules_along of scene/rules.h. */
+/* Decides along where the scene left it auto and no map did: relief_along. */
 void relief_decide(struct relief *, const struct contact *);
 
 /* The finest scale (m) and the smallest pitch of all parts; HUGE_VAL: none. */
@@ -77,6 +78,29 @@ double relief_finest(const struct relief *);
 
 /* The smallest `kinks` there is; 0: none. */
 double relief_kinks(const struct relief *);
+
+/* ------------------------------------------------------------------ what the scene tells */
+
+/* Is no place of the surface come back to? A round tip keeps the heights that it has read. */
+static inline bool relief_once(const struct contact *c)
+{
+    return !isnan(c->scraper.radius) || (motion_straight(&c->motion) && c->motion.path != PATH_BACK_AND_FORTH);
+}
+
+/* Which coordinates the surface follows (enum along); ALONG_AUTO where only a height map's number of rows will tell. */
+static inline int relief_along(const struct contact *c)
+{
+    const struct surface *s = &c->surface;
+    int directed = params_directed(c);
+    if (s->along != ALONG_AUTO || directed < 0) return s->along;
+    return directed || !motion_straight(&c->motion) ? ALONG_PLANE : ALONG_PATH;
+}
+
+/* May the surface turn out to lie in the plane? */
+static inline bool relief_plane(const struct contact *c)
+{
+    return relief_along(c) == ALONG_PLANE || relief_along(c) == ALONG_AUTO;
+}
 
 /* ------------------------------------------------------------------ how often a surface is read, for predicted work */
 

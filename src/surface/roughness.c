@@ -19,13 +19,13 @@
 #include "num/fft.h"
 #include "num/real.h"
 #include "scene/rows.h"
-#include "scene/rules.h"
 #include "scene/scene_part.h"
 #include "stage.h"
 #include "surface/heights.h"
 #include "surface/relief.h"
 #include "surface/spectrum.h"
 #include "surface/tiles.h"
+#include "trajectory/motion.h"
 
 #define BAND_WIDEST 1e5 /* longest over shortest wavelength */
 
@@ -415,8 +415,8 @@ double roughness_bytes(const struct contact *c)
 {
     const struct roughness *r = roughness_of(c);
     int bands = r->given ? (int)roughness_octaves(r) : 0;
-    return bands > 0 && rules_along(c) == ALONG_PLANE
-               ? (double)(tiles_bytes(bands, rules_once(c)) + (size_t)bands * TILE_SIDE * TILE_ROW * sizeof(double))
+    return bands > 0 && relief_along(c) == ALONG_PLANE
+               ? (double)(tiles_bytes(bands, relief_once(c)) + (size_t)bands * TILE_SIDE * TILE_ROW * sizeof(double))
                : 0;
 }
 
@@ -426,11 +426,11 @@ double roughness_bytes(const struct contact *c)
 static double roughness_work(const struct contact *c, const struct scene *s)
 {
     const struct roughness *r = roughness_of(c);
-    bool plane = rules_along(c) == ALONG_PLANE, shaped = r->like || r->skewness != 0 || r->kurtosis != 3;
+    bool plane = relief_along(c) == ALONG_PLANE, shaped = r->like || r->skewness != 0 || r->kurtosis != 3;
     double finest = likely_finest(r), points = relief_readings(s, finest),
-           cells = rules_speed(&c->motion) / (s->output.sample_rate * finest);
+           cells = motion_speed(&c->motion) / (s->output.sample_rate * finest);
     if (plane && !isnan(c->scraper.radius)) return 1;
-    return (plane ? (rules_once(c) ? 900 : 700) * cells + 50 * s->accuracy.oversampling : 8 * points) +
+    return (plane ? (relief_once(c) ? 900 : 700) * cells + 50 * s->accuracy.oversampling : 8 * points) +
            60 * shaped * points;
 }
 
@@ -442,7 +442,7 @@ static bool roughness_open(struct stage_run *r, struct err *e)
     relief_decide(r->board->relief, r->contact);
     struct relief_part *part = NULL;
     if (roughness_plan(r->arena, r->scene->file_cache, recipe, &p, e)) {
-        p.once = rules_once(r->contact);
+        p.once = relief_once(r->contact);
         part = roughness_part(r->arena, &p, recipe, r->board->relief->along, stream, e);
     }
     if (!part) return err_at(e, "contact '%s'", r->contact->name);

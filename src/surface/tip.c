@@ -30,13 +30,14 @@
 #include <math.h>
 
 #include "num/real.h"
-#include "scene/ball.h"
 #include "scene/params.h"
-#include "scene/rules.h"
+#include "scene/scene_part.h"
 #include "stage.h"
 #include "surface/contact_patch.h"
 #include "surface/height_map.h"
 #include "surface/relief.h"
+#include "trajectory/contact.h"
+#include "trajectory/motion.h"
 #include "trajectory/trajectory.h"
 
 #define TIP_DIP 1e-3 /* of the span of heights: what the way of a tip without a patch may dip between two of them */
@@ -133,7 +134,7 @@ static double likely_pitch(const struct contact *c)
 static double aslant(const struct motion *m)
 {
     double dx = fabs(m->to[0] - m->from[0]), dy = fabs(m->to[1] - m->from[1]), length = sqrt(dx * dx + dy * dy);
-    return rules_straight(m) && length > 0 ? (dx + dy) / length : 4 / REAL_PI;
+    return motion_straight(m) && length > 0 ? (dx + dy) / length : 4 / REAL_PI;
 }
 
 static double plane_metre(const struct contact *c, double dense)
@@ -154,7 +155,7 @@ static double tip_work_metre(const struct contact *c, double dense)
 {
     double patch = c->scraper.patch;
     if (patch == 0) return 2e2 * dense / likely_pitch(c);
-    return rules_along(c) == ALONG_PLANE ? plane_metre(c, dense) : 8e2 * dense / (patch / PATCH_POINTS);
+    return relief_along(c) == ALONG_PLANE ? plane_metre(c, dense) : 8e2 * dense / (patch / PATCH_POINTS);
 }
 
 /* ------------------------------------------------------------------ the stage */
@@ -234,15 +235,15 @@ static bool tip_affordable(const struct stage_run *r, const struct rolling_plan 
 {
     bool plane = under->along == ALONG_PLANE,
          fine = !(relief_finest(under) / 2 >= p->patch / PATCH_POINTS && p->patch > 0);
-    const char *tool = ball_tool(r->contact);
+    const char *tool = contact_tool(r->contact);
     long side = plane ? contact_patch_side(p) : rolling_envelope_window(p), most = plane ? SIDE_MOST : LINE_MOST;
     if (side <= most) return true;
-    err_about(e, r->contact->name, ball_rolls(r->contact) ? "ball.radius" : "scraper.radius");
+    err_about(e, r->contact->name, contact_rolls(r->contact) ? "ball.radius" : "scraper.radius");
     return err_set(e, ERR_SCENE,
                    "contact '%s': a %s of %g m radius reaches %g m over this surface, which is read every %g m: %ld x "
                    "%ld heights at a time, and "
                    "at most %ld x %ld are held; lower %s.radius, or %s%s",
-                   r->contact->name, ball_rolls(r->contact) ? "ball" : "tip", p->radius, p->reach, p->pitch, side,
+                   r->contact->name, contact_rolls(r->contact) ? "ball" : "tip", p->radius, p->reach, p->pitch, side,
                    plane ? side : 1, most, plane ? most : 1, tool,
                    fine ? "take a coarser surface (its finest scale decides)" : "raise ",
                    fine ? "" : arena_format(r->arena, "%s.patch (a quarter of it decides)", tool));
@@ -258,7 +259,7 @@ static bool tip_smoothed(const struct stage_run *r, const struct relief *under, 
             e, ERR_SCENE,
             "contact '%s': %s.patch is 0, and only contact.model roll_coupled takes the rolling curve with its kinks; "
             "set it to the radius of the contact patch, for instance 20 um",
-            c->name, ball_tool(c));
+            c->name, contact_tool(c));
     return under->along != ALONG_PLANE || err_set(e, ERR_SCENE,
                                                   "contact '%s': ball.patch is 0, and a surface in the plane is rolled "
                                                   "over with a contact patch only; set ball.patch, for instance to "
@@ -282,6 +283,18 @@ static bool tip_open(struct stage_run *r, struct err *e)
     return true;
 }
 
+static void tip_check(const struct scene_part *p, const struct contact *c, const void *own)
+{
+    (void)own;
+    if (c->scraper.patch >= c->scraper.radius)
+        scene_part_contradiction(p, "scraper.patch", "scraper.radius", "must be less than",
+                                 "lower scraper.patch, or raise scraper.radius");
+}
+
+static bool scrapes(const struct contact *c) { return c->contact.model == CONTACT_SCRAPE; }
+
+static const struct params tip_params = {.section = "scraper", .check = tip_check, .given = scrapes};
+
 static bool tip_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
@@ -295,12 +308,13 @@ static double tip_work(const struct contact *c, const struct scene *s)
     double times = m->path == PATH_CIRCLE           ? fabs(m->turns)
                    : m->path == PATH_BACK_AND_FORTH ? 2 * m->rate * m->duration
                                                     : 1;
-    double length = rules_speed(m) / fmax(times, 1) / s->output.sample_rate; /* m of new surface per audio sample */
+    double length = motion_speed(m) / fmax(times, 1) / s->output.sample_rate; /* m of new surface per audio sample */
     return length > 0 ? length * tip_work_metre(c, s->accuracy.tip_heights) : 0;
 }
 
 const struct stage tip_stage = {
     .name = "tip",
+    .params = &tip_params,
     .does = "round tip: upper envelope of a ball, smoothed over the contact patch",
     .paper = "002 fig. 1",
     .idle = "no scraper.radius or ball.radius",

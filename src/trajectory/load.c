@@ -37,11 +37,78 @@
 #include "trajectory/load.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "num/real.h"
-#include "scene/rules.h"
+#include "scene/params.h"
+#include "scene/scene_part.h"
 #include "stage.h"
+#include "trajectory/contact.h"
+#include "trajectory/motion.h"
 #include "trajectory/series.h"
+
+/* ------------------------------------------------------------------ what the scene tells */
+
+/* 1 - mu tan theta, the denominator of papers/000 equations 8 and 9. */
+static double slip_of(const struct grip *g) { return 1 - g->friction * real_tan(g->angle); }
+
+/* The tool jams where mu tan theta reaches 1: refused from 0.999 on. (tan 45 degrees is 1 - 1e-16 in binary, and 0.999
+   of it is to be refused.) */
+static bool jams(const struct grip *g) { return slip_of(g) <= 1e-3 + 1e-12; }
+
+/* What touches the surface presses on it by its weight: m g cos(incline), N. */
+static double weight(const struct contact *c) { return c->scraper.mass * contact_gravity(c); }
+
+double load_constant(const struct contact *c)
+{
+    if (contact_steady(c) && c->grip.given) return weight(c) / slip_of(&c->grip);
+    return isnan(c->load.constant) ? weight(c) : c->load.constant;
+}
+
+double load_approach(const struct contact *c, bool release)
+{
+    double given = release ? c->load.release : c->load.approach;
+    if (c->contact.model != CONTACT_SCRAPE && !contact_rolls(c) && !contact_driven(c)) return 0;
+    if (!isnan(given)) return given;
+    bool falls = c->contact.model == CONTACT_ROLL_COUPLED && c->contact.roll.drop > 0 && !release;
+    return falls || (c->contact.model == CONTACT_SCRAPE && motion_rests(&c->motion, release)) ? 0 : LOAD_APPROACH;
+}
+
+static void grip_check(const struct scene_part *p, const struct grip *g)
+{
+    if (g->given && jams(g))
+        diag_add(p->yaml->diag, scene_part_later(p, "grip.angle", "grip.friction"), "lower grip.angle or grip.friction",
+                 "%s: the tool jams: friction x tan(angle) is %.4g, and must stay below 0.999",
+                 scene_part_label(p, "grip"), 1 - slip_of(g));
+}
+
+/* Times that are left to the program are short where there is little time. */
+static void lowering_check(const struct scene_part *p, const struct contact *c)
+{
+    const char *approach = "load.approach", *release = "load.release";
+    double taken = (isnan(c->load.approach) ? 0 : c->load.approach) + (isnan(c->load.release) ? 0 : c->load.release);
+    double lasts = motion_lasts(&c->motion);
+    if (taken > lasts * (1 + 1e-9))
+        scene_part_refuse(p, approach, release, "lower them, or let the motion last longer",
+                          " and %s take %.4g s together, and the motion lasts %.4g s", scene_part_label(p, release),
+                          taken, lasts);
+}
+
+static void load_check(const struct scene_part *p, const struct contact *c, const void *own)
+{
+    (void)own;
+    if (c->contact.model == CONTACT_SCRAPE) grip_check(p, &c->grip);
+    if (c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL || contact_driven(c))
+        lowering_check(p, c);
+}
+
+/* Where nothing says how it is pressed: by its weight. */
+static double load_instead(const struct key *k, const void *owner)
+{
+    return strcmp(k->path, "load.constant") == 0 ? weight(owner) : NAN;
+}
+
+static const struct params load_params = {.section = "load", .check = load_check, .instead = load_instead};
 
 enum { LOAD_SOME = 256 };
 
@@ -57,8 +124,8 @@ static bool lobes_press(const struct contact *c)
 
 bool load_varies(const struct contact *c)
 {
-    return !ablation_steady(c) && (c->grip.given || c->load.recorded ||
-                                   (c->contact.model == CONTACT_ROLL && (c->ball.offset > 0 || lobes_press(c))));
+    return !contact_steady(c) && (c->grip.given || c->load.recorded ||
+                                  (c->contact.model == CONTACT_ROLL && (c->ball.offset > 0 || lobes_press(c))));
 }
 
 static double record_at(const struct load_record *r, size_t *piece, double t)
@@ -141,8 +208,8 @@ double load_lowered(const struct load_law *l, double t)
 
 static bool load_grip(const struct contact *c, struct load_law *l, struct err *e)
 {
-    double g = ball_gravity(c), m = c->scraper.mass, tangent = real_tan(c->grip.angle), slip = rules_slip(&c->grip);
-    if (rules_jams(&c->grip))
+    double g = contact_gravity(c), m = c->scraper.mass, tangent = real_tan(c->grip.angle), slip = slip_of(&c->grip);
+    if (jams(&c->grip))
         return err_set(e, ERR_SCENE,
                        "contact '%s': grip: the tool jams: friction x tan(angle) is %.4g, and must stay below 0.999; "
                        "lower grip.angle or "
@@ -180,8 +247,8 @@ static bool load_ends(const struct contact *c, const struct trajectory *tr, stru
 {
     l->duration = tr->duration;
     bool scrapes = c->contact.model == CONTACT_SCRAPE;
-    l->approach = isnan(c->load.approach) && scrapes && tr->starts_at_rest ? 0 : rules_approach(c, false);
-    l->release = isnan(c->load.release) && scrapes && tr->ends_at_rest ? 0 : rules_approach(c, true);
+    l->approach = isnan(c->load.approach) && scrapes && tr->starts_at_rest ? 0 : load_approach(c, false);
+    l->release = isnan(c->load.release) && scrapes && tr->ends_at_rest ? 0 : load_approach(c, true);
     return l->approach + l->release <= tr->duration * (1 + 1e-9) ||
            err_about(e, c->name,
                      !isnan(c->load.approach)  ? "load.approach"
@@ -231,7 +298,7 @@ static void load_range(struct load_law *l, const struct trajectory *tr)
 
 bool load_make(const struct contact *c, const struct trajectory *tr, struct arena *a, struct load_law *l, struct err *e)
 {
-    double n = rules_load(c);
+    double n = load_constant(c);
     *l = (struct load_law){.still = n, .least = n, .most = n};
     bool varies = load_varies(c);
     if (varies && !c->grip.given && !c->load.recorded) {
@@ -263,7 +330,7 @@ static unsigned stage_asks(const struct contact *c, const struct scene *s)
     if (!c->grip.given && !c->load.recorded)
         return ITEM_BIT(ITEM_POSITION) | ITEM_BIT(ITEM_VELOCITY) | ITEM_BIT(ITEM_ACCELERATION);
     if (!c->grip.given) return ITEM_BIT(ITEM_MOTION); /* its duration */
-    return rules_straight(&c->motion) ? ITEM_BIT(ITEM_ACCELERATION) : ITEM_BIT(ITEM_AX) | ITEM_BIT(ITEM_AY);
+    return motion_straight(&c->motion) ? ITEM_BIT(ITEM_ACCELERATION) : ITEM_BIT(ITEM_AX) | ITEM_BIT(ITEM_AY);
 }
 
 static double stage_work(const struct contact *c, const struct scene *s)
@@ -316,6 +383,7 @@ static bool stage_fill(struct stage_run *r, long from, long to, struct err *e)
 const struct stage load_stage = {
     .name = "load",
     .does = "normal force on the scraper over time",
+    .params = &load_params,
     .paper = "000 eq. 8, 9; sec. 4.1",
     .idle = "no grip, no load.recorded, no ball that is off its centre or has lobes: the load is constant",
     .gives = ITEM_BIT(ITEM_LOAD),

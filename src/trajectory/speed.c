@@ -6,7 +6,7 @@
 #include "num/lanes.h"
 #include "num/real.h"
 #include "num/vecmath.h"
-#include "scene/incline.h"
+#include "trajectory/motion.h"
 #include "trajectory/panels.h"
 #include "trajectory/series.h"
 
@@ -473,7 +473,7 @@ bool speed_given_ends(struct speed *speed, double length, const char *file, stru
 
 /* ------------------------------------------------------------------ inclines */
 
-/* The law of free motion on a slope: scene/incline.c has its formula. The acceleration jumps where what moves turns
+/* The law of free motion on a slope: motion.c has its formula. The acceleration jumps where what moves turns
    round under friction, and where it comes to rest; speed and way do not. */
 
 /* Within the duration u lies between 0 and the way's end: rounding leaves 1e-17 m beyond them. */
@@ -483,7 +483,7 @@ static void incline_fill(const struct speed *speed, size_t n, const double *t, d
     double at[3];
     for (size_t i = 0; i < n; i++) {
         bool inside = t[i] >= 0 && t[i] <= speed->duration;
-        incline_at(s, t[i], at);
+        motion_incline_at(s, t[i], at);
         if (u) u[i] = inside ? fmin(fmax(at[0], 0), s->length) : at[0];
         if (du) du[i] = at[1];
         if (ddu) ddu[i] = at[2];
@@ -500,14 +500,14 @@ bool speed_incline(struct speed *speed, const struct motion *m, struct arena *a,
 {
     struct incline *s = ARENA_TAKE(a, struct incline, 1);
     double end[3], duration;
-    *s = incline_make(m);
-    if (!incline_can(s, m, e)) return false;
-    duration = incline_lasts(s, m);
+    *s = motion_incline(m);
+    if (!motion_incline_can(s, m, e)) return false;
+    duration = motion_incline_lasts(s, m);
     if (s->over != INCLINE_RESTS) duration = fmin(duration, s->end);
-    incline_at(s, duration, end);
+    motion_incline_at(s, duration, end);
     *speed = (struct speed){.duration = duration,
                             .top = fmax(s->speed, fabs(end[1])),
-                            .distance = incline_distance(s, duration),
+                            .distance = motion_incline_distance(s, duration),
                             .cycle = duration,
                             .detail = 64,
                             .at = incline_fill,

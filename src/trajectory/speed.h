@@ -37,7 +37,7 @@ void speed_still(struct speed *, double duration);
 /* v in proportion to (kappa^2 + 1 / straight^2)^(-1/6) over the whole path. */
 void speed_two_thirds(struct speed *, const struct path *, double straight, double duration, struct arena *);
 
-/* Free motion on a slope: scene/incline.h. ERR_SCENE: incline_can. */
+/* Free motion on a slope: motion.h. ERR_SCENE: motion_incline_can. */
 bool speed_incline(struct speed *, const struct motion *, struct arena *, struct err *);
 
 /* A table of speed over time (CSV). fold: m after which it turns back; NAN: it does not. ERR_INPUT, ERR_SCENE. */

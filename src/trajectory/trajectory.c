@@ -15,8 +15,9 @@
 
 #include "num/lanes.h"
 #include "num/noise.h"
-#include "scene/rules.h"
+#include "num/real.h"
 #include "stage.h"
+#include "trajectory/motion.h"
 #include "trajectory/panels.h"
 #include "trajectory/path.h"
 #include "trajectory/series.h"
@@ -193,7 +194,7 @@ struct making {
 
 static bool motion_can(const struct motion *m, struct err *e)
 {
-    int law = rules_law(m);
+    int law = motion_law(m);
     if (m->path == PATH_RECORDED && !m->file)
         return err_set(e, ERR_SCENE, "motion.file must be given where motion.path is recorded");
     if (law == SPEED_GIVEN && !m->profile)
@@ -204,11 +205,11 @@ static bool motion_can(const struct motion *m, struct err *e)
     if (m->path == PATH_CIRCLE && m->turns == 0) return err_set(e, ERR_SCENE, "motion.turns must not be 0");
     if ((m->path == PATH_POLYLINE || m->path == PATH_SPLINE) && m->n_points < 2)
         return err_set(e, ERR_SCENE, "motion.points must be at least 2 points");
-    return rules_law_fits(m, law) || err_set(e, ERR_SCENE,
-                                             "motion.law does not fit motion.path: a motion rests at its corners and "
-                                             "where it turns round, and a straight line has "
-                                             "no curvature; give another law, or motion.corner; what is still, and "
-                                             "what moves freely on an incline, has no law");
+    return motion_law_fits(m, law) || err_set(e, ERR_SCENE,
+                                              "motion.law does not fit motion.path: a motion rests at its corners and "
+                                              "where it turns round, and a straight line has "
+                                              "no curvature; give another law, or motion.corner; what is still, and "
+                                              "what moves freely on an incline, has no law");
 }
 
 static bool duration_of(const struct making *w, double length, double *duration)
@@ -316,7 +317,7 @@ static bool law_make(struct making *w)
 {
     const struct motion *m = w->m;
     struct trajectory_state *s = w->s;
-    int law = rules_law(m);
+    int law = motion_law(m);
     double duration;
     if (law == SPEED_GIVEN) return given_make(w);
     if (m->path == PATH_INCLINE) return straight_path(w) && speed_incline(&s->speed, m, w->arena, w->e);
@@ -453,9 +454,9 @@ bool trajectory_make(const struct motion *m, uint64_t seed, struct arena *a, str
         .m = m, .seed = seed, .arena = a, .tr = tr, .s = ARENA_TAKE(a, struct trajectory_state, 1), .e = e};
     *tr = (struct trajectory){.straight = false};
     if (!motion_can(m, e)) return false;
-    if (!(m->path == PATH_STILL                              ? still_make(&w)
-          : rules_law(m) == SPEED_AUTO && !rules_straight(m) ? timed_make(&w)
-                                                             : law_make(&w)))
+    if (!(m->path == PATH_STILL                                ? still_make(&w)
+          : motion_law(m) == SPEED_AUTO && !motion_straight(m) ? timed_make(&w)
+                                                               : law_make(&w)))
         return false;
     whole(&w);
     return true;

@@ -4,7 +4,7 @@
    A path is a curve (path.h); a speed law moves the contact along it (speed.h). Recorded motions and scribbles have
    times of their own (path.h). u is 0 where the motion starts and grows along the path; on back_and_forth, and on an
    incline on which it comes back, it goes back to 0 on the way back, on all other paths it never falls. On straight
-   paths (back_and_forth, line, four_in_line, incline, still: rules_straight()) the place is from + u e; of what is
+   paths (back_and_forth, line, four_in_line, incline, still: motion_straight()) the place is from + u e; of what is
    still, u is 0 and e is +x. Other paths are taken as curved even where they happen to have no curve. */
 #ifndef TRAJECTORY_TRAJECTORY_H
 #define TRAJECTORY_TRAJECTORY_H

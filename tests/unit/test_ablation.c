@@ -5,9 +5,8 @@
 #include <math.h>
 
 #include "renders.h"
-#include "scene/ablation.h"
-#include "scene/rules.h"
 #include "scenes.h"
+#include "trajectory/contact.h"
 #include "trajectory/load.h"
 
 #define PI 3.14159265358979323846
@@ -42,7 +41,7 @@ static void mean_is_held(const char *what, struct contact c)
     c.ablation.normal_force = ABLATED_FORCE_CONSTANT;
     ck_assert(!load_varies(&c));
     ck_assert_msg(load_make(&c, &tr, folder_arena, &still, &e), "%s", e.text);
-    double mean = (double)(sum / POINTS), n = rules_load(&c);
+    double mean = (double)(sum / POINTS), n = load_constant(&c);
     ck_assert_msg(fabs(n / mean - 1) < 1e-8, "%s: held at %.12g N, the mean is %.12g N", what, n, mean);
     ck_assert(still.least == n && still.most == n && load_of(&still, &tr, 0.3 * tr.duration) == n);
 }
@@ -74,7 +73,7 @@ START_TEST(test_mean_of_ball)
                         .grip = {.given = false},
                         .load = {.constant = NAN, .approach = NAN, .release = NAN},
                         .contact = {.model = CONTACT_ROLL, .gravity = 9.80665}};
-    ball_apply(&c);
+    contact_settle(&c);
     mean_is_held("ball", c);
     c.ball.lobe_height = 1e-4;
     mean_is_held("ball with lobes", c);
@@ -230,7 +229,7 @@ START_TEST(test_effective)
     const char *messages;
     struct render_report report;
     ck_assert_msg(scene_read(folder_path("scraped.scene.yaml"), NULL, folder_arena, &s, &messages, &e), "%s", messages);
-    ck_assert_str_eq(ablation_text(&s.contacts[0], folder_arena),
+    ck_assert_str_eq(contact_ablation(&s.contacts[0], folder_arena),
                      "normal_force: constant, nonlinearity: omitted, response: constant");
     ck_assert_msg(render_scene(&s, folder_path("again"), folder_arena, &report, &e), "%s", e.text);
     struct wav again = renders_sound("again.wav");

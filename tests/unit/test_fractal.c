@@ -4,7 +4,6 @@
 #include "num/fft.h"
 #include "parts.h"
 #include "rig.h"
-#include "scene/rules.h"
 
 #define MAXIMUM 0.1e-6
 

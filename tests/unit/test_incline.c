@@ -1,13 +1,13 @@
 /* Free motion on a slope: closed forms of school mechanics in long double, the balance of energy with rotation, the
    equation of motion by small steps, times of stopping, reaching and coming back, the clean ends of u, turning round,
    and what is refused. */
-#include "scene/incline.h"
 
 #include <stddef.h>
 
 #include "motions.h"
-#include "scene/ball.h"
-#include "scene/rules.h"
+#include "trajectory/contact.h"
+#include "trajectory/load.h"
+#include "trajectory/motion.h"
 
 static struct motion slope(double degrees, double speed, double friction, double length)
 {
@@ -50,7 +50,7 @@ static struct contact rolling(int i, const struct motion *m)
                         .ball = {.radius = 0.02, .mass = 0.1, .body = bodies[i].body, .wall = bodies[i].wall}};
     c.contact.model = CONTACT_ROLL;
     c.contact.gravity = m->gravity;
-    ball_apply(&c);
+    contact_settle(&c);
     ck_assert_double_eq_tol(c.motion.inertia, bodies[i].inertia, 1e-15);
     return c;
 }
@@ -183,7 +183,7 @@ START_TEST(against_small_steps)
     for (int i = 0; i < 60; i++) {
         struct motion m = any_slope(20, i % 4 ? 0.2 : 0);
         m.inertia = bodies[i % 5].inertia;
-        struct incline c = incline_make(&m);
+        struct incline c = motion_incline(&m);
         struct trajectory tr = made(&m);
         struct mover x = {0, m.start_speed};
         int steps = 2000;
@@ -294,13 +294,13 @@ START_TEST(rules_agree)
     for (int i = 0; i < 500; i++) {
         struct motion m = any_slope(20, i % 4 ? 0.2 : 0);
         m.start_speed *= i % 3 != 0;
-        struct incline c = incline_make(&m);
+        struct incline c = motion_incline(&m);
         if (c.over == INCLINE_STUCK) continue;
         if (i % 5 == 0) m.duration = c.over == INCLINE_RESTS ? between(0.5, 2) * c.end : between(0.1, 1) * c.end;
         struct trajectory tr = made(&m);
-        ck_assert(rules_rests(&m, false) == tr.starts_at_rest && rules_rests(&m, true) == tr.ends_at_rest);
-        ck_assert_double_eq_tol(rules_speed(&m) / tr.mean_speed, 1, 1e-12);
-        ck_assert(rules_straight(&m) && rules_law(&m) == SPEED_AUTO);
+        ck_assert(motion_rests(&m, false) == tr.starts_at_rest && motion_rests(&m, true) == tr.ends_at_rest);
+        ck_assert_double_eq_tol(motion_speed(&m) / tr.mean_speed, 1, 1e-12);
+        ck_assert(motion_straight(&m) && motion_law(&m) == SPEED_AUTO);
     }
     struct contact c = {.motion = slope(-3, 0, 0, 1),
                         .load = {.constant = NAN, .approach = NAN, .release = NAN},
@@ -311,13 +311,13 @@ START_TEST(rules_agree)
         c.contact.model = models[i];
         for (int drop = 0; drop < 2; drop++) { /* a ball presses where it is at rest too, unless it is dropped */
             c.contact.roll.drop = drop;
-            ck_assert(rules_approach(&c, false) == (i == 1 || (i == 2 && !drop) ? 5e-3 : 0));
-            ck_assert(rules_approach(&c, true) == (i < 3 ? 5e-3 : 0));
+            ck_assert(load_approach(&c, false) == (i == 1 || (i == 2 && !drop) ? 5e-3 : 0));
+            ck_assert(load_approach(&c, true) == (i < 3 ? 5e-3 : 0));
         }
     }
-    ck_assert_double_eq_tol(rules_load(&c), 5 * cos(M_PI / 60), 1e-15);
+    ck_assert_double_eq_tol(load_constant(&c), 5 * cos(M_PI / 60), 1e-15);
     c.load.constant = 7;
-    ck_assert(rules_load(&c) == 7);
+    ck_assert(load_constant(&c) == 7);
 }
 END_TEST
 

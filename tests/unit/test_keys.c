@@ -72,8 +72,8 @@ START_TEST(every_effect_is_in_its_section)
         const struct key_section *s = keys_sections;
         while (s->path && strcmp(s->path, p->section) != 0)
             s++;
-        ck_assert_msg(p->given ? !p->meaning && !s->path : s->path && s->in == p, "%s", p->section);
-        for (const struct key *k = p->keys; k->path; k++) {
+        ck_assert_msg(p->given || !p->size ? !p->meaning && !s->path : s->path && s->in == p, "%s", p->section);
+        for (const struct key *k = p->keys; k && k->path; k++) {
             bool within = !strncmp(k->path, p->section, n) && k->path[n] == '.' && k->offset >= sizeof(bool);
             ck_assert_msg((p->given || within) && keys_find(k->path) && keys_find(k->path)->in == p, "%s", k->path);
         }

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include "motions.h"
-#include "scene/rules.h"
 #include "stage.h"
 
 extern const struct stage load_stage;
@@ -364,13 +363,13 @@ START_TEST(approaches)
         struct load_law l = opened(&c);
         ck_assert_msg(l.approach == all[i].want[0] && l.release == all[i].want[1], "%zu: %g %g", i, l.approach,
                       l.release);
-        ck_assert(rules_approach(&c, false) >= l.approach && rules_approach(&c, true) >= l.release);
+        ck_assert(load_approach(&c, false) >= l.approach && load_approach(&c, true) >= l.release);
     }
     struct contact c = held(0.05, 1, 0.5, 0.3); /* a table of speed that begins at rest: the rules cannot know */
     c.motion.path = PATH_LINE, c.motion.law = SPEED_GIVEN, c.motion.duration = NAN;
     c.motion.profile = file_of("time_s,speed_m_per_s\n0,0\n1,0.01\n");
     struct load_law l = opened(&c);
-    ck_assert(l.approach == 0 && l.release == 5e-3 && rules_approach(&c, false) == 5e-3);
+    ck_assert(l.approach == 0 && l.release == 5e-3 && load_approach(&c, false) == 5e-3);
     unlink(c.motion.profile);
 }
 END_TEST

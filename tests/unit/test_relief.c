@@ -1,13 +1,12 @@
 /* relief: sums of parts, and what decides how a surface lies under the motion. */
 #include "surface/relief.h"
 
-#include "scene/rules.h"
-
 #include "pipeline/stages.h"
 #include "scene/params.h"
 #include "surface/height_map.h"
 #include "surface/profile.h"
 #include "surface/roughness.h"
+#include "trajectory/motion.h"
 #include "unit.h"
 
 enum { POINTS = 50, SIDE = 12 };
@@ -140,7 +139,7 @@ START_TEST(settled_along)
             (struct roughness){.given = cases[i].roughness, .grain = cases[i].grain};
         relief_decide(&r, &c);
         ck_assert_msg(r.along == cases[i].want, "case %zu: %d", i, r.along);
-        ck_assert(rules_straight(&c.motion) == (cases[i].path <= PATH_FOUR_IN_LINE));
+        ck_assert(motion_straight(&c.motion) == (cases[i].path <= PATH_FOUR_IN_LINE));
         arena_close(a);
     }
 }

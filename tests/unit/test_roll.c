@@ -5,7 +5,6 @@
 
 #include "force/roll.h"
 #include "rig.h"
-#include "scene/ball.h"
 #include "surface/profile.h"
 #include "trajectory/trajectory.h"
 

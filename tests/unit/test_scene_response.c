@@ -1,5 +1,5 @@
 /* Responses, objects, the space of materials, impacts, given forces and listening places in scenes: what is said of
-   what does not fit, where, and the cure, against messages written down by hand; what fits; what rules.h makes of it.
+   what does not fit, where, and the cure, against messages written down by hand; what fits; what the scene tells of it.
  */
 #include "scene/scene_read.h"
 
@@ -9,9 +9,11 @@
 #include "force/given.h"
 #include "force/strike.h"
 #include "pipeline/stages.h"
+#include "response/response.h"
 #include "scene/params.h"
-#include "scene/rules.h"
 #include "scenes.h"
+#include "trajectory/load.h"
+#include "trajectory/motion.h"
 
 #define SCRAPE "scraper: {mass: 1 g}\nmotion: {path: line, to: [1 cm, 0], speed: 10 cm/s}\n"
 #define CIRCLE "scraper: {mass: 1 g}\nmotion: {path: circle, radius: 1 cm, speed: 10 cm/s}\n"
@@ -446,48 +448,44 @@ START_TEST(test_values)
 }
 END_TEST
 
-/* ------------------------------------------------------------------ rules.h */
+/* ------------------------------------------------------------------ what the scene tells of responses and motion */
 
 START_TEST(test_rules)
 {
     static const struct {
         const char *text;
-        int moving;
         bool responds, table, recorded, rings, straight;
     } rows[] = {
-        {RINGS("response: a.csv"), MOVING_AUTO, true, true, false, true, true},
-        {RINGS("response: a.csv, moving: launch"), MOVING_LAUNCH, true, true, false, true, true},
-        {RINGS("response: a.wav"), MOVING_LAUNCH, true, false, true, true, true},
-        {RINGS("response: folder"), MOVING_LAUNCH, true, false, true, true, true},
-        {OBJECT(BAR), MOVING_FIXED, true, false, false, true, true},
-        {RINGS("space: {}"), MOVING_FIXED, true, false, false, true, true},
-        {RINGS("space: {dimension_to: 1}"), MOVING_GLIDE, true, false, false, true, true},
-        {RINGS("space: {to: [0, 0]}, moving: readout"), MOVING_READOUT, true, false, false, true, true},
-        {SCRAPER("material: steel, object: " BAR), MOVING_AUTO, false, false, false, true, true},
-        {"rasp: 1\nsurface: {roughness: {}}\n" CIRCLE "output: {diagnostics: {}}\n", MOVING_AUTO, false, false, false,
-         false, false},
-        {STRIKE("{speed: 1, stiffness: 1e8}"), MOVING_AUTO, true, true, false, true, true},
+        {RINGS("response: a.csv"), true, true, false, true, true},
+        {RINGS("response: a.csv, moving: launch"), true, true, false, true, true},
+        {RINGS("response: a.wav"), true, false, true, true, true},
+        {RINGS("response: folder"), true, false, true, true, true},
+        {OBJECT(BAR), true, false, false, true, true},
+        {RINGS("space: {}"), true, false, false, true, true},
+        {RINGS("space: {dimension_to: 1}"), true, false, false, true, true},
+        {RINGS("space: {to: [0, 0]}, moving: readout"), true, false, false, true, true},
+        {SCRAPER("material: steel, object: " BAR), false, false, false, true, true},
+        {"rasp: 1\nsurface: {roughness: {}}\n" CIRCLE "output: {diagnostics: {}}\n", false, false, false, false, false},
+        {STRIKE("{speed: 1, stiffness: 1e8}"), true, true, false, true, true},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         struct result r = read_good(rows[i].text);
         const struct contact *c = r.scene.contacts;
         const struct response *s = &c->surface.response;
-        ck_assert_msg(rules_moving(s) == rows[i].moving && rules_responds(s) == rows[i].responds &&
-                          rules_is_table(s) == rows[i].table,
-                      "%s", rows[i].text);
-        ck_assert_msg(rules_is_recorded(s) == rows[i].recorded && rules_rings(c) == rows[i].rings &&
-                          rules_straight(&c->motion) == rows[i].straight,
+        ck_assert_msg(response_given(s) == rows[i].responds && response_is_table(s) == rows[i].table, "%s",
+                      rows[i].text);
+        ck_assert_msg(response_is_recorded(s) == rows[i].recorded && response_rings(c) == rows[i].rings &&
+                          motion_straight(&c->motion) == rows[i].straight,
                       "%s", rows[i].text);
         arena_close(r.arena);
     }
     struct result r = read_good(STRIKE("{speed: 1, stiffness: 1e8}"));
     const struct contact *c = r.scene.contacts;
-    ck_assert(rules_speed(&c->motion) == 0 && rules_law(&c->motion) == SPEED_AUTO && rules_rests(&c->motion, false) &&
-              rules_rests(&c->motion, true));
-    ck_assert(!rules_law_fits(&c->motion, SPEED_GIVEN) && rules_approach(c, false) == 0 &&
-              rules_approach(c, true) == 0);
+    ck_assert(motion_speed(&c->motion) == 0 && motion_law(&c->motion) == SPEED_AUTO &&
+              motion_rests(&c->motion, false) && motion_rests(&c->motion, true));
+    ck_assert(!motion_law_fits(&c->motion, SPEED_GIVEN) && load_approach(c, false) == 0 && load_approach(c, true) == 0);
     struct response folder = {.file = "/tmp"}, none = {.file = "/tmp/none"};
-    ck_assert(rules_is_folder(&folder) && !rules_is_folder(&none));
+    ck_assert(response_is_folder(&folder) && !response_is_folder(&none));
     arena_close(r.arena);
 }
 END_TEST

@@ -6,8 +6,8 @@
    the phase is off by at most 2 pi r t 2^-53 rad. Beside that come a few roundings: 1e-15 of the largest value. For
    rates that are powers of two the product is exact and hours are as good as milliseconds. */
 #include "motions.h"
-#include "scene/rules.h"
 #include "stage.h"
+#include "trajectory/motion.h"
 
 #define PI_L 3.141592653589793238462643383279502884L
 
@@ -355,7 +355,7 @@ START_TEST(still_stays)
     ck_assert(tr.length == 0 && tr.duration == 2.5 && tr.cycle == 2.5 && tr.top_speed == 0 && tr.mean_speed == 0 &&
               tr.detail > 0);
     ck_assert_int_eq(trajectory_frames(&tr, 48000), 120001);
-    ck_assert(rules_straight(&m) && rules_rests(&m, false) && rules_rests(&m, true) && rules_speed(&m) == 0);
+    ck_assert(motion_straight(&m) && motion_rests(&m, false) && motion_rests(&m, true) && motion_speed(&m) == 0);
     m.duration = NAN;
     refused(&m, ERR_SCENE, "motion.duration must be given");
     m.duration = 1;

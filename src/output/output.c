@@ -1,13 +1,14 @@
 /* What is to be heard and written, and whether the contacts have it. */
-#include "scene/scene_sense.h"
-
 #include <math.h>
 #include <string.h>
 
 #include "base/text.h"
-#include "scene/ball.h"
+#include "output/impact_rows.h"
+#include "output/sound.h"
+#include "response/response.h"
 #include "scene/params.h"
-#include "scene/rules.h"
+#include "scene/scene_part.h"
+#include "trajectory/contact.h"
 
 static const char *const stems[] = {"force", "surface", "scraper", "ball", NULL};
 
@@ -116,7 +117,7 @@ static void heights_check(const struct scene_part *top, const struct listen *l)
     }
 }
 
-void scene_sense_output(const struct scene_part *top)
+static void own_check(const struct scene_part *top)
 {
     const struct scene *s = top->to;
     stem_words_check(top);
@@ -139,15 +140,15 @@ static bool is_flat(const struct object_given *o)
 /* What the radiator needs of the surface's response; NULL: nothing that it lacks. */
 static const char *lacks(const struct listen *l, const struct response *r)
 {
-    if (l->radiator == RADIATOR_CONTACT || !rules_responds(r)) return NULL;
-    if (l->radiator == RADIATOR_MONOPOLE) return rules_is_recorded(r) ? "a response with modes" : NULL;
+    if (l->radiator == RADIATOR_CONTACT || !response_given(r)) return NULL;
+    if (l->radiator == RADIATOR_MONOPOLE) return response_is_recorded(r) ? "a response with modes" : NULL;
     if (!r->object.given) return "surface.object";
     return l->radiator == RADIATOR_PLATE && !is_flat(&r->object)
                ? "a surface.object that is flat: a plate, disk, membrane or drum"
                : NULL;
 }
 
-void scene_sense_output_audible(const struct scene_part *p, struct yaml_node *root, const struct scene *s)
+static void audible_check(const struct scene_part *p, struct yaml_node *root, const struct scene *s)
 {
     const struct contact *c = p->to;
     const struct output *o = &s->output;
@@ -160,7 +161,7 @@ void scene_sense_output_audible(const struct scene_part *p, struct yaml_node *ro
                  yaml_find(root, radiator) ? yaml_find(root, radiator)->at : yaml_find(root, "output.listen")->key->at,
                  "give what it needs, or set output.listen.radiator to contact", "%s: a %s needs %s, which %s has not",
                  radiator, radiator_word(&o->listen), needs, name);
-    if (o->quantity != QUANTITY_AUTO && o->quantity != QUANTITY_FORCE && rules_is_recorded(&c->surface.response))
+    if (o->quantity != QUANTITY_AUTO && o->quantity != QUANTITY_FORCE && response_is_recorded(&c->surface.response))
         diag_add(p->yaml->diag, scene_part_later(&top, quantity, quantity), "leave output.quantity out",
                  "%s: '%s' of %s is recorded, and of which quantity is not stated", quantity,
                  diag_shown(p->yaml->diag, file), name);
@@ -171,14 +172,14 @@ static bool is_there(const struct scene *s, const char *stem)
 {
     for (int i = 0; i < s->n_contacts; i++) {
         const struct contact *c = &s->contacts[i];
-        bool tool = strcmp(stem, ball_tool(c)) == 0 && rules_tool_rings(c);
-        bool surface = strcmp(stem, "surface") == 0 && rules_surface_rings(c);
+        bool tool = strcmp(stem, contact_tool(c)) == 0 && response_tool_rings(c);
+        bool surface = strcmp(stem, "surface") == 0 && response_surface_rings(c);
         if (c->gain != 0 && (strcmp(stem, "force") == 0 || surface || tool)) return true;
     }
     return false;
 }
 
-void scene_sense_output_stems(const struct scene_part *top)
+static void stems_check(const struct scene_part *top)
 {
     const struct scene *s = top->to;
     const struct yaml_node *list = yaml_find(top->map, "output.stems");
@@ -188,12 +189,12 @@ void scene_sense_output_stems(const struct scene_part *top)
                      "output.stems: nothing rings of which '%s' would be the stem", item->text);
 }
 
-void scene_sense_output_impacts(const struct scene_part *top)
+static void impacts_check(const struct scene_part *top)
 {
     const struct scene *s = top->to;
     const char *path = "output.impacts";
     for (int i = 0; i < s->n_contacts; i++)
-        if (s->output.impacts != LISTING_TABLE || rules_listed(&s->contacts[i], &s->output)) return;
+        if (s->output.impacts != LISTING_TABLE || impact_rows_listed(&s->contacts[i], &s->output)) return;
     diag_add(top->yaml->diag, scene_part_later(top, path, path), "leave it out, or set contact.model to impacts",
              "%s is table, and no contact is of model impacts", path);
 }
@@ -240,7 +241,7 @@ static const char *const *names_of(struct arena *a)
     return names;
 }
 
-void scene_sense_output_names(struct yaml *y, struct yaml_node *root)
+static void names_check(struct yaml *y, struct yaml_node *root)
 {
     for (const struct yaml_node *item = column_first(root); item; item = item->next) {
         if (item->kind != YAML_SCALAR || !*item->text || yaml_null(item) || column_find(item) >= 0) continue;
@@ -252,7 +253,7 @@ void scene_sense_output_names(struct yaml *y, struct yaml_node *root)
     }
 }
 
-void scene_sense_output_columns(const struct scene_part *p, struct yaml_node *root, const struct scene *s)
+static void columns_check(const struct scene_part *p, struct yaml_node *root, const struct scene *s)
 {
     const struct contact *c = p->to;
     for (const struct yaml_node *item = column_first(root); item && s->output.diagnostics.given; item = item->next) {
@@ -265,7 +266,7 @@ void scene_sense_output_columns(const struct scene_part *p, struct yaml_node *ro
     }
 }
 
-void scene_sense_output_rate(const struct scene_part *top)
+static void rate_check(const struct scene_part *top)
 {
     static const char *const rates[2] = {"output.diagnostics.rate", "output.sample_rate"};
     const struct scene *s = top->to;
@@ -274,3 +275,61 @@ void scene_sense_output_rate(const struct scene_part *top)
                  "%s, %.9g Hz, is above %s, %.9g Hz: some rows would have no samples of the force", rates[0],
                  s->output.diagnostics.rate, rates[1], s->output.sample_rate);
 }
+/* ------------------------------------------------------------------ all of it */
+
+static bool force_stem(const struct output *o)
+{
+    for (int i = 0; o->stems && o->stems[i]; i++)
+        if (strcmp(o->stems[i], "force") == 0) return true;
+    return false;
+}
+
+/* A contact that neither rings nor has a table or a stem. */
+static void asked_check(const struct scene_part *p, const struct scene *s)
+{
+    const struct contact *c = p->to;
+    const struct yaml_node *surface = yaml_get(p->map, "surface");
+    if (s->output.diagnostics.given || impact_rows_listed(c, &s->output) || response_audible(c, &s->output) ||
+        force_stem(&s->output))
+        return;
+    diag_add(p->yaml->diag, scene_part_place(p, surface ? surface : p->map),
+             arena_format(p->yaml->arena,
+                          "give surface.response, surface.object or surface.space (or one of %s) for a sound, set "
+                          "output.quantity to force for the sound of "
+                          "the force alone, or ask for output.diagnostics, a table of its physics, or the stem force",
+                          contact_tool(c)),
+             "nothing is asked of %s", scene_part_contact(p, c->name));
+}
+
+static void output_check(const struct scene_part *top, bool contacts)
+{
+    if (contacts) {
+        stems_check(top);
+        impacts_check(top);
+        return;
+    }
+    names_check(top->yaml, top->map);
+    if (top->yaml->missing) return;
+    rate_check(top);
+    own_check(top);
+}
+
+static void contact_check(const struct scene_part *p, struct yaml_node *root, const struct scene *s, bool good)
+{
+    if (good) asked_check(p, s); /* a misspelt response is reported already */
+    columns_check(p, root, s);
+    audible_check(p, root, s);
+}
+
+/* The level of what sounds. */
+static double output_instead(const struct key *k, const void *owner)
+{
+    const struct scene *s = owner;
+    if (strcmp(k->path, "output.level.peak") != 0) return NAN;
+    for (int i = 0; i < s->n_contacts; i++)
+        if (s->contacts[i].gain != 0 && response_audible(&s->contacts[i], &s->output)) return SOUND_PEAK;
+    return NAN;
+}
+
+const struct params output_params = {
+    .section = "output", .check_scene = output_check, .check_asked = contact_check, .instead = output_instead};
