@@ -395,7 +395,8 @@ START_TEST(noise_that_fades)
         noise_normal(noise_make(seed, "fades"), 1, 2 * (LONG + 1), noise);
         for (long i = 0; i <= LONG; i++)
             y[i] += 1e-4 * noise[2 * i] + 3e-3 * real_exp(-(double)i / (0.02 * RATE)) * noise[2 * i + 1];
-        struct modal_stretch s = {.y = y + 1, .first = 1, .n = modal_length(LONG), .fitted = true, .pulse = {0, 1, &one}};
+        struct modal_stretch s = {
+            .y = y + 1, .first = 1, .n = modal_length(LONG), .fitted = true, .pulse = {0, 1, &one}};
         struct modal_data d = {.rate = RATE, .places = 1, .stretches = 1, .stretch = &s};
         struct modal_options o = {.most = 50, .low = 400, .high = 3900, .fastest = 600};
         ck_assert_msg(modal_find(&d, &o, a, &r, &e), "%s", e.text);
