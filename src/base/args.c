@@ -28,13 +28,6 @@ static int option_long(const struct args_option *options, const char *name, size
     return -1;
 }
 
-static int option_letter(const struct args_option *options, char letter)
-{
-    for (int i = 0; options[i].name; i++)
-        if (options[i].letter == letter) return i;
-    return -1;
-}
-
 static int option_named(const struct args *g, const char *name)
 {
     int i = option_long(g->options, name, strlen(name));
@@ -45,8 +38,8 @@ static int option_named(const struct args *g, const char *name)
     return i;
 }
 
-/* What was meant by an unknown long name: the only option that begins so, else the nearest. */
-static const char *long_meant(const struct args_option *options, const char *name, struct arena *a)
+/* What was meant is the only option that begins so, else the nearest. */
+static bool long_unknown(const struct args_option *options, const char *name, struct arena *a, struct err *e)
 {
     const char *meant = NULL;
     int n = option_count(options), hits = 0;
@@ -59,14 +52,9 @@ static const char *long_meant(const struct args_option *options, const char *nam
         }
     }
     names[n] = "help";
-    return hits == 1 ? meant : text_nearest(name, names);
-}
-
-static bool long_unknown(const struct args_option *options, const char *name, struct arena *a, struct err *e)
-{
-    const char *meant = long_meant(options, name, a);
-    if (meant) return err_set(e, ERR_USAGE, "no option --%s; did you mean --%s?", name, meant);
-    return err_set(e, ERR_USAGE, "no option --%s", name);
+    if (hits != 1) meant = text_nearest(name, names);
+    return meant ? err_set(e, ERR_USAGE, "no option --%s; did you mean --%s?", name, meant)
+                 : err_set(e, ERR_USAGE, "no option --%s", name);
 }
 
 /* Notes that option i was given, with its value if it takes one. */
@@ -101,13 +89,15 @@ static bool long_parse(struct args *g, struct words *w, struct arena *a, struct 
 static bool letters_parse(struct args *g, struct words *w, struct err *e)
 {
     for (const char *p = w->argv[w->at++] + 1; *p && !g->help; p++) {
-        int i = option_letter(g->options, *p);
-        if (i < 0 && *p == 'h') {
+        const struct args_option *o = g->options;
+        while (o->name && o->letter != *p)
+            o++;
+        int i = (int)(o - g->options);
+        if (!o->name && *p == 'h') {
             g->help = true;
             break;
         }
-        if (i < 0) return err_set(e, ERR_USAGE, "no option -%c", *p);
-        const struct args_option *o = &g->options[i];
+        if (!o->name) return err_set(e, ERR_USAGE, "no option -%c", *p);
         if (!o->value) {
             if (!option_take(g, i, NULL, e)) return false;
             continue;
@@ -118,23 +108,18 @@ static bool letters_parse(struct args *g, struct words *w, struct err *e)
     return true;
 }
 
-static void args_clear(struct args *g, const struct args_option *options, int argc, struct arena *a)
-{
-    int n = option_count(options);
-    *g = (struct args){.options = options};
-    g->values = ARENA_TAKE(a, const char **, n + 1);
-    g->given = ARENA_TAKE(a, int, n + 1);
-    g->operands = ARENA_TAKE(a, const char *, argc + 1);
-    for (int i = 0; i < n; i++)
-        g->values[i] = ARENA_TAKE(a, const char *, argc + 1);
-}
-
 bool args_parse(struct args *g, const struct args_option *options, int argc, char *const *argv, struct arena *a,
                 struct err *e)
 {
     struct words w = {argv, argc, 0};
     bool ended = false;
-    args_clear(g, options, argc, a);
+    int n = option_count(options);
+    *g = (struct args){.options = options,
+                       .values = ARENA_TAKE(a, const char **, n + 1),
+                       .given = ARENA_TAKE(a, int, n + 1),
+                       .operands = ARENA_TAKE(a, const char *, argc + 1)};
+    for (int i = 0; i < n; i++)
+        g->values[i] = ARENA_TAKE(a, const char *, argc + 1);
     while (w.at < argc && !g->help) {
         const char *word = argv[w.at];
         if (ended || word[0] != '-' || !word[1]) {

@@ -35,24 +35,6 @@
 
 /* --values KNOB=N,N... of `rasp accuracy`: which values of which knobs are rendered besides those of the presets. */
 
-static bool value_add(struct accuracy_values *to, int knob, const char *word, struct err *e)
-{
-    const struct key_knob *k = &keys_knobs[knob];
-    double x;
-    if (!text_double(word, &x))
-        return err_set(e, ERR_USAGE, "--values: '%s' is not a number (in KNOB=NUMBER,NUMBER..., without units)", word);
-    if (!accuracy_takes((enum knob)knob, x))
-        return err_set(
-            e, ERR_USAGE,
-            "--values: accuracy.%s cannot be %s: it takes %snumbers from %g to %g; see rasp explain accuracy.%s",
-            k->name, word, k->whole ? "whole " : "", k->low, k->high, k->name);
-    if (to->n == ACCURACY_VALUES)
-        return err_set(e, ERR_USAGE, "--values: accuracy.%s is given more than %d values; leave some out", k->name,
-                       ACCURACY_VALUES);
-    to->x[to->n++] = x;
-    return true;
-}
-
 static bool values_one(const char *given, struct arena *a, struct accuracy_values *to, struct err *e)
 {
     const char *equals = strchr(given, '='), *names[KNOBS + 1] = {NULL}, *all = "";
@@ -69,8 +51,22 @@ static bool values_one(const char *given, struct arena *a, struct accuracy_value
     const char *near = knob < 0 ? text_nearest(name, names) : NULL;
     if (near) return err_set(e, ERR_USAGE, "--values: there is no knob '%s'; did you mean '%s'?", name, near);
     if (knob < 0) return err_set(e, ERR_USAGE, "--values: there is no knob '%s'; there are %s", name, all);
-    for (char *rest = arena_text(a, equals + 1); (word = strsep(&rest, ","));)
-        if (!value_add(&to[knob], knob, word, e)) return false;
+    for (char *rest = arena_text(a, equals + 1); (word = strsep(&rest, ","));) {
+        const struct key_knob *k = &keys_knobs[knob];
+        double x;
+        if (!text_double(word, &x))
+            return err_set(e, ERR_USAGE, "--values: '%s' is not a number (in KNOB=NUMBER,NUMBER..., without units)",
+                           word);
+        if (!accuracy_takes((enum knob)knob, x))
+            return err_set(
+                e, ERR_USAGE,
+                "--values: accuracy.%s cannot be %s: it takes %snumbers from %g to %g; see rasp explain accuracy.%s",
+                k->name, word, k->whole ? "whole " : "", k->low, k->high, k->name);
+        if (to[knob].n == ACCURACY_VALUES)
+            return err_set(e, ERR_USAGE, "--values: accuracy.%s is given more than %d values; leave some out", k->name,
+                           ACCURACY_VALUES);
+        to[knob].x[to[knob].n++] = x;
+    }
     return true;
 }
 
@@ -122,28 +118,19 @@ static void add_presets(struct accuracy_sweep *s)
     r->chosen = true;
 }
 
-/* Presets' values and those given, coarse to fine, each once. */
-static int values_of(int knob, const struct accuracy_values *given, double *x)
+static void add_knob(struct accuracy_sweep *s, int knob, const struct accuracy_values *given)
 {
+    double x[PRESETS + ACCURACY_VALUES], sign = keys_knobs[knob].scale == KEY_STEPS ? 1.0 : -1.0;
     int n = 0;
-    double sign = keys_knobs[knob].scale == KEY_STEPS ? 1.0 : -1.0;
-    for (int i = 0; i < PRESETS + given->n; i++) {
+    for (int i = 0; i < PRESETS + given->n; i++) { /* presets' values and those given, coarse to fine, each once */
         double v = i < PRESETS ? keys_knobs[knob].preset[i] : given->x[i - PRESETS];
         int at = 0;
         while (at < n && sign * x[at] < sign * v)
             at++;
         if (at < n && x[at] == v) continue;
-        memmove(x + at + 1, x + at, (size_t)(n - at) * sizeof *x);
+        memmove(x + at + 1, x + at, (size_t)(n++ - at) * sizeof *x);
         x[at] = v;
-        n++;
     }
-    return n;
-}
-
-static void add_knob(struct accuracy_sweep *s, int knob, const struct accuracy_values *given)
-{
-    double x[PRESETS + ACCURACY_VALUES];
-    int n = values_of(knob, given, x);
     for (int i = 0; i < n; i++) {
         struct accuracy alone = s->renders[s->reference].set, all = s->scene.accuracy;
         struct accuracy_row *r = row_add(s, knob, keys_knobs[knob].name, arena_format(s->call->arena, "%.9g", x[i]));
@@ -152,7 +139,7 @@ static void add_knob(struct accuracy_sweep *s, int knob, const struct accuracy_v
         r->alone = render_of(s, &alone, false);
         r->total = render_of(s, &all, true);
         r->chosen = x[i] == accuracy_knob(&s->scene.accuracy, (enum knob)knob);
-        r->fine = (keys_knobs[knob].scale == KEY_STEPS ? 1 : -1) * real_log(x[i]) / real_log(2.0);
+        r->fine = sign * real_log(x[i]) / real_log(2.0);
     }
 }
 
@@ -206,38 +193,25 @@ static const struct accuracy_render *alone(const struct accuracy_sweep *s, const
     return r->alone >= 0 && s->renders[r->alone].code == 0 ? &s->renders[r->alone] : NULL;
 }
 
-/* The reference's row of a knob, and the two before it, coarsest first; how many there are, 0: the reference has none.
- */
-static int finest(const struct accuracy_sweep *s, int knob, const struct accuracy_row *to[3])
-{
-    int n = 0;
-    for (int i = 0; i < s->n_rows; i++) {
-        const struct accuracy_row *r = &s->rows[i];
-        if (r->knob != knob || !alone(s, r)) continue;
-        if (n == 2 && r->alone != s->reference) {
-            to[0] = to[1];
-            n = 1;
-        }
-        to[n++] = r;
-        if (r->alone == s->reference) return n;
-    }
-    return 0;
-}
-
-static double amplitude(const struct accuracy_sweep *s, const struct accuracy_row *r)
-{
-    return real_exp10(-s->renders[r->alone].error.snr / 20.0);
-}
-
+/* The reference's own error by a knob, from its row and the two before it; NAN: there are too few. */
 static double judge_own(const struct accuracy_sweep *s, int knob)
 {
-    const struct accuracy_row *r[3];
-    int n = finest(s, knob, r);
-    double order;
-    if (n < 2) return NAN;
-    if (n == 2) return amplitude(s, r[0]);
-    double fine[3] = {r[0]->fine, r[1]->fine, r[2]->fine}, difference[2] = {amplitude(s, r[0]), amplitude(s, r[1])};
-    return convergence_left(fine, difference, &order);
+    double fine[3], amplitude[3], order;
+    int n = 0;
+    bool met = false;
+    for (int i = 0; i < s->n_rows && !met; i++) {
+        const struct accuracy_row *r = &s->rows[i];
+        if (r->knob != knob || !alone(s, r)) continue;
+        met = r->alone == s->reference;
+        if (n == 2 && !met) {
+            fine[0] = fine[1];
+            amplitude[0] = amplitude[1];
+            n = 1;
+        }
+        fine[n] = r->fine;
+        amplitude[n++] = real_exp10(-s->renders[r->alone].error.snr / 20.0);
+    }
+    return !met || n < 2 ? NAN : n == 2 ? amplitude[0] : convergence_left(fine, amplitude, &order);
 }
 
 double accuracy_judge_error(const struct accuracy_sweep *s, const struct accuracy_render *r)
@@ -405,19 +379,6 @@ static bool summary_read(struct accuracy_render *r, const char *out, struct err 
     return ok || err_set(e, ERR_NUMBERS, "a render's summary cannot be read");
 }
 
-/* A scene that does not take the setting, or numbers that fail with it, are facts about the setting; the rest is not.
- */
-static bool refused(struct accuracy_sweep *s, int render, const char *words, struct err *e)
-{
-    struct accuracy_render *r = &s->renders[render];
-    r->words = words;
-    if (interrupt_seen() || r->code == ERR_INTERRUPTED)
-        return err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written, run the same command again");
-    if ((r->code == ERR_SCENE || r->code == ERR_NUMBERS) && render != s->reference) return true;
-    return err_set(e, (enum err_kind)r->code, "the render with %s ended with exit code %d: %s",
-                   accuracy_rows_name(s, render), r->code, words);
-}
-
 bool accuracy_child(struct accuracy_sweep *s, int render, struct err *e)
 {
     struct accuracy_render *r = &s->renders[render];
@@ -451,11 +412,18 @@ bool accuracy_child(struct accuracy_sweep *s, int render, struct err *e)
                : text_shown(s->call->arena, strncmp(line, mark, sizeof mark - 1) ? line : line + sizeof mark - 1);
     fclose(says);
     fclose(out);
-    bool ok = r->code < 0    ? err_set(e, interrupt_seen() ? ERR_INTERRUPTED : cause.kind, "%s", cause.text)
-              : r->code == 0 ? summary_read(r, output, e)
-                             : refused(s, render, words, e);
+    bool ok = r->code == 0 && summary_read(r, output, e);
     free(output);
-    return ok;
+    if (r->code == 0) return ok;
+    if (r->code < 0) return err_set(e, interrupt_seen() ? ERR_INTERRUPTED : cause.kind, "%s", cause.text);
+    r->words = words;
+    if (interrupt_seen() || r->code == ERR_INTERRUPTED)
+        return err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written, run the same command again");
+    /* A scene that does not take the setting, or numbers that fail with it, are facts about the setting; the rest is
+       not. */
+    return ((r->code == ERR_SCENE || r->code == ERR_NUMBERS) && render != s->reference) ||
+           err_set(e, (enum err_kind)r->code, "the render with %s ended with exit code %d: %s",
+                   accuracy_rows_name(s, render), r->code, words);
 }
 
 /* A render's sound against the reference's, both in the sound's own unit: the level that the scene sets is taken out of
@@ -655,28 +623,20 @@ static bool sweep(struct accuracy_sweep *s, struct err *e)
     return ok;
 }
 
-/* All that can fail is done before the first file gets its name. */
-static bool report(struct accuracy_sweep *s, struct err *e)
-{
-    struct outfile files[2];
-    int n = 0;
-    if (s->plot && gnuplot_draw(&files[n], s->plot, text_ends(s->plot, ".svg"), accuracy_report_plot, s, e)) n++;
-    if (s->csv && e->kind == ERR_NONE && outfile_open(&files[n], s->csv, e))
-        accuracy_report_table(s, files[n++].stream);
-    outfile_commit_all(files, n, e);
-    return e->kind == ERR_NONE && accuracy_report(s, e);
-}
-
 static int accuracy_run(struct cmd_call *c, struct err *e)
 {
     struct accuracy_sweep s = {.call = c, .file = c->args.operands[0], .until = INFINITY};
     if (!ask_read(&s, e) || !ask_scene(&s, e) || !accuracy_child_folder(&s, e)) return (int)e->kind;
     bool ok = sweep(&s, e);
     accuracy_child_end(&s);
-    if (ok) {
-        accuracy_judge(&s);
-        report(&s, e);
-    }
+    if (!ok) return (int)e->kind;
+    accuracy_judge(&s);
+    struct outfile files[2]; /* all that can fail is done before the first gets its name */
+    int n = 0;
+    if (s.plot && gnuplot_draw(&files[n], s.plot, text_ends(s.plot, ".svg"), accuracy_report_plot, &s, e)) n++;
+    if (s.csv && e->kind == ERR_NONE && outfile_open(&files[n], s.csv, e)) accuracy_report_table(&s, files[n++].stream);
+    outfile_commit_all(files, n, e);
+    if (e->kind == ERR_NONE) accuracy_report(&s, e);
     return (int)e->kind;
 }
 

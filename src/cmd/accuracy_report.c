@@ -15,41 +15,18 @@
 #include "scene/accuracy.h"
 #include "scene/keys.h"
 
-static void cell(FILE *f, double x)
+static void cells(FILE *f, int n, const double *x)
 {
-    if (isnan(x))
-        fputc(',', f);
-    else
-        fprintf(f, ",%.6g", x);
+    for (int i = 0; i < n; i++)
+        fprintf(f, isnan(x[i]) ? "," : ",%.6g", x[i]);
 }
 
+/* NULL: none */
 static void errors(FILE *f, const struct accuracy_render *r)
 {
-    const struct accuracy_error *o = r && r->code == 0 ? &r->error : NULL;
-    cell(f, o ? o->snr : NAN);
-    cell(f, o ? o->third : NAN);
-    cell(f, o ? o->third_hz : NAN);
-    cell(f, o ? o->spectral : NAN);
-    cell(f, o ? o->level : NAN);
-    cell(f, o ? o->follows : NAN);
-}
-
-static void row(const struct accuracy_sweep *s, const struct accuracy_row *w, FILE *f)
-{
-    const struct accuracy_render *r = &s->renders[w->total];
-    bool ran = r->code == 0;
-    fprintf(f, "%s,%s,%d", w->name, w->value, w->chosen);
-    errors(f, w->alone >= 0 ? &s->renders[w->alone] : NULL);
-    cell(f, w->order);
-    errors(f, r);
-    cell(f, ran ? r->cpu : NAN);
-    cell(f, ran ? r->error.length / fmax(r->cpu, 1e-9) : NAN);
-    fprintf(f, ran ? ",%.0f" : ",", r->peak);
-    cell(f, ran ? r->contact_share : NAN);
-    fprintf(f, ",%d,%d,%d", r->front, accuracy_judge_below(s, r), r->code);
-    cell(f, isfinite(s->until) ? s->until : NAN);
-    cell(f, s->own_db);
-    fputc('\n', f);
+    static const struct accuracy_error none = {NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    const struct accuracy_error *o = r && r->code == 0 ? &r->error : &none;
+    cells(f, 6, (const double[]){o->snr, o->third, o->third_hz, o->spectral, o->level, o->follows});
 }
 
 void accuracy_report_table(const struct accuracy_sweep *s, FILE *f)
@@ -63,8 +40,21 @@ void accuracy_report_table(const struct accuracy_sweep *s, FILE *f)
     fputs(",cpu_s,real_time_factor,peak_bytes,contact_share,front,below_reference,exit_code,diverges_s,reference_snr_"
           "db\n",
           f);
-    for (int i = 0; i < s->n_rows; i++)
-        row(s, &s->rows[i], f);
+    for (int i = 0; i < s->n_rows; i++) {
+        const struct accuracy_row *w = &s->rows[i];
+        const struct accuracy_render *r = &s->renders[w->total];
+        bool ran = r->code == 0;
+        fprintf(f, "%s,%s,%d", w->name, w->value, w->chosen);
+        errors(f, w->alone >= 0 ? &s->renders[w->alone] : NULL);
+        cells(f, 1, &w->order);
+        errors(f, r);
+        cells(f, 2, (const double[]){ran ? r->cpu : NAN, ran ? r->error.length / fmax(r->cpu, 1e-9) : NAN});
+        fprintf(f, ran ? ",%.0f" : ",", r->peak);
+        cells(f, 1, ran ? &r->contact_share : &(double){NAN});
+        fprintf(f, ",%d,%d,%d", r->front, accuracy_judge_below(s, r), r->code);
+        cells(f, 2, (const double[]){isfinite(s->until) ? s->until : NAN, s->own_db});
+        fputc('\n', f);
+    }
 }
 
 /* What is printed: as JSON, or for people, in colour on a terminal unless NO_COLOR is set (no-color.org). */
@@ -87,16 +77,6 @@ static const char *own_text(const struct accuracy_sweep *s)
                         "Errors are against the preset reference, whose own is about %.0f dB (%s): of smaller ones (<) "
                         "believe no more than that.",
                         -s->own_db, parts);
-}
-
-static const char *divergence_text(const struct accuracy_sweep *s)
-{
-    return arena_format(
-        s->call->arena,
-        "It is chaotic: from %.2f s on, high and reference are two sounds of one kind. Samples are compared up to "
-        "there (alone, total); third octaves, spectra and levels after it; follows: how long each goes with reference. "
-        "high and reference, equally right, have spectra %.2g dB apart: less is no merit.",
-        s->until, s->renders[s->high].error.spectral);
 }
 
 /* ------------------------------------------------------------------ cells */
@@ -190,7 +170,15 @@ bool accuracy_report(const struct accuracy_sweep *s, struct err *e)
                              s->force ? "no sound, so its contact force: " : "", s->length, s->rate, s->channels,
                              s->channels == 1 ? "" : "s", plan_knobs_text(s->knobs, a)));
     report_note(&r, "", own_text(s));
-    if (isfinite(s->until)) report_note(&r, "", divergence_text(s));
+    if (isfinite(s->until))
+        report_note(
+            &r, "",
+            arena_format(a,
+                         "It is chaotic: from %.2f s on, high and reference are two sounds of one kind. Samples "
+                         "are compared up to there (alone, total); third octaves, spectra and levels after it; "
+                         "follows: how long each goes with reference. high and reference, equally right, have "
+                         "spectra %.2g dB apart: less is no merit.",
+                         s->until, s->renders[s->high].error.spectral));
     report_note(&r, "",
                 arena_format(a,
                              "total: all other knobs as the scene has them (=); alone: the others at reference. CPU: "
@@ -278,22 +266,11 @@ static void put_range(const struct accuracy_sweep *s, struct gnuplot *g)
     fputs(")\n", g->in);
 }
 
-static int put_front(const struct accuracy_sweep *s, struct gnuplot *g)
+void accuracy_report_plot(void *sweep, struct gnuplot *g)
 {
-    int n = 0;
-    fputs("$front << END\n", g->in);
-    for (int i = 0; i < s->n_rows; i++) {
-        double error;
-        if (!shown(s, &s->rows[i], &error) || !s->renders[s->rows[i].total].front) continue;
-        fprintf(g->in, "%.6g %.6g\n", speed(&s->renders[s->rows[i].total]), error);
-        n++;
-    }
-    fputs("END\n", g->in);
-    return n;
-}
-
-static void put_head(const struct accuracy_sweep *s, struct gnuplot *g)
-{
+    const struct accuracy_sweep *s = sweep;
+    const char *between = "plot ";
+    bool own = isfinite(s->own_db) && !isfinite(s->until);
     gnuplot_page(g, s->plot && text_ends(s->plot, ".svg"), 1000, 640);
     fputs("set grid linewidth 0.5 linecolor rgb '#dddddd'\nset logscale x\nset key noenhanced outside right top "
           "vertical samplen 2\n"
@@ -303,17 +280,17 @@ static void put_head(const struct accuracy_sweep *s, struct gnuplot *g)
     fprintf(g->in, "set ylabel '%s'\n",
             isfinite(s->until) ? "log-spectral distance from reference after divergence / dB"
                                : "error / dB (of the sound, below it)");
-    if (isfinite(s->own_db) && !isfinite(s->until)) fprintf(g->in, "own = %.6g\n", -s->own_db);
-}
-
-void accuracy_report_plot(void *sweep, struct gnuplot *g)
-{
-    const struct accuracy_sweep *s = sweep;
-    const char *between = "plot ";
-    put_head(s, g);
+    if (own) fprintf(g->in, "own = %.6g\n", -s->own_db);
     put_range(s, g);
-    int front = put_front(s, g), end, colour = 0;
-    bool own = isfinite(s->own_db) && !isfinite(s->until);
+    int front = 0, end, colour = 0;
+    fputs("$front << END\n", g->in);
+    for (int i = 0; i < s->n_rows; i++) {
+        double error;
+        if (!shown(s, &s->rows[i], &error) || !s->renders[s->rows[i].total].front) continue;
+        fprintf(g->in, "%.6g %.6g\n", speed(&s->renders[s->rows[i].total]), error);
+        front++;
+    }
+    fputs("END\n", g->in);
     for (int i = 0; i < s->n_rows; i = end) {
         for (end = i; end < s->n_rows && s->rows[end].knob == s->rows[i].knob; end++)
             continue;

@@ -115,15 +115,20 @@ static bool impacts_take(struct analyse_source *s, const struct csv *t, struct a
     return true;
 }
 
-/* The first row whose step is not the usual one, else (steps change little by little) row `drifted`. */
-static bool not_even(const struct csv *t, const double *time, size_t drifted, struct arena *a, struct err *e)
+/* Rows must follow each other evenly: within 1 % of a row. Told is the first row whose step is not the usual one, or,
+   where steps change little by little, the one that drifted. */
+static bool evenly(const struct csv *t, const double *time, struct arena *a, struct err *e)
 {
-    size_t n = t->rows - 1, bad = 1;
-    double *steps = ARENA_TAKE(a, double, n);
+    size_t n = t->rows - 1, drifted = 0, bad = 1;
+    double step = (time[n] - time[0]) / (double)n, *steps = ARENA_TAKE(a, double, n);
+    while (drifted <= n &&
+           fabs(time[drifted] - time[0] - step * (double)drifted) <= 0.01 * step + 1e-9 * fabs(time[drifted]))
+        drifted++;
+    if (drifted > n) return true;
     for (size_t i = 0; i < n; i++)
         steps[i] = time[i + 1] - time[i];
     gsl_sort(steps, 1, n);
-    double step = gsl_stats_median_from_sorted_data(steps, 1, n);
+    step = gsl_stats_median_from_sorted_data(steps, 1, n);
     while (bad <= n && fabs(time[bad] - time[bad - 1] - step) <= 0.01 * step + 2e-9 * fabs(time[bad]))
         bad++;
     if (bad > n) bad = drifted;
@@ -131,17 +136,6 @@ static bool not_even(const struct csv *t, const double *time, size_t drifted, st
                    "%s:%d: rows are not evenly spaced: %.9g s comes %.6g s after the row before, where most come after "
                    "%.6g s. A force is read at one rate (a table of impacts has the column amplitude_n)",
                    t->file, t->lines[bad], time[bad], time[bad] - time[bad - 1], step);
-}
-
-/* Rows must follow each other evenly: within 1 % of a row. */
-static bool evenly(const struct csv *t, const double *time, struct arena *a, struct err *e)
-{
-    size_t n = t->rows;
-    double step = (time[n - 1] - time[0]) / (double)(n - 1);
-    for (size_t i = 0; i < n; i++)
-        if (fabs(time[i] - time[0] - step * (double)i) > 0.01 * step + 1e-9 * fabs(time[i]))
-            return not_even(t, time, i, a, e);
-    return true;
 }
 
 static bool force_take(struct analyse_source *s, const struct csv *t, const struct analyse_given *g, struct arena *a,

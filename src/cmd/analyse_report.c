@@ -676,16 +676,6 @@ static void draw_shape(void *self, struct gnuplot *g)
 
 /* ------------------------------------------------------------------ files */
 
-/* What the files' names begin with. */
-static const char *prefix_of(const struct analysis *a, const char *prefix)
-{
-    struct stat s;
-    size_t n = strlen(prefix);
-    if (!(n > 0 && prefix[n - 1] == '/') && (stat(prefix, &s) != 0 || !S_ISDIR(s.st_mode))) return prefix;
-    return arena_format(a->arena, "%s%s%s", prefix, n > 0 && prefix[n - 1] == '/' ? "" : "/",
-                        relpath_stem(a->source.file, a->arena));
-}
-
 bool analyse_report_plot(struct analysis *a, const char *prefix, bool svg, struct analyse_files *to, struct err *e)
 {
     struct picture p = {a, svg};
@@ -697,7 +687,11 @@ bool analyse_report_plot(struct analysis *a, const char *prefix, bool svg, struc
                {"distributions", draw_distributions, true},
                {"duration", draw_duration, a->lasts},
                {"shape", draw_shape, a->shape.fitted > 0}};
-    prefix = prefix_of(a, prefix);
+    struct stat s;
+    size_t n = strlen(prefix);
+    bool slash = n > 0 && prefix[n - 1] == '/';
+    if (slash || (stat(prefix, &s) == 0 && S_ISDIR(s.st_mode)))
+        prefix = arena_format(a->arena, "%s%s%s", prefix, slash ? "" : "/", relpath_stem(a->source.file, a->arena));
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
         const char *file = arena_format(a->arena, "%s.%s.%s", prefix, all[i].name, svg ? "svg" : "png");
         if (!all[i].there) continue;

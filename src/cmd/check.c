@@ -27,21 +27,19 @@ struct promises {
 };
 
 /* Whether the promise of stimulus i can be kept; its error is told with its place. */
-static bool holds(const struct design *d, int i, struct arena *a, struct err *e)
-{
-    struct scene s, chosen;
-    const char *messages;
-    bool ok = design_scene(d, i, a, &s, &messages, e);
-    if (ok) design_scene_places(d, &s, a);
-    return ok && (error_budget_apply(&s, a, &chosen, NULL, e) || scene_places_report(&s, e));
-}
-
 static bool look(void *context, int i)
 {
     struct promises *p = context;
     struct err e = {0};
     struct arena *a = arena_open();
-    if (!p->design->stimuli[i].recording && !holds(p->design, i, a, &e)) *(p->broken[i] = memory_take(sizeof e)) = e;
+    struct scene s, chosen;
+    const char *messages;
+    bool ok = p->design->stimuli[i].recording;
+    if (!ok && design_scene(p->design, i, a, &s, &messages, &e)) {
+        design_scene_places(p->design, &s, a);
+        ok = error_budget_apply(&s, a, &chosen, NULL, &e) || scene_places_report(&s, &e);
+    }
+    if (!ok) *(p->broken[i] = memory_take(sizeof e)) = e;
     arena_close(a);
     return true;
 }
@@ -122,27 +120,22 @@ static bool check_scene(struct cmd_call *c, const char *file, const char **remar
     return true;
 }
 
-static void check_one(struct cmd_call *c, const char *file, struct report *r, struct err *e)
-{
-    const char *remark = NULL, *name = text_shown(c->arena, file);
-    if (r->json) message_collect(c);
-    if (!check_scene(c, file, &remark, e))
-        message_error(c, "check", e);
-    else
-        report_text(r, "%s: ok\n", name);
-    if (remark) report_text(r, "%s: %s\n", name, remark);
-    if (r->json)
-        report_set(r, ":{ file:s ok:b code:i errors:o }", name, e->kind == ERR_NONE, (int)e->kind,
-                   message_collected(c));
-}
-
 static int check_run(struct cmd_call *c, struct err *e)
 {
     int worst = 0;
     struct report r = report_open_list(stdout, args_given(&c->args, "json"));
     for (int i = 0; i < c->args.n_operands; i++) {
         struct err mine = {0};
-        check_one(c, c->args.operands[i], &r, &mine);
+        const char *remark = NULL, *name = text_shown(c->arena, c->args.operands[i]);
+        if (r.json) message_collect(c);
+        if (!check_scene(c, c->args.operands[i], &remark, &mine))
+            message_error(c, "check", &mine);
+        else
+            report_text(&r, "%s: ok\n", name);
+        if (remark) report_text(&r, "%s: %s\n", name, remark);
+        if (r.json)
+            report_set(&r, ":{ file:s ok:b code:i errors:o }", name, mine.kind == ERR_NONE, (int)mine.kind,
+                       message_collected(c));
         worst = (int)mine.kind > worst ? (int)mine.kind : worst;
     }
     return !report_close(&r, 0, e) ? (int)e->kind : worst;

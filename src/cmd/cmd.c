@@ -25,48 +25,35 @@
 #include "scene/scene_read.h"
 #include "scene/units.h"
 
-/* The action of that name. ERR_USAGE */
-static const struct action *find(const char *command, const struct action *table, struct cmd_call *c, struct err *e)
+int cmd_actions(const char *command, const struct action *table, struct cmd_call *c, struct err *e)
 {
     const char *word = c->args.operands[0], *names[CMD_ACTIONS + 1] = {NULL}, *list = "";
+    const struct action *action = NULL;
     for (int i = 0; table[i].name; i++) {
-        if (!strcmp(word, table[i].name)) return &table[i];
         names[i] = table[i].name;
         list = arena_format(c->arena, "%s%s%s", list, i == 0 ? "" : table[i + 1].name ? ", " : " or ", names[i]);
+        if (!strcmp(word, table[i].name)) action = &table[i];
     }
-    const char *meant = text_nearest(word, names);
+    const char *meant = action ? NULL : text_nearest(word, names);
     if (meant)
         err_set(e, ERR_USAGE, "no action '%s'; did you mean '%s'?", word, meant);
-    else
+    else if (!action)
         err_set(e, ERR_USAGE, "no action '%s': write rasp %s %s", word, command, list);
-    return NULL;
-}
-
-/* The table of options is shared: one that belongs to another action is refused. */
-static bool check_options(const char *command, const struct action *action, const struct args *g, struct err *e)
-{
-    for (const struct args_option *o = g->options; o->name; o++) {
+    if (!action) return (int)e->kind;
+    /* The table of options is shared: one that belongs to another action is refused. */
+    for (const struct args_option *o = c->args.options; o->name; o++) {
         bool known = cmd_shared(o);
         for (int i = 0; i < CMD_ACTION_OPTIONS && action->options[i]; i++)
             known = known || !strcmp(o->name, action->options[i]);
-        if (!known && args_given(g, o->name))
-            return err_set(e, ERR_USAGE, "--%s is no option of rasp %s %s", o->name, command, action->name);
+        if (!known && args_given(&c->args, o->name))
+            err_set(e, ERR_USAGE, "--%s is no option of rasp %s %s", o->name, command, action->name);
     }
-    return true;
-}
-
-int cmd_actions(const char *command, const struct action *table, struct cmd_call *c, struct err *e)
-{
     struct cmd_call inner = *c;
-    const struct action *action = find(command, table, c, e);
     inner.args.operands++;
     int n = --inner.args.n_operands;
-    if (!action || !check_options(command, action, &c->args, e)) return (int)e->kind;
-    if (n < action->least || (action->most >= 0 && n > action->most)) {
+    if (n < action->least || (action->most >= 0 && n > action->most))
         err_set(e, ERR_USAGE, "rasp %s %s takes %s", command, action->name, action->operands);
-        return (int)e->kind;
-    }
-    return action->run(&inner, e);
+    return e->kind ? (int)e->kind : action->run(&inner, e);
 }
 
 /* ------------------------------------------------------------------ values of options */
@@ -314,19 +301,12 @@ int cmd_complain(const char *command, const struct err *e)
     return (int)e->kind;
 }
 
-/* Known before anything is taken: --diagnostics=json, or two words. */
-static bool asks_json(int argc, char **argv)
-{
-    for (int i = 0; i < argc; i++)
-        if (!strcmp(argv[i], "--diagnostics=json") ||
-            (!strcmp(argv[i], "--diagnostics") && i + 1 < argc && !strcmp(argv[i + 1], "json")))
-            return true;
-    return false;
-}
-
 int cmd_run(const struct command *m, int argc, char **argv)
 {
-    bool json = asks_json(argc, argv);
+    bool json = false; /* known before anything is taken: --diagnostics=json, or two words */
+    for (int i = 0; i < argc; i++)
+        json = json || !strcmp(argv[i], "--diagnostics=json") ||
+               (!strcmp(argv[i], "--diagnostics") && i + 1 < argc && !strcmp(argv[i + 1], "json"));
     if (json) err_last_words_as_json();
     struct err e = {0};
     struct cmd_call c = {.arena = arena_open(), .argc = argc, .argv = argv};

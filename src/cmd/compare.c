@@ -69,17 +69,6 @@ static const char *unpaired(const struct verdict *v)
     return v->alike ? "not measured: the sample rates differ" : "not measured: the numbers of channels differ";
 }
 
-static void judge_exact(struct verdict *v)
-{
-    size_t n = v->d.frames * (size_t)v->sound[0].channels;
-    bool met = v->paired && v->d.differing == 0;
-    const char *says = !v->paired ? unpaired(v)
-                       : met      ? "all samples compared are the same"
-                             : arena_format(v->ask->arena, "%zu of %zu samples differ, the first at %s", v->d.differing,
-                                            n, compare_sound_place(v, &v->d.first));
-    judge(v, (struct criterion){"exact", NAN, v->paired ? (double)v->d.differing : NAN, met, says});
-}
-
 /* A figure against a limit that it must not pass; sign +1: at most, -1: at least. */
 static void judge_limit(struct verdict *v, struct criterion c, double sign, const char *unit_and_where[2])
 {
@@ -123,7 +112,14 @@ static void judge_all(struct verdict *v)
         says = a->rate == b->rate ? "channels, rate and length are as they should be"
                                   : "channels and length are as they should be; rates may differ";
     judge(v, (struct criterion){"form", NAN, NAN, met, says});
-    if (ask->exact) judge_exact(v);
+    if (ask->exact) {
+        met = v->paired && v->d.differing == 0;
+        says = !v->paired ? unpaired(v)
+               : met      ? "all samples compared are the same"
+                          : arena_format(ask->arena, "%zu of %zu samples differ, the first at %s", v->d.differing,
+                                         v->d.frames * (size_t)a->channels, compare_sound_place(v, &v->d.first));
+        judge(v, (struct criterion){"exact", NAN, v->paired ? (double)v->d.differing : NAN, met, says});
+    }
     if (!isnan(ask->snr))
         judge_limit(v, (struct criterion){"snr", ask->snr, v->d.snr_db, false, NULL}, -1,
                     (const char *[]){"dB", worst});
@@ -369,22 +365,6 @@ int compare_table(const struct compare_ask *ask, struct err *e)
 
 /* rasp compare FILE --hash SHA256: one sound or table against a hash that was kept. */
 
-/* What cannot be compared with a file has no hash to compare either: a table without rows, a sound without samples. */
-static bool file_hash(const struct compare_ask *ask, bool sound, char hex[HASH_TEXT], struct err *e)
-{
-    const char *file = ask->files[0];
-    struct wav w;
-    struct csv t;
-    if (sound) {
-        if (!wav_read(file, ask->arena, &w, e)) return false;
-        distance_hash(&w, hex);
-        return true;
-    }
-    if (!csv_table_read(file, ask->arena, &t, e)) return false;
-    if (t.rows == 0) return err_set(e, ERR_SCENE, "%s: has no rows: nothing would be compared", file);
-    return hash_file(file, hex, e);
-}
-
 /* By its first bytes, else by its name; a pipe is a table, for its bytes could not be read twice. ERR_INPUT: not there.
  */
 bool compare_is_sound(const char *path, bool *sound, struct err *e)
@@ -406,20 +386,6 @@ bool compare_is_sound(const char *path, bool *sound, struct err *e)
     return true;
 }
 
-/* NAME=ABS,REL; the name may hold = itself. */
-static bool column_tolerance(const char *text, struct table_distance_tolerance *t, struct arena *a, struct err *e)
-{
-    char *name = arena_text(a, text), *equals = strrchr(name, '='), *comma = equals ? strchr(equals, ',') : NULL;
-    if (comma) {
-        *equals = *comma = '\0';
-        *t = (struct table_distance_tolerance){.column = name};
-        if (text_double(equals + 1, &t->abs) && text_double(comma + 1, &t->rel) && t->abs >= 0 && t->rel >= 0)
-            return true;
-    }
-    return err_set(e, ERR_USAGE, "--column: '%s' is not of the form NAME=ABS,REL, as in speed_m_per_s=1e-6,0.001",
-                   text);
-}
-
 /* Of the tolerances for all others the first counts, of those for one column the last: so the command line overrides
  * the file. */
 static bool gather_tolerances(const struct args *g, const char *folder, struct compare_ask *ask, struct err *e)
@@ -439,8 +405,17 @@ static bool gather_tolerances(const struct args *g, const char *folder, struct c
     if (!args_number(g, "abs", range, &list[0].abs, e) || !args_number(g, "rel", range, &list[0].rel, e)) return false;
     for (int i = 0; i < rows; i++)
         list[n++] = file[i];
-    for (int i = 0; i < columns; i++)
-        if (!column_tolerance(texts[i], &list[n++], ask->arena, e)) return false;
+    for (int i = 0; i < columns; i++) { /* NAME=ABS,REL; the name may hold = itself */
+        struct table_distance_tolerance *t = &list[n++];
+        char *name = arena_text(ask->arena, texts[i]), *equals = strrchr(name, '='),
+             *comma = equals ? strchr(equals, ',') : NULL;
+        if (comma) *equals = *comma = '\0';
+        t->column = name;
+        if (!comma || !text_double(equals + 1, &t->abs) || !text_double(comma + 1, &t->rel) || !(t->abs >= 0) ||
+            !(t->rel >= 0))
+            return err_set(e, ERR_USAGE,
+                           "--column: '%s' is not of the form NAME=ABS,REL, as in speed_m_per_s=1e-6,0.001", texts[i]);
+    }
     return true;
 }
 
@@ -491,7 +466,17 @@ static int compare_run_hash(const struct cmd_call *c, const struct compare_ask *
     if (e->kind || !compare_is_sound(ask->files[0], &sound, e)) return (int)e->kind;
     for (char *p = hex; *p; p++)
         *p = *p >= 'A' && *p <= 'F' ? (char)(*p + 'a' - 'A') : *p;
-    if (!file_hash(ask, sound, own, e)) return (int)e->kind;
+    /* What cannot be compared with a file has no hash to compare either: a table without rows, a sound without
+       samples. */
+    struct wav w;
+    struct csv t;
+    if (sound && wav_read(ask->files[0], ask->arena, &w, e))
+        distance_hash(&w, own);
+    else if (!sound && csv_table_read(ask->files[0], ask->arena, &t, e)) {
+        if (t.rows == 0) err_set(e, ERR_SCENE, "%s: has no rows: nothing would be compared", ask->files[0]);
+        if (e->kind == ERR_NONE) hash_file(ask->files[0], own, e);
+    }
+    if (e->kind) return (int)e->kind;
     bool met = strcmp(own, hex) == 0;
     if (ask->quiet && met) return 0;
     struct report r = report_open(ask->out, ask->json);

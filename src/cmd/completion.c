@@ -70,14 +70,6 @@ static struct place place_of(const char *text, struct arena *a)
     return p;
 }
 
-/* Does the action (NULL: all do) take the option? */
-static bool takes(const struct action *action, const struct args_option *o)
-{
-    for (int i = 0; action && i < CMD_ACTION_OPTIONS && action->options[i]; i++)
-        if (!strcmp(action->options[i], o->name)) return true;
-    return !action || cmd_shared(o);
-}
-
 /* ------------------------------------------------------------------ answers
 
    The first line is what stays of the word; behind it stands one of the answers, each a line: a word, maybe a tab and
@@ -149,7 +141,10 @@ static void put_options(const struct command *m, const struct action *action, st
         {0}};
     printf(m ? "\n" : "\n-h\tthe commands\n--help\tthe commands\n");
     for (const struct args_option *o = m ? cmd_options(m, a) : bare; o->name; o++) {
-        if (!takes(action, o)) continue;
+        bool taken = !action || cmd_shared(o);
+        for (int i = 0; action && i < CMD_ACTION_OPTIONS && action->options[i]; i++)
+            taken = taken || !strcmp(action->options[i], o->name);
+        if (!taken) continue;
         if (o->letter) printf("-%c\t%s\n", o->letter, o->help);
         printf("--%s%s\t%s\n", o->name, o->value ? "=" : "", o->help);
     }

@@ -180,18 +180,6 @@ static json_t *properties_at(json_t *top, const char *path, struct arena *a)
     return json_object_get(json_object_get(outer, name), "properties");
 }
 
-static json_t *accuracy(struct arena *a)
-{
-    json_t *knobs =
-        json_pack("{s:o, s:o}", "preset", described(one_of(keys_presets), frame_meaning("accuracy.preset")), "error",
-                  described(quantity(KEY_DECIBEL, -240, 0, false, NULL, a), frame_meaning("accuracy.error")));
-    for (const struct key_knob *k = keys_knobs; k->name; k++)
-        json_object_set_new(knobs, k->name,
-                            described(quantity(KEY_NONE, k->low, k->high, k->whole, NULL, a), k->meaning));
-    return json_pack("{s:[o, o], s:s}", "anyOf", one_of(keys_presets), map(knobs, NULL), "description",
-                     frame_meaning("accuracy"));
-}
-
 /* "$defs" of both: the scene's top-level maps by name, and accuracy. */
 static json_t *schema_maps(struct arena *a)
 {
@@ -202,7 +190,15 @@ static json_t *schema_maps(struct arena *a)
             json_object_set_new(properties_at(top, arena_format(a, "%.*s", (int)(dot - k->path), k->path), a), dot + 1,
                                 key_value(k, a));
     }
-    json_object_set_new(top, "accuracy", accuracy(a));
+    json_t *knobs =
+        json_pack("{s:o, s:o}", "preset", described(one_of(keys_presets), frame_meaning("accuracy.preset")), "error",
+                  described(quantity(KEY_DECIBEL, -240, 0, false, NULL, a), frame_meaning("accuracy.error")));
+    for (const struct key_knob *k = keys_knobs; k->name; k++)
+        json_object_set_new(knobs, k->name,
+                            described(quantity(KEY_NONE, k->low, k->high, k->whole, NULL, a), k->meaning));
+    json_object_set_new(top, "accuracy",
+                        json_pack("{s:[o, o], s:s}", "anyOf", one_of(keys_presets), map(knobs, NULL), "description",
+                                  frame_meaning("accuracy")));
     return top;
 }
 
@@ -240,23 +236,20 @@ static json_t *schema_scene(struct arena *a)
 
 /* The schema of designs: see man rasp-design(5). */
 
-/* Where a dotted path stands in $defs. */
-static json_t *ref_of(const char *path, struct arena *a)
-{
-    const char *to = strncmp(path, "accuracy.", 9) ? "" : "accuracy/anyOf/1/properties/", *rest = *to ? path + 9 : path;
-    for (const char *dot = strchr(rest, '.'); dot; rest = dot + 1, dot = strchr(rest, '.'))
-        to = arena_format(a, "%s%.*s/properties/", to, (int)(dot - rest), rest);
-    return ref(arena_format(a, "%s%s", to, rest));
-}
-
 /* What may be laid over a scene: dotted keys, maps of keys, and the same of a contact by its name. */
 static json_t *settings(struct arena *a)
 {
     json_t *all = json_object();
-    for (const char **names = keys_text_names(a); *names; names++)
+    for (const char **names = keys_text_names(a); *names; names++) {
+        const char *knob = "accuracy/anyOf/1/properties/", *rest = *names, /* where a dotted path stands in $defs */
+                                                               *to = strncmp(rest, "accuracy.", 9) ? "" : knob;
+        rest += *to ? 9 : 0;
+        for (const char *dot = strchr(rest, '.'); dot; rest = dot + 1, dot = strchr(rest, '.'))
+            to = arena_format(a, "%s%.*s/properties/", to, (int)(dot - rest), rest);
         json_object_set_new(all, *names,
                             keys_find(*names) && !strchr(*names, '.') ? key_value(keys_find(*names), a)
-                                                                      : ref_of(*names, a));
+                                                                      : ref(arena_format(a, "%s%s", to, rest)));
+    }
     for (const char *const *own = (const char *const[]){"rasp", "seed", "include", "inputs", "contacts", NULL}; *own;
          own++)
         json_object_del(all, *own);

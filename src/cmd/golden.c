@@ -364,32 +364,28 @@ void golden_report_strays(const struct golden *g, const char *const *strays, int
 
 /* rasp golden: sounds and tables that are kept, and whether scenes still make them. */
 
-static bool begin(struct golden *g, struct cmd_call *c, struct err *e)
-{
-    *g = (struct golden){.call = c,
-                         .saved = args_value(&c->args, "kept"),
-                         .hashes = args_value(&c->args, "hashes"),
-                         .effective = args_given(&c->args, "effective"),
-                         .tap = args_given(&c->args, "tap"),
-                         .quiet = args_given(&c->args, "quiet")};
-    if ((g->saved && !*g->saved) || (g->hashes && !*g->hashes))
-        return err_set(e, ERR_USAGE, "--%s is empty", g->saved && !*g->saved ? "kept" : "hashes");
-    if (g->saved && !strcmp(g->saved, "-"))
-        return err_set(e, ERR_USAGE, "--kept -: what is kept is a folder of files; one of that name is ./-");
-    if (!g->saved && !g->hashes) g->saved = "golden";
-    if (g->saved) g->saved = batch_folder(c->arena, g->saved);
-    return batch_threads(c, &g->threads, e) && golden_list(g, e) && golden_run_folder(g, e);
-}
-
 static int run(struct cmd_call *c, int (*what)(struct golden *g, struct err *e), struct err *e)
 {
-    struct golden g;
-    int code = begin(&g, c, e) ? what(&g, e) : (int)e->kind;
+    struct golden g = {.call = c,
+                       .saved = args_value(&c->args, "kept"),
+                       .hashes = args_value(&c->args, "hashes"),
+                       .effective = args_given(&c->args, "effective"),
+                       .tap = args_given(&c->args, "tap"),
+                       .quiet = args_given(&c->args, "quiet")};
+    int code = 0;
+    if ((g.saved && !*g.saved) || (g.hashes && !*g.hashes))
+        err_set(e, ERR_USAGE, "--%s is empty", g.saved && !*g.saved ? "kept" : "hashes");
+    else if (g.saved && !strcmp(g.saved, "-"))
+        err_set(e, ERR_USAGE, "--kept -: what is kept is a folder of files; one of that name is ./-");
+    if (!g.saved && !g.hashes) g.saved = "golden";
+    if (g.saved) g.saved = batch_folder(c->arena, g.saved);
+    if (!e->kind && batch_threads(c, &g.threads, e) && golden_list(&g, e) && golden_run_folder(&g, e))
+        code = what(&g, e);
     golden_run_end(&g);
     for (int i = 0; i < g.n; i++)
         arena_close(g.scenes[i].arena);
     if (e->kind && g.tap) printf("Bail out! %s\n", text_shown(c->arena, e->text));
-    return code;
+    return e->kind ? (int)e->kind : code;
 }
 
 static int check_run(struct cmd_call *c, struct err *e) { return run(c, golden_run_check, e); }

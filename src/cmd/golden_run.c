@@ -44,21 +44,6 @@ static const char *path_of(const struct golden *g, const struct golden_scene *s,
     return arena_format(a, "%s/%s/%s/%s", g->work, s->name, passes[pass], file);
 }
 
-/* Sounds and tables, with their hashes. */
-static bool note_files(struct golden_scene *s, int pass, const struct render_report *r, struct err *e)
-{
-    struct golden_files *made = &s->made[pass];
-    *made = (struct golden_files){NULL, 0};
-    for (int i = 0; i < r->n_files; i++) {
-        const struct render_file *f = &r->files[i];
-        if (!strcmp(f->kind, "scene") || !strcmp(f->kind, "summary")) continue;
-        struct golden_file *to = golden_add(made, arena_text(s->arena, basename(f->path)), s->arena);
-        if (!hash_file(f->path, to->sha256, e)) return false;
-    }
-    golden_sort(made);
-    return true;
-}
-
 static bool render(const struct golden *g, struct golden_scene *s, int pass, const char *from, struct err *e)
 {
     struct arena *a = arena_open();
@@ -73,8 +58,15 @@ static bool render(const struct golden *g, struct golden_scene *s, int pass, con
         err_set(e, ERR_CREATE, "the folder %s cannot be created: %s", arena_text(s->arena, folder), strerror(errno));
     ok = ok && (!from || scene_read(from, NULL, a, &read, &messages, e)) &&
          (render_scene(from ? &read : &s->scene, base, a, &report, e) ||
-          scene_places_report(from ? &read : &s->scene, e)) &&
-         note_files(s, pass, &report, e);
+          scene_places_report(from ? &read : &s->scene, e));
+    s->made[pass] = (struct golden_files){NULL, 0};
+    for (int i = 0; ok && i < report.n_files; i++) { /* sounds and tables, with their hashes */
+        const struct render_file *f = &report.files[i];
+        if (!strcmp(f->kind, "scene") || !strcmp(f->kind, "summary")) continue;
+        struct golden_file *to = golden_add(&s->made[pass], arena_text(s->arena, basename(f->path)), s->arena);
+        ok = hash_file(f->path, to->sha256, e);
+    }
+    golden_sort(&s->made[pass]);
     arena_close(a);
     return ok;
 }
@@ -82,23 +74,20 @@ static bool render(const struct golden *g, struct golden_scene *s, int pass, con
 /* ------------------------------------------------------------------ away with it */
 
 /* What a render writes: no folder in it, and nothing of somebody else's. */
-static void clear(const char *folder)
-{
-    static const char *const endings[] = {".wav", ".csv", ".npy", ".json", ".yaml", NULL};
-    DIR *d = opendir(folder);
-    for (struct dirent *entry; d && (entry = readdir(d));) {
-        const char *dot = strrchr(entry->d_name, '.');
-        for (int k = 0; endings[k] && dot; k++)
-            if (!strncmp(entry->d_name, "sound.", 6) && !strcmp(dot, endings[k])) unlinkat(dirfd(d), entry->d_name, 0);
-    }
-    if (d) closedir(d);
-    rmdir(folder);
-}
-
 static void clear_renders(const struct golden *g, const struct golden_scene *s)
 {
-    for (int pass = 0; pass < 2; pass++)
-        clear(path_of(g, s, pass, "", s->arena));
+    static const char *const endings[] = {".wav", ".csv", ".npy", ".json", ".yaml", NULL};
+    for (int pass = 0; pass < 2; pass++) {
+        const char *folder = path_of(g, s, pass, "", s->arena);
+        DIR *d = opendir(folder);
+        for (struct dirent *entry; d && (entry = readdir(d));) {
+            const char *dot = strrchr(entry->d_name, '.');
+            if (dot && !strncmp(entry->d_name, "sound.", 6) && text_is_one(dot, endings))
+                unlinkat(dirfd(d), entry->d_name, 0);
+        }
+        if (d) closedir(d);
+        rmdir(folder);
+    }
     rmdir(arena_format(s->arena, "%s/%s", g->work, s->name));
 }
 
@@ -386,28 +375,25 @@ static size_t columns_of(const struct bytes *b)
     return shape ? (size_t)(shape - b->at) : line ? (size_t)(line - b->at) : b->n;
 }
 
-/* The rule of output/mark.h. Nothing lies beside a kept table that names it: it is known as an earlier state of the one
- * that takes its place by the same columns. */
-static bool may_replace(const struct golden *g, const struct bytes *made, const char *to, struct arena *a,
-                        struct err *e)
-{
-    struct err why = {0}, unreadable = {0};
-    struct stat link;
-    struct bytes old;
-    if (mark_permits(to, NULL, args_given(&g->call->args, "force"), &why)) return true;
-    size_t n = columns_of(made), length = strlen(to);
-    bool table = lstat(to, &link) == 0 && S_ISREG(link.st_mode) && length > 4 && strcmp(to + length - 4, ".wav") != 0;
-    bool same = table && bytes_read(to, a, &old, &unreadable) && columns_of(&old) == n && !memcmp(old.at, made->at, n);
-    return (same && n > 0) || err_set(e, why.kind, "%s; nothing was written", why.text);
-}
-
 static bool copy(struct writing *w, const char *from, const char *to, struct err *e)
 {
     struct outfile *o = &w->files[w->n];
     struct arena *a = arena_open();
-    struct bytes b;
-    bool ok = bytes_read(from, a, &b, e) && may_replace(w->g, &b, to, a, e) && outfile_open(o, to, e);
-    if (ok) {
+    struct bytes b, old;
+    struct err why = {0}, unreadable = {0};
+    struct stat link;
+    bool ok = bytes_read(from, a, &b, e);
+    /* The rule of output/mark.h. Nothing lies beside a kept table that names it: it is known as an earlier state of the
+       one that takes its place by the same columns. */
+    if (ok && !mark_permits(to, NULL, args_given(&w->g->call->args, "force"), &why)) {
+        size_t n = columns_of(&b), length = strlen(to);
+        bool table =
+            lstat(to, &link) == 0 && S_ISREG(link.st_mode) && length > 4 && strcmp(to + length - 4, ".wav") != 0;
+        ok = (table && n > 0 && bytes_read(to, a, &old, &unreadable) && columns_of(&old) == n &&
+              !memcmp(old.at, b.at, n)) ||
+             err_set(e, why.kind, "%s; nothing was written", why.text);
+    }
+    if (ok && (ok = outfile_open(o, to, e))) {
         w->n++;
         outfile_put(o, b.at, b.n);
         ok = outfile_finalise(o, e);

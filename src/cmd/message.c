@@ -18,12 +18,6 @@
 #define CYAN "\033[1;36m"
 #define PLAIN "\033[m"
 
-struct piece {
-    const char *at; /* NULL: none */
-    size_t size;
-    const char *colour;
-};
-
 /* The text in line[0..n), at its start or after ": ". */
 static const char *find(const char *line, size_t n, const char *text)
 {
@@ -34,18 +28,6 @@ static const char *find(const char *line, size_t n, const char *text)
     return NULL;
 }
 
-static struct piece piece_of(const char *line, size_t n)
-{
-    size_t bar = strspn(line, " 0123456789"), mark = bar < n ? bar + 1 + strspn(line + bar + 1, " \t") : n;
-    if (bar < n && bar >= 4 && line[bar] == '|')
-        return mark < n && line[mark] == '^' && strspn(line, " ") == bar ? (struct piece){line + mark, n - mark, GREEN}
-                                                                         : (struct piece){NULL, 0, NULL};
-    if (!strncmp(line, "      = help:", 13)) return (struct piece){line + 8, 5, CYAN};
-    const char *error = find(line, n, "error:"), *warning = find(line, n, "warning:");
-    if (error && (!warning || error < warning)) return (struct piece){error, 6, RED};
-    return warning ? (struct piece){warning, 8, MAGENTA} : (struct piece){NULL, 0, NULL};
-}
-
 void message_paint(FILE *f, const char *lines)
 {
     /* A terminal, whose TERM is neither empty nor dumb, and NO_COLOR is not set or empty (no-color.org). */
@@ -54,10 +36,26 @@ void message_paint(FILE *f, const char *lines)
     if (!colours) fputs(lines, f);
     for (size_t n; colours && *lines; lines += n) {
         n = strcspn(lines, "\n");
-        const struct piece p = piece_of(lines, n);
-        if (p.at)
-            fprintf(f, "%.*s%s%.*s%s%.*s", (int)(p.at - lines), lines, p.colour, (int)p.size, p.at, PLAIN,
-                    (int)(lines + n - p.at - (ptrdiff_t)p.size), p.at + p.size);
+        size_t bar = strspn(lines, " 0123456789"), mark = bar < n ? bar + 1 + strspn(lines + bar + 1, " \t") : n;
+        const char *error = find(lines, n, "error:"), *warning = find(lines, n, "warning:"), *at = NULL, *colour = RED;
+        size_t size = 6;
+        if (bar < n && bar >= 4 && lines[bar] == '|') {
+            at = mark < n && lines[mark] == '^' && strspn(lines, " ") == bar ? lines + mark : NULL;
+            size = n - mark;
+            colour = GREEN;
+        } else if (!strncmp(lines, "      = help:", 13)) {
+            at = lines + 8;
+            size = 5;
+            colour = CYAN;
+        } else if (error && (!warning || error < warning))
+            at = error;
+        else if ((at = warning)) {
+            size = 8;
+            colour = MAGENTA;
+        }
+        if (at)
+            fprintf(f, "%.*s%s%.*s%s%.*s", (int)(at - lines), lines, colour, (int)size, at, PLAIN,
+                    (int)(lines + n - at - (ptrdiff_t)size), at + size);
         else
             fwrite(lines, 1, n, f);
         if (lines[n]) fputc(lines[n++], f);

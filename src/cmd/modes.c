@@ -227,21 +227,6 @@ static bool read_load(struct job *j, struct err *e)
            err_set(e, ERR_USAGE, "--load: %s is not above 0 and at most 1000 kg", text);
 }
 
-/* What the mass at the place does to poles and gains of velocity. */
-static void load(const struct job *j, double x, double y, const struct modes_point *p)
-{
-    const struct object *o = j->modes.object;
-    if (j->load == 0.0) return;
-    o->shapes(o, x, y, j->phi);
-    for (int i = 0; i < j->modes.n; i++) {
-        double less = 1.0 / (1.0 + j->load * j->phi[i] * j->phi[i] / o->mass[i]);
-        p->frequency[i] *= sqrt(less);
-        p->decay[i] *= less;
-        p->re[i] *= less;
-        p->im[i] *= less;
-    }
-}
-
 /* What a table holds at a place in the object's coordinates. */
 static double gains_at(const void *self, double x, double y, const struct modes_point *p)
 {
@@ -251,7 +236,14 @@ static double gains_at(const void *self, double x, double y, const struct modes_
     double off = modes_at(m, &(struct modes_where){.x = x + origin[0], .y = y + origin[1]}, p);
     memcpy(p->frequency, m->frequency, (size_t)m->n * sizeof *p->frequency);
     memcpy(p->decay, m->decay, (size_t)m->n * sizeof *p->decay);
-    load(j, x, y, p);
+    if (j->load != 0.0) m->object->shapes(m->object, x, y, j->phi);
+    for (int i = 0; j->load != 0.0 && i < m->n; i++) { /* what the mass at the place does to poles and gains */
+        double less = 1.0 / (1.0 + j->load * j->phi[i] * j->phi[i] / m->object->mass[i]);
+        p->frequency[i] *= sqrt(less);
+        p->decay[i] *= less;
+        p->re[i] *= less;
+        p->im[i] *= less;
+    }
     modes_to_quantity(j->quantity, m->n, p);
     return off;
 }

@@ -63,25 +63,6 @@ static bool read_face(struct compute *k, struct err *e)
 
 /* ------------------------------------------------------------------ --points */
 
-static bool point_row(struct compute *k, const struct csv *t, const int column[5], int row, struct err *e)
-{
-    double at[3];
-    for (int i = 0; i < 3; i++)
-        if (!csv_number(t, (size_t)row, column[i], &at[i], e)) return false;
-    for (int i = 0; i < 2; i++)
-        if (column[3] < 0)
-            k->xy[row][i] = at[i];
-        else if (!csv_number(t, (size_t)row, column[3 + i], &k->xy[row][i], e))
-            return false;
-    double far = boundary_nearest(&k->mesh, &k->boundary, at, &k->point[row]);
-    return far <= POINT_OFF * size_of(k) ||
-           err_set(e, ERR_SCENE,
-                   "%s:%d: the point (%g, %g, %g) m lies %.3g m off the surface, which spans x %g to %g, y %g to %g, z "
-                   "%g to %g m",
-                   t->file, t->lines[row], at[0], at[1], at[2], far, k->boundary.low[0], k->boundary.high[0],
-                   k->boundary.low[1], k->boundary.high[1], k->boundary.low[2], k->boundary.high[2]);
-}
-
 static bool read_points(struct compute *k, const char *file, struct err *e)
 {
     static const char *const names[5] = {"x_m", "y_m", "z_m", "u_m", "v_m"};
@@ -101,8 +82,24 @@ static bool read_points(struct compute *k, const char *file, struct err *e)
     k->places = (int)t.rows;
     k->xy = arena_take(k->c->arena, t.rows, sizeof *k->xy);
     k->point = ARENA_TAKE(k->c->arena, struct boundary_point, t.rows);
-    for (int i = 0; i < k->places; i++)
-        if (!point_row(k, &t, column, i, e)) return false;
+    for (int row = 0; row < k->places; row++) {
+        const double *low = k->boundary.low, *high = k->boundary.high;
+        double at[3];
+        for (int i = 0; i < 3; i++)
+            if (!csv_number(&t, (size_t)row, column[i], &at[i], e)) return false;
+        for (int i = 0; i < 2; i++)
+            if (!placed)
+                k->xy[row][i] = at[i];
+            else if (!csv_number(&t, (size_t)row, column[3 + i], &k->xy[row][i], e))
+                return false;
+        double far = boundary_nearest(&k->mesh, &k->boundary, at, &k->point[row]);
+        if (far > POINT_OFF * size_of(k))
+            return err_set(e, ERR_SCENE,
+                           "%s:%d: the point (%g, %g, %g) m lies %.3g m off the surface, which spans x %g to %g, y %g "
+                           "to %g, z %g to %g m",
+                           file, t.lines[row], at[0], at[1], at[2], far, low[0], high[0], low[1], high[1], low[2],
+                           high[2]);
+    }
     struct err why = {0};
     int bad;
     if (modes_places_distinct(&(struct modes_places){.n = k->places, .xy = k->xy}, k->c->arena, &bad, &why))

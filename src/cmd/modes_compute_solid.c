@@ -32,10 +32,7 @@ static bool within(const struct compute *k, const char *option, double x, struct
                    x, unit, keys_text_range(key, k->c->arena), unit);
 }
 
-static void note(struct compute *k, const char *text)
-{
-    k->note = arena_line(k->c->arena, k->note, text);
-}
+static void note(struct compute *k, const char *text) { k->note = arena_line(k->c->arena, k->note, text); }
 
 static bool check_solid(struct compute *k, struct err *e)
 {

@@ -174,15 +174,6 @@ static bool grow(const struct growing *g, int axes, struct step *now)
     return best.places > 0;
 }
 
-static void shrink(const struct growing *g, int axis, int n[2])
-{
-    while (n[axis] > 5) {
-        int of, less[2] = {n[0] - 2 * (axis == 0), n[1] - 2 * (axis == 1)};
-        if (!(error_of(g, less, &of) <= MODES_FIT_GOAL)) return;
-        n[axis] = less[axis];
-    }
-}
-
 static void choose(struct modes_fit *f, fit_lay *lay, const void *self, bool line, struct modes_places *p)
 {
     long rows = FIT_ROWS / f->n;
@@ -193,7 +184,10 @@ static void choose(struct modes_fit *f, fit_lay *lay, const void *self, bool lin
     while (now.db > MODES_FIT_GOAL && grow(&g, axes, &now))
         ;
     for (int axis = axes; axis-- > 0 && now.db <= MODES_FIT_GOAL;)
-        shrink(&g, axis, now.n);
+        for (int of; now.n[axis] > 5; now.n[axis] -= 2)
+            if (!(error_of(&g, (int[2]){now.n[0] - 2 * (axis == 0), now.n[1] - 2 * (axis == 1)}, &of) <=
+                  MODES_FIT_GOAL))
+                break;
     lay(self, now.n, f->arena, p);
     p->chosen = true;
 }
@@ -219,14 +213,6 @@ static void line(struct modes_places *p, const double ends[4], int n, struct are
         double u = n > 1 ? (double)i / (n - 1) : 0.0;
         add(p, ends[0] + u * (ends[2] - ends[0]), ends[1] + u * (ends[3] - ends[1]));
     }
-}
-
-static void circle(struct modes_places *p, double radius, int n, struct arena *a)
-{
-    *p = (struct modes_places){
-        .xy = arena_take(a, (size_t)n, sizeof *p->xy), .from = {-radius, -radius}, .to = {radius, radius}};
-    for (int i = 0; i < n; i++)
-        add(p, radius * real_cospi(2.0 * i / n), radius * real_sinpi(2.0 * i / n));
 }
 
 static void grid(struct modes_places *p, const struct modes_ground *g, const int n[2], struct arena *a)
@@ -456,9 +442,14 @@ bool modes_places(struct cmd_call *c, const struct modes_ground *g, struct modes
         line(p, ends, 1, c->arena);
     else if (args_given(&c->args, "grid"))
         grid(p, g, n, c->arena);
-    else if (args_given(&c->args, "circle"))
-        circle(p, ends[0], (int)places, c->arena);
-    else if (args_given(&c->args, "line") && args_given(&c->args, "places"))
+    else if (args_given(&c->args, "circle")) {
+        double radius = ends[0];
+        *p = (struct modes_places){.xy = arena_take(c->arena, (size_t)places, sizeof *p->xy),
+                                   .from = {-radius, -radius},
+                                   .to = {radius, radius}};
+        for (int i = 0; i < places; i++)
+            add(p, radius * real_cospi(2.0 * i / (int)places), radius * real_sinpi(2.0 * i / (int)places));
+    } else if (args_given(&c->args, "line") && args_given(&c->args, "places"))
         line(p, ends, (int)places, c->arena);
     else if (args_given(&c->args, "line"))
         along(c, g, ends, (int)places, p);

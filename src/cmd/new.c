@@ -136,14 +136,6 @@ static const char *response(const char *irs, const char *name, struct arena *a)
     return file[0] == '-' || file[strspn(file, plain)] ? keys_yaml_quoted(file, a) : file;
 }
 
-static const char *meaning(const char *path)
-{
-    const struct key *k = keys_find(path);
-    for (const struct keys_text_frame *p = keys_text_frames; p->path; p++)
-        if (!strcmp(p->path, path)) return p->meaning;
-    return k ? k->meaning : NULL;
-}
-
 struct keys_line *new_lines(const char *text, struct arena *a)
 {
     int n = 0, most = 1;
@@ -215,7 +207,11 @@ void new_print(FILE *f, const struct new_starter *s, const char *irs, struct are
             first = l + 1;
         } else {
             if (!strncmp(l->value, "irs/", 4)) l->value = arena_format(a, "%s/%s", irs, l->value + 4);
-            l->comment = style == &scene ? meaning(l->path) : NULL;
+            if (style == &contact) continue;
+            const struct key *k = keys_find(l->path);
+            l->comment = k ? k->meaning : NULL;
+            for (const struct keys_text_frame *p = keys_text_frames; p->path; p++)
+                if (!strcmp(p->path, l->path)) l->comment = p->meaning;
         }
 }
 

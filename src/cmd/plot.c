@@ -173,22 +173,6 @@ static bool span_set(struct plot_page *p, double end, struct err *e)
 
 /* ------------------------------------------------------------------ sound */
 
-static void sound_columns(struct plot_sound *o, const double *x, long first, long last)
-{
-    double squares = 0;
-    for (int c = 0; c < o->n; c++) {
-        long from = first + (last - first) * c / o->n, to = first + (last - first) * (c + 1) / o->n;
-        o->least[c] = o->most[c] = x[from > first ? from - 1 : from]; /* columns join */
-        for (long i = from; i < to; i++) {
-            o->least[c] = fmin(o->least[c], x[i]);
-            o->most[c] = fmax(o->most[c], x[i]);
-            o->peak = fmax(o->peak, fabs(x[i]));
-            squares += x[i] * x[i];
-        }
-    }
-    o->rms = sqrt(squares / (double)(last - first));
-}
-
 /* One channel of the sound. */
 static bool sound_gather(struct plot_page *p, struct err *e)
 {
@@ -205,7 +189,18 @@ static bool sound_gather(struct plot_page *p, struct err *e)
     o->n = last - first < PLOT_COLUMNS ? (int)(last - first) : PLOT_COLUMNS;
     o->least = ARENA_TAKE(p->arena, double, o->n);
     o->most = ARENA_TAKE(p->arena, double, o->n);
-    sound_columns(o, w.x, first, last);
+    double squares = 0;
+    for (int c = 0; c < o->n; c++) {
+        long from = first + (last - first) * c / o->n, to = first + (last - first) * (c + 1) / o->n;
+        o->least[c] = o->most[c] = w.x[from > first ? from - 1 : from]; /* columns join */
+        for (long i = from; i < to; i++) {
+            o->least[c] = fmin(o->least[c], w.x[i]);
+            o->most[c] = fmax(o->most[c], w.x[i]);
+            o->peak = fmax(o->peak, fabs(w.x[i]));
+            squares += w.x[i] * w.x[i];
+        }
+    }
+    o->rms = sqrt(squares / (double)(last - first));
     spectrogram_make(&(struct spectrogram_of){w.x, w.frames, w.rate, p->from, p->to, PLOT_COLUMNS}, p->arena,
                      &o->spectrogram);
     p->sound = o;
@@ -452,32 +447,23 @@ static bool table_rows(struct plot_page *p, const struct csv *csv, const double 
     return path_of_table(p, t->name, csv, times, e);
 }
 
-/* Times of the rows, and where the last one ends. */
-static bool table_times(const struct csv *csv, double *times, double *end, struct err *e)
-{
-    int column = csv_column(csv, "time_s");
-    size_t n = csv->rows;
-    if (column < 0 || n == 0)
-        return err_set(e, ERR_SCENE, "%s: %s: not a table of diagnostics", csv->file,
-                       column < 0 ? "no column time_s" : "no rows");
-    for (size_t row = 0; row < n; row++)
-        if (!csv_number(csv, row, column, &times[row], e)) return false;
-    *end = n > 1 ? times[n - 1] + (times[n - 1] - times[0]) / (double)(n - 1) : times[0];
-    return true;
-}
-
 /* One table; the first sets the time shown when there is no sound. */
 static bool table_add(struct plot_page *p, const char *path, const char *name, struct err *e)
 {
     struct csv csv;
     struct plot_table *t = &p->tables[p->n_tables];
-    double end = 0;
     t->name = name;
     if (!csv_table_read(path, p->arena, &csv, e)) return false;
-    double *times = ARENA_TAKE(p->arena, double, csv.rows + 1);
-    if (!table_times(&csv, times, &end, e) || (!p->sound && !p->n_tables && !span_set(p, end, e)) ||
-        !table_rows(p, &csv, times, t, e))
-        return false;
+    int column = csv_column(&csv, "time_s");
+    size_t n = csv.rows;
+    if (column < 0 || n == 0)
+        return err_set(e, ERR_SCENE, "%s: %s: not a table of diagnostics", csv.file,
+                       column < 0 ? "no column time_s" : "no rows");
+    double *times = ARENA_TAKE(p->arena, double, n);
+    for (size_t row = 0; row < n; row++)
+        if (!csv_number(&csv, row, column, &times[row], e)) return false;
+    double end = n > 1 ? times[n - 1] + (times[n - 1] - times[0]) / (double)(n - 1) : times[0];
+    if ((!p->sound && !p->n_tables && !span_set(p, end, e)) || !table_rows(p, &csv, times, t, e)) return false;
     p->n_tables++;
     return true;
 }
@@ -548,15 +534,6 @@ static bool table_alone(struct plot_page *p, struct err *e)
     return table_add(p, p->file, "", e);
 }
 
-static bool anything(const struct plot_page *p, struct err *e)
-{
-    for (int k = 0; k < PLOT_PANELS; k++)
-        if (plot_panels_there(p, k)) return true;
-    if (p->silent) return err_set(e, ERR_SCENE, "no sound, and nothing else that can be drawn");
-    return err_set(e, ERR_SCENE, "%s: has none of the columns that are drawn (%s, %s, %s, %s)", p->file,
-                   plot_names[PLOT_PEAK], plot_names[PLOT_RMS], plot_names[PLOT_NORMAL], plot_names[PLOT_ALPHA]);
-}
-
 bool plot_data(struct plot_page *p, struct err *e)
 {
     bool table = text_ends(p->file, ".csv") || text_ends(p->file, ".npy");
@@ -578,7 +555,14 @@ bool plot_data(struct plot_page *p, struct err *e)
         return false;
     if (!p->title) p->title = title;
     if (ours && !p->table_of_modes && !add_bodies(p, &summary, beside(p, ".scene.yaml"), e)) return false;
-    return plot_panels_check(p, e) && anything(p, e);
+    bool anything = false;
+    for (int k = 0; k < PLOT_PANELS; k++)
+        anything = anything || plot_panels_there(p, k);
+    if (!plot_panels_check(p, e) || anything) return e->kind == ERR_NONE;
+    return p->silent
+               ? err_set(e, ERR_SCENE, "no sound, and nothing else that can be drawn")
+               : err_set(e, ERR_SCENE, "%s: has none of the columns that are drawn (%s, %s, %s, %s)", p->file,
+                         plot_names[PLOT_PEAK], plot_names[PLOT_RMS], plot_names[PLOT_NORMAL], plot_names[PLOT_ALPHA]);
 }
 
 /* rasp plot: a picture of a render or mode table, or a page of pictures of many. */

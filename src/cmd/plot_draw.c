@@ -230,47 +230,37 @@ static void put_name(const struct plot_page *p, int i, struct gnuplot *g)
     if (p->n_bodies > 1) gnuplot_put_text(g, p->bodies[i].name);
 }
 
-/* To where the stems go down: the next 10 dB below the weakest. */
-static double bottom(const struct plot_page *p, double most)
-{
-    double least = -11;
-    for (int i = 0; i < p->n_bodies; i++)
-        for (int k = 0; k < p->bodies[i].n; k++)
-            if (shown(&p->bodies[i].modes[k], most)) least = fmin(least, level(&p->bodies[i].modes[k], most));
-    return 10 * floor(least / 10);
-}
-
-static void put_stems(const struct plot_page *p, double from, struct gnuplot *g)
-{
-    for (int i = 0; i < p->n_bodies; i++) {
-        fprintf(g->in,
-                "%s $modes%d using 1:(%g):(0):($2-(%g)):3 with vectors nohead linewidth 1.3 linecolor palette notitle",
-                i ? "," : "plot", i, from, from);
-        fprintf(g->in, ", $modes%d using 1:2:3 with points pointtype %d pointsize 0.8 linecolor palette notitle", i,
-                marks[i % 4]);
-        fprintf(g->in, ", NaN with points pointtype %d linecolor rgb '#404040'", marks[i % 4]);
-        put_name(p, i, g);
-    }
-    fputc('\n', g->in);
-}
-
 static void plot_modes(const struct plot_page *p, const struct plot_place *at, struct gnuplot *g)
 {
     double most = strongest(p);
     struct span khz, decay;
     spans(p, most, &khz, &decay);
     modes_data(p, most, g->in);
+    double least = -11; /* stems go down to the next 10 dB below the weakest */
+    for (int i = 0; i < p->n_bodies; i++)
+        for (int k = 0; k < p->bodies[i].n; k++)
+            if (shown(&p->bodies[i].modes[k], most)) least = fmin(least, level(&p->bodies[i].modes[k], most));
+    double bottom = 10 * floor(least / 10);
     fprintf(g->in,
             "set ylabel 'gain / dB re strongest' offset 0,0\nset xlabel 'frequency / kHz'\nset format x '%%g'\nset "
             "xrange [%.6g:%.6g]\nset yrange [%g:4]\nset cbrange [%.6g:%.6g]\n",
-            khz.low, khz.high, bottom(p, most), decay.low, decay.high);
+            khz.low, khz.high, bottom, decay.low, decay.high);
     put_tics("x", khz, g->in);
     put_tics("cb", decay, g->in);
     fputs("set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#4db84f', 4 '#b8c31f')\nset cblabel 'T60 / "
           "s' offset 0,0\n",
           g->in);
     put_scale(at, "", g->in);
-    put_stems(p, bottom(p, most), g);
+    for (int i = 0; i < p->n_bodies; i++) {
+        fprintf(g->in,
+                "%s $modes%d using 1:(%g):(0):($2-(%g)):3 with vectors nohead linewidth 1.3 linecolor palette notitle",
+                i ? "," : "plot", i, bottom, bottom);
+        fprintf(g->in, ", $modes%d using 1:2:3 with points pointtype %d pointsize 0.8 linecolor palette notitle", i,
+                marks[i % 4]);
+        fprintf(g->in, ", NaN with points pointtype %d linecolor rgb '#404040'", marks[i % 4]);
+        put_name(p, i, g);
+    }
+    fputc('\n', g->in);
     fputs("unset colorbox\nunset logscale\nset xtics autofreq\n", g->in);
 }
 
@@ -332,18 +322,6 @@ static int page_height(const struct plot_page *p)
 
 /* ------------------------------------------------------------------ data */
 
-static void data_table(const struct plot_table *t, int number, FILE *f)
-{
-    fprintf(f, "$table%d << END\n", number);
-    for (int i = 0; i < t->n; i++) {
-        fprintf(f, "%.9g", t->time[i]);
-        for (int k = 0; k < PLOT_TABLE_COLUMNS; k++)
-            fprintf(f, " %.9g", t->x[k] ? t->x[k][i] * (k == PLOT_ALPHA ? 100 : 1) : 0);
-        fputc('\n', f);
-    }
-    fputs("END\n", f);
-}
-
 /* ------------------------------------------------------------------ panels */
 
 /* Bins up to 20 kHz as 32-bit floats, what lies below the colours' range drawn as its lowest. */
@@ -401,17 +379,6 @@ static bool draw_put_curves(const struct plot_page *p, enum plot_column column, 
     return *any;
 }
 
-static void draw_normal(const struct plot_page *p, struct gnuplot *g)
-{
-    bool any = false;
-    fprintf(g->in, "set ylabel 'normal force / N'\nset yrange [0:%.6g]\n", 1.25 * most_of(p, PLOT_NORMAL));
-    if (plot_data_has(p, PLOT_ALPHA))
-        fprintf(g->in, "set y2tics\nset y2label 'α / cm'\nset y2range [0:%.6g]\n", 160 * most_of(p, PLOT_ALPHA));
-    draw_put_curves(p, PLOT_NORMAL, "lines linewidth 1.6 linecolor rgb '%s'", &any, g);
-    draw_put_curves(p, PLOT_ALPHA, "lines axes x1y2 linewidth 1.6 dashtype 2 linecolor rgb '%s'", &any, g);
-    fputs(any ? "\n" : "plot NaN notitle\n", g->in);
-}
-
 /* ------------------------------------------------------------------ the page */
 
 /* A panel over time; the last has the axis' numbers. */
@@ -444,8 +411,15 @@ static void draw_timed(const struct plot_page *p, int panel, const double place[
                         &any, g);
         draw_put_curves(p, PLOT_RMS, "lines linewidth 1.2 linecolor rgb '%s'", &any, g);
         fputs(any ? "\n" : "plot NaN notitle\n", g->in);
-    } else
-        draw_normal(p, g);
+    } else {
+        bool any = false;
+        fprintf(g->in, "set ylabel 'normal force / N'\nset yrange [0:%.6g]\n", 1.25 * most_of(p, PLOT_NORMAL));
+        if (plot_data_has(p, PLOT_ALPHA))
+            fprintf(g->in, "set y2tics\nset y2label 'α / cm'\nset y2range [0:%.6g]\n", 160 * most_of(p, PLOT_ALPHA));
+        draw_put_curves(p, PLOT_NORMAL, "lines linewidth 1.6 linecolor rgb '%s'", &any, g);
+        draw_put_curves(p, PLOT_ALPHA, "lines axes x1y2 linewidth 1.6 dashtype 2 linecolor rgb '%s'", &any, g);
+        fputs(any ? "\n" : "plot NaN notitle\n", g->in);
+    }
     fputs("unset label 1\n", g->in);
 }
 
@@ -482,17 +456,6 @@ static void draw_untimed(const struct plot_page *p,
     fputs("unset label 1\n", g->in);
 }
 
-/* Alone each takes the whole width. */
-static void draw_row(const struct plot_page *p, double top, struct gnuplot *g)
-{
-    bool motion = plot_panels_there(p, PLOT_MOTION), modes = plot_panels_there(p, PLOT_MODES);
-    double bottom = top - heights[PLOT_MOTION], right = WIDTH - RIGHT, middle = (LEFT + right) / 2;
-    if (motion)
-        draw_untimed(p, plot_motion, (const double[4]){LEFT, modes ? middle - BETWEEN / 2.0 : right, bottom, top}, g);
-    if (modes)
-        draw_untimed(p, plot_modes, (const double[4]){motion ? middle + BETWEEN / 2.0 : LEFT, right, bottom, top}, g);
-}
-
 void plot_draw(void *page, struct gnuplot *g)
 {
     const struct plot_page *p = page;
@@ -502,8 +465,17 @@ void plot_draw(void *page, struct gnuplot *g)
     for (int c = 0; o && c < o->n; c++)
         fprintf(g->in, "%.9g %.9g %.9g\n", p->from + (c + 0.5) * ((p->to - p->from) / o->n), o->least[c], o->most[c]);
     if (o) fputs("END\n", g->in);
-    for (int i = 0; i < p->n_tables; i++)
-        data_table(&p->tables[i], i, g->in);
+    for (int i = 0; i < p->n_tables; i++) {
+        const struct plot_table *t = &p->tables[i];
+        fprintf(g->in, "$table%d << END\n", i);
+        for (int row = 0; row < t->n; row++) {
+            fprintf(g->in, "%.9g", t->time[row]);
+            for (int k = 0; k < PLOT_TABLE_COLUMNS; k++)
+                fprintf(g->in, " %.9g", t->x[k] ? t->x[k][row] * (k == PLOT_ALPHA ? 100 : 1) : 0);
+            fputc('\n', g->in);
+        }
+        fputs("END\n", g->in);
+    }
     int height = (int)whole;
     gnuplot_page(g, p->svg, WIDTH, height);
     fputs("set palette defined (0 '#000004', 1 '#280b54', 2 '#65156e', 3 '#9f2a63', 4 '#d44842', 5 '#f57d15', 6 "
@@ -519,8 +491,13 @@ void plot_draw(void *page, struct gnuplot *g)
     fprintf(g->in, " at screen %.5f, screen %.5f noenhanced font ',13'\n", (double)LEFT / WIDTH,
             1 - 0.5 * TOP / height);
     top = draw_all_timed(p, whole, g);
-    if (has_row(p)) {
-        draw_row(p, top - KEY, g);
+    if (has_row(p)) { /* alone each takes the whole width */
+        bool motion = plot_panels_there(p, PLOT_MOTION), modes = plot_panels_there(p, PLOT_MODES);
+        double high = top - KEY, low = high - heights[PLOT_MOTION], right = WIDTH - RIGHT, middle = (LEFT + right) / 2;
+        if (motion)
+            draw_untimed(p, plot_motion, (const double[4]){LEFT, modes ? middle - BETWEEN / 2.0 : right, low, high}, g);
+        if (modes)
+            draw_untimed(p, plot_modes, (const double[4]){motion ? middle + BETWEEN / 2.0 : LEFT, right, low, high}, g);
         top -= KEY + heights[PLOT_MOTION] + BOTTOM;
     }
     if (plot_panels_there(p, PLOT_DECAYS))

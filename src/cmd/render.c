@@ -167,19 +167,12 @@ static const struct args_option render_options[] = {
     {0},
 };
 
-/* NAME of .../NAME.yaml, NAME.yml or NAME.scene.yaml */
-static const char *scene_stem(struct arena *a, const char *file)
-{
-    static const char *const endings[] = {".yaml", ".yml", ".scene"};
-    const char *stem = basename(file);
-    for (int k = 0; k < 3; k++)
-        if (text_ends(stem, endings[k])) stem = relpath_stem(stem, a);
-    return stem;
-}
-
 static const char *render_base(struct cmd_call *c, const char *file, struct err *e)
 {
-    const char *o = args_value(&c->args, "output"), *stem = scene_stem(c->arena, file);
+    const char *o = args_value(&c->args, "output"), *stem = basename(file);
+    static const char *const endings[] = {".yaml", ".yml", ".scene"};
+    for (int k = 0; k < 3; k++) /* NAME of .../NAME.yaml, NAME.yml or NAME.scene.yaml */
+        if (text_ends(stem, endings[k])) stem = relpath_stem(stem, c->arena);
     size_t n = o ? strlen(o) : 0;
     struct stat st;
     if (!o) return stem;
@@ -236,17 +229,6 @@ static struct outputs *render_read(struct cmd_call *c, struct err *e)
     return all;
 }
 
-/* printed: how many scenes' summaries are. */
-static bool render_one(struct cmd_call *c, int i, const struct outputs *o, bool array, int *printed, struct err *e)
-{
-    struct render_report report;
-    if (!render_scene(o->scene, o->base, c->arena, &report, e)) return scene_places_report(o->scene, e);
-    bool verified = !args_given(&c->args, "verify") || render_verify(c, c->args.operands[i], o->scene, &report, e);
-    fputs(!array ? "" : (*printed)++ ? "," : "[", stdout);
-    render_print(c, o->scene, &report);
-    return verified;
-}
-
 static int render_run(struct cmd_call *c, struct err *e)
 {
     int n = c->args.n_operands, done = 0;
@@ -254,8 +236,15 @@ static int render_run(struct cmd_call *c, struct err *e)
     bool array = n > 1 && args_given(&c->args, "json");
     const struct outputs *all = render_read(c, e);
     bool ok = all != NULL;
-    for (int i = 0; ok && i < n; i++)
-        ok = render_one(c, i, &all[i], array, &done, e);
+    for (int i = 0; ok && i < n; i++) {
+        struct render_report report;
+        const struct outputs *o = &all[i];
+        ok = render_scene(o->scene, o->base, c->arena, &report, e) || scene_places_report(o->scene, e);
+        if (!ok) break;
+        ok = !args_given(&c->args, "verify") || render_verify(c, c->args.operands[i], o->scene, &report, e);
+        fputs(!array ? "" : done++ ? "," : "[", stdout);
+        render_print(c, o->scene, &report);
+    }
     if (array && done) puts("]");
     return (int)e->kind;
 }

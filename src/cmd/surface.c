@@ -541,21 +541,6 @@ static bool read_surface(struct synth *s, struct err *e)
 
 /* ------------------------------------------------------------------ making */
 
-static void read_heights(struct synth *s, const struct relief *relief)
-{
-    struct heightfile *h = &s->h;
-    double *x = ARENA_TAKE(s->c->arena, double, h->columns), *y = ARENA_TAKE(s->c->arena, double, h->columns);
-    h->z = ARENA_TAKE(s->c->arena, double, h->rows * h->columns);
-    for (size_t i = 0; i < h->columns; i++)
-        x[i] = (double)i * s->pitch;
-    for (size_t j = 0; j < h->rows; j++) {
-        for (size_t i = 0; i < h->columns; i++)
-            y[i] = (double)j * s->pitch;
-        relief_at(relief, &(struct relief_points){h->columns, x, s->along == ALONG_PLANE ? y : NULL},
-                  &(struct relief_values){.z = h->z + j * h->columns});
-    }
-}
-
 static bool make(struct synth *s, struct err *e)
 {
     const struct stage *stages[] = {&roughness_stage, &ridges_stage, &grit_stage};
@@ -573,7 +558,17 @@ static bool make(struct synth *s, struct err *e)
     }
     for (int k = 0; k < board.n_warnings; k++)
         message_remark(s->c, "surface", board.warnings[k]);
-    if (ok) read_heights(s, &relief);
+    struct heightfile *h = &s->h;
+    double *x = ARENA_TAKE(s->c->arena, double, h->columns), *y = ARENA_TAKE(s->c->arena, double, h->columns);
+    if (ok) h->z = ARENA_TAKE(s->c->arena, double, h->rows * h->columns);
+    for (size_t j = 0; ok && j < h->rows; j++) {
+        for (size_t i = 0; i < h->columns; i++) {
+            x[i] = (double)i * s->pitch;
+            y[i] = (double)j * s->pitch;
+        }
+        relief_at(&relief, &(struct relief_points){h->columns, x, s->along == ALONG_PLANE ? y : NULL},
+                  &(struct relief_values){.z = h->z + j * h->columns});
+    }
     for (int k = 0; k < 3; k++)
         if (stages[k]->close) stages[k]->close(&run[k]);
     return ok;
