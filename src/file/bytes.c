@@ -2,14 +2,12 @@
 #include "file/bytes.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <pthread.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/memory.h"
 
@@ -60,14 +58,6 @@ uint64_t bytes_word(const void *bytes, size_t size)
     return v;
 }
 
-static float bytes_f32(const void *bytes)
-{
-    uint32_t w = (uint32_t)bytes_word(bytes, 4);
-    float v;
-    memcpy(&v, &w, 4);
-    return v;
-}
-
 double bytes_f64(const void *bytes)
 {
     uint64_t w = bytes_word(bytes, 8);
@@ -94,7 +84,13 @@ void bytes_put_f64(FILE *f, double value)
 double bytes_number(const void *bytes, char kind, size_t size)
 {
     uint64_t w = bytes_word(bytes, size);
-    if (kind == 'f') return size == 4 ? bytes_f32(bytes) : bytes_f64(bytes);
+    if (kind == 'f' && size == 4) {
+        uint32_t half = (uint32_t)w;
+        float v;
+        memcpy(&v, &half, 4);
+        return v;
+    }
+    if (kind == 'f') return bytes_f64(bytes);
     if (kind == 'u' || w >> (8 * size - 1) == 0) return (double)w;
     return -(double)((UINT64_MAX >> (64 - 8 * size)) - w) - 1;
 }
@@ -102,15 +98,13 @@ double bytes_number(const void *bytes, char kind, size_t size)
 /* Opening a FIFO waits for a writer, and reading for what is written: a signal ends the program there
  * (base/interrupt.h). */
 
-enum { PIECE = 1 << 16 };
-
 struct piped {
     struct piped *next;
-    char *file, *text;
-    size_t size;
+    const char *file;
+    struct bytes text;
 };
 
-static struct piped *all;
+static struct piped *all; /* each in an arena of its own, as long as the program */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
 bool bytes_piped(const char *file)
@@ -121,41 +115,23 @@ bool bytes_piped(const char *file)
            (stat(file, &s) == 0 && !S_ISREG(s.st_mode) && !S_ISDIR(s.st_mode));
 }
 
-static bool read_all(int fd, struct piped *k, size_t most)
-{
-    for (size_t room = 0;;) {
-        if (k->size == room) {
-            char *more = memory_take((room = 2 * room + PIECE) + 1);
-            if (k->size) memcpy(more, k->text, k->size);
-            free(k->text);
-            k->text = more;
-        }
-        ssize_t n = read(fd, k->text + k->size, room - k->size);
-        if (n < 0) return false;
-        k->size += (size_t)n;
-        if (n == 0 || k->size > most) return true;
-    }
-}
-
 static struct piped *take(const char *file, size_t most)
 {
-    int fd = open(file, O_RDONLY | O_CLOEXEC);
-    if (fd < 0) return NULL;
-    struct piped *k = memory_take(sizeof *k);
-    *k = (struct piped){.next = all};
-    bool ok = read_all(fd, k, most);
+    struct arena *a = arena_open();
+    struct piped *k = ARENA_TAKE(a, struct piped, 1);
+    FILE *f = memory_fopen(file, "re");
+    bool ok = f && bytes_stream(f, 1 << 16, most, a, &k->text);
     int why = errno;
-    close(fd);
+    if (f) fclose(f);
     if (!ok) {
-        free(k->text);
-        free(k);
+        arena_close(a);
         errno = why;
         return NULL;
     }
-    size_t n = strlen(file) + 1;
-    k->size = k->size > most ? most + 1 : k->size;
-    k->text[k->size] = '\0';
-    k->file = memcpy(memory_take(n), file, n);
+    k->next = all;
+    k->file = arena_text(a, file);
+    k->text.n = k->text.n > most ? most + 1 : k->text.n;
+    k->text.at[k->text.n] = '\0';
     return all = k;
 }
 
@@ -167,6 +143,6 @@ const char *bytes_piped_read(const char *file, size_t most, size_t *size)
         k = k->next;
     k = k ? k : take(file, most);
     pthread_mutex_unlock(&lock);
-    *size = k ? k->size : 0;
-    return k ? k->text : NULL;
+    *size = k ? k->text.n : 0;
+    return k ? k->text.at : NULL;
 }

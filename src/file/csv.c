@@ -83,23 +83,15 @@ static size_t csv_count(const char *at, const char *end, char c)
     return n;
 }
 
-/* Takes a whole line, without its end, as a string. */
-static char *csv_take_line(struct csv_reader *r)
-{
-    char *s = r->at, *stop = memchr(s, '\n', (size_t)(r->end - s));
-    r->at = stop ? stop + 1 : r->end;
-    r->line++;
-    if (stop) *stop = '\0';
-    size_t n = strlen(s);
-    if (n > 0 && s[n - 1] == '\r') s[n - 1] = '\0';
-    return s;
-}
-
 static bool csv_comments(struct csv_reader *r, struct csv *t)
 {
     while (r->at < r->end && strchr("#\r\n", *r->at)) {
-        int line = r->line;
-        char *s = csv_take_line(r);
+        int line = r->line++;
+        char *s = r->at, *stop = memchr(s, '\n', (size_t)(r->end - s));
+        r->at = stop ? stop + 1 : r->end;
+        if (stop) *stop = '\0';
+        size_t n = strlen(s);
+        if (n > 0 && s[n - 1] == '\r') s[n - 1] = '\0'; /* the line's end, of the other kind */
         if (*s != '#') continue;
         char *colon = strchr(s, ':'), *value = colon ? colon + 1 : s + 1;
         if (colon) *colon = '\0';
@@ -123,9 +115,6 @@ static bool csv_header(struct csv_reader *r, struct csv *t)
     }
     return true;
 }
-
-/* Only blank lines are left. */
-static bool csv_at_end(struct csv_reader *r) { return r->at + strspn(r->at, "\r\n") == r->end; }
 
 static bool csv_row(struct csv_reader *r, struct csv *t)
 {
@@ -170,7 +159,7 @@ static bool read_bytes(const char *path, struct bytes b, struct arena *a, struct
         r.at += 3;
     csv_room(&r, t);
     if (!csv_comments(&r, t) || !csv_header(&r, t)) return false;
-    while (!csv_at_end(&r))
+    while (r.at + strspn(r.at, "\r\n") != r.end) /* only blank lines are left */
         if (!csv_row(&r, t)) return false;
     return true;
 }
@@ -244,35 +233,12 @@ void csv_put_number(FILE *f, double value)
     fwrite(text, 1, decimal_9g(value, text), f);
 }
 
-static bool table_names(const struct npy *head, struct csv *t, struct err *e)
+bool csv_table_read(const char *path, struct arena *a, struct csv *t, struct err *e)
 {
-    t->names = head->fields;
-    for (; t->columns < head->n_fields; t->columns++)
-        if (csv_column(t, head->fields[t->columns]) >= 0)
-            return err_set(e, ERR_SCENE, "%s: two fields are called '%s'", t->file, head->fields[t->columns]);
-    return true;
-}
-
-static bool table_numbers(const struct bytes *b, const struct npy *head, struct arena *a, struct csv *t, struct err *e)
-{
-    size_t row = head->n_fields * sizeof(double), bytes, there = b->n - head->data;
-    t->rows = head->shape[0];
-    if (__builtin_mul_overflow(t->rows, row, &bytes) || bytes != there || t->rows > INT_MAX)
-        return err_set(e, ERR_SCENE, "%s: %zu rows of %zu bytes should follow byte %zu, and %zu bytes do", t->file,
-                       t->rows, row, head->data, there);
-    double *numbers = ARENA_TAKE(a, double, t->rows * t->columns + 1);
-    memcpy(numbers, b->at + head->data,
-           bytes); /* as in memory: rasp is for x86-64; the file's bytes need not lie at a multiple of 8 */
-    t->numbers = numbers;
-    t->lines = ARENA_TAKE(a, int, t->rows + 1);
-    for (size_t i = 0; i < t->rows; i++)
-        t->lines[i] = (int)i + 1;
-    return true;
-}
-
-static bool table_read_bytes(const char *path, struct bytes b, struct arena *a, struct csv *t, struct err *e)
-{
+    struct bytes b;
     struct npy head;
+    size_t bytes;
+    if (!bytes_read(path, a, &b, e)) return false;
     if (!npy_is(&b)) return read_bytes(path, b, a, t, e);
     *t = (struct csv){.file = arena_text(a, path)};
     if (!npy_read(path, &b, a, &head, e)) return false;
@@ -281,13 +247,23 @@ static bool table_read_bytes(const char *path, struct bytes b, struct arena *a, 
                        "%s: not a table: an NPY array %s; a table has one dimension and fields with names, such as "
                        "dtype [('time_s', '<f8'), ...]",
                        path, head.n_fields ? "of two dimensions" : "without named fields");
-    return table_names(&head, t, e) && table_numbers(&b, &head, a, t, e);
-}
-
-bool csv_table_read(const char *path, struct arena *a, struct csv *t, struct err *e)
-{
-    struct bytes b;
-    return bytes_read(path, a, &b, e) && table_read_bytes(path, b, a, t, e);
+    t->names = head.fields;
+    for (; t->columns < head.n_fields; t->columns++)
+        if (csv_column(t, head.fields[t->columns]) >= 0)
+            return err_set(e, ERR_SCENE, "%s: two fields are called '%s'", t->file, head.fields[t->columns]);
+    size_t row = head.n_fields * sizeof(double), there = b.n - head.data;
+    t->rows = head.shape[0];
+    if (__builtin_mul_overflow(t->rows, row, &bytes) || bytes != there || t->rows > INT_MAX)
+        return err_set(e, ERR_SCENE, "%s: %zu rows of %zu bytes should follow byte %zu, and %zu bytes do", t->file,
+                       t->rows, row, head.data, there);
+    double *numbers = ARENA_TAKE(a, double, t->rows * t->columns + 1);
+    /* as in memory: rasp is for x86-64; the file's bytes need not lie at a multiple of 8 */
+    memcpy(numbers, b.at + head.data, bytes);
+    t->numbers = numbers;
+    t->lines = ARENA_TAKE(a, int, t->rows + 1);
+    for (size_t i = 0; i < t->rows; i++)
+        t->lines[i] = (int)i + 1;
+    return true;
 }
 
 static int by_name(const void *a, const void *b) { return strcmp(*(const char *const *)a, *(const char *const *)b); }

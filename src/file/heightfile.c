@@ -29,17 +29,6 @@ static const struct {
     {".csv", HEIGHTFILE_CSV, heightfile_formats_csv_is, heightfile_formats_csv_read},
 };
 
-/* Text takes at most 32 bytes a number; so no file of a map that is read is larger. */
-static bool check_size(const char *path, struct err *e)
-{
-    struct stat s;
-    double most = 32 * (double)HEIGHTFILE_MOST;
-    return stat(path, &s) != 0 || (double)s.st_size <= most ||
-           err_set(e, ERR_SCENE,
-                   "%s: has %.3g bytes, more than a height map of %zu samples takes; crop or bin it first", path,
-                   (double)s.st_size, HEIGHTFILE_MOST);
-}
-
 bool heightfile_room(const char *path, struct heightfile *h, struct arena *a, struct err *e)
 {
     size_t n;
@@ -77,10 +66,16 @@ static bool look_over(const char *path, struct heightfile *h, struct err *e)
 bool heightfile_read(const char *path, struct arena *a, struct heightfile *h, struct err *e)
 {
     struct bytes b;
-    struct arena *file = arena_open();
+    struct stat s;
     size_t k = 0, n = sizeof formats / sizeof formats[0];
+    double most = 32 * (double)HEIGHTFILE_MOST; /* text takes at most 32 bytes a number */
     *h = (struct heightfile){.pitch_x = NAN, .pitch_y = NAN};
-    bool ok = check_size(path, e) && bytes_read(path, file, &b, e);
+    if (stat(path, &s) == 0 && (double)s.st_size > most)
+        return err_set(e, ERR_SCENE,
+                       "%s: has %.3g bytes, more than a height map of %zu samples takes; crop or bin it first", path,
+                       (double)s.st_size, HEIGHTFILE_MOST);
+    struct arena *file = arena_open();
+    bool ok = bytes_read(path, file, &b, e);
     while (ok && k < n && !formats[k].is(&b))
         k++;
     if (ok && k == n)
@@ -134,14 +129,13 @@ static void level_solve(const struct sums *s, double x[3])
     x[0] = s->z / s->n - l10 * x[1] - l20 * x[2];
 }
 
-static double level_per(double slope, double pitch) { return isnan(pitch) ? slope : slope / pitch; }
-
 struct heightfile_plane heightfile_level_fit(const struct heightfile *h)
 {
     struct sums s = level_sums(h);
     double x[3] = {0};
     if (s.n > 0) level_solve(&s, x);
-    return (struct heightfile_plane){x[0], level_per(x[1], h->pitch_x), level_per(x[2], h->pitch_y)};
+    return (struct heightfile_plane){x[0], isnan(h->pitch_x) ? x[1] : x[1] / h->pitch_x,
+                                     isnan(h->pitch_y) ? x[2] : x[2] / h->pitch_y};
 }
 
 struct heightfile_plane heightfile_level(struct heightfile *h, enum heightfile_levelling levelling)
@@ -188,27 +182,20 @@ static int by_place(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* The four neighbours of unknown k: whether inside the map, and where. */
-static bool fill_neighbour(const struct heightfile *h, size_t place, int side, size_t *there)
-{
-    size_t column = place % h->columns, row = place / h->columns;
-    const size_t step[4] = {(size_t)-1, 1, -h->columns, h->columns};
-    const bool inside[4] = {column > 0, column + 1 < h->columns, row > 0, row + 1 < h->rows};
-    *there = place + step[side];
-    return inside[side];
-}
-
 /* The unknowns, their neighbours, the diagonal, and the right-hand side in r: heights from the middle of their range,
  * in units of it. */
 static void fill_system(struct fill *f, const struct heightfile *h, double middle, double span)
 {
-    size_t k = 0, there;
+    const size_t step[4] = {(size_t)-1, 1, -h->columns, h->columns};
+    size_t k = 0;
     for (size_t i = 0; i < h->rows * h->columns; i++)
         if (isnan(h->z[i])) f->place[k++] = (uint32_t)i;
     for (k = 0; k < f->n; k++)
         for (int side = 0; side < 4; side++) {
+            size_t column = f->place[k] % h->columns, row = f->place[k] / h->columns, there = f->place[k] + step[side];
+            const bool inside[4] = {column > 0, column + 1 < h->columns, row > 0, row + 1 < h->rows};
             f->beside[k][side] = FILL_KNOWN;
-            if (!fill_neighbour(h, f->place[k], side, &there)) continue;
+            if (!inside[side]) continue;
             f->diagonal[k] += f->weight[side / 2];
             if (isnan(h->z[there]))
                 f->beside[k][side] = (int32_t)((uint32_t *)bsearch(&(uint32_t){(uint32_t)there}, f->place, f->n,
@@ -217,17 +204,6 @@ static void fill_system(struct fill *f, const struct heightfile *h, double middl
             else
                 f->r[k] += f->weight[side / 2] * ((h->z[there] - middle) / span);
         }
-}
-
-/* q = A p. */
-static void fill_apply(struct fill *f)
-{
-    for (size_t k = 0; k < f->n; k++) {
-        double sum = f->diagonal[k] * f->p[k];
-        for (int side = 0; side < 4; side++)
-            if (f->beside[k][side] >= 0) sum -= f->weight[side / 2] * f->p[f->beside[k][side]];
-        f->q[k] = sum;
-    }
 }
 
 /* Largest residual over its diagonal: as a height. Infinite if one is not a number (which fmax would pass over). */
@@ -256,9 +232,13 @@ static bool fill_solve(struct fill *f, double tolerance)
         f->p[k] = f->r[k] / f->diagonal[k];
     for (size_t step = 0; step < 100000 && fill_residual(f) > tolerance; step++) {
         double pq = 0, before = rho;
-        fill_apply(f);
-        for (size_t k = 0; k < f->n; k++)
-            pq += f->p[k] * f->q[k];
+        for (size_t k = 0; k < f->n; k++) { /* q = A p */
+            double sum = f->diagonal[k] * f->p[k];
+            for (int side = 0; side < 4; side++)
+                if (f->beside[k][side] >= 0) sum -= f->weight[side / 2] * f->p[f->beside[k][side]];
+            f->q[k] = sum;
+            pq += f->p[k] * sum;
+        }
         if (!(pq > 0)) return false;
         for (size_t k = 0; k < f->n; k++) {
             f->x[k] += rho / pq * f->p[k];
@@ -269,18 +249,6 @@ static bool fill_solve(struct fill *f, double tolerance)
             f->p[k] = f->r[k] / f->diagonal[k] + rho / before * f->p[k];
     }
     return fill_residual(f) <= tolerance;
-}
-
-static struct fill fill_make(const struct heightfile *h, struct arena *a)
-{
-    struct fill f = {.n = h->holes, .weight = {1, 1}};
-    if (!isnan(h->pitch_x) && !isnan(h->pitch_y)) f.weight[1] = h->pitch_x * h->pitch_x / (h->pitch_y * h->pitch_y);
-    double **of[] = {&f.diagonal, &f.x, &f.r, &f.p, &f.q};
-    f.place = ARENA_TAKE(a, uint32_t, f.n);
-    f.beside = arena_take(a, f.n, sizeof *f.beside);
-    for (int k = 0; k < 5; k++)
-        *of[k] = ARENA_TAKE(a, double, f.n);
-    return f;
 }
 
 /* Missing ones are left out: fmin passes over NaN. */
@@ -311,8 +279,13 @@ static void fill_profile(struct heightfile *h)
 static bool fill_map(const char *path, struct heightfile *h, struct err *e)
 {
     struct arena *own = arena_open();
-    struct fill f = fill_make(h, own);
-    double low, high;
+    struct fill f = {.n = h->holes, .weight = {1, 1}};
+    double low, high, **of[] = {&f.diagonal, &f.x, &f.r, &f.p, &f.q};
+    if (!isnan(h->pitch_x) && !isnan(h->pitch_y)) f.weight[1] = h->pitch_x * h->pitch_x / (h->pitch_y * h->pitch_y);
+    f.place = ARENA_TAKE(own, uint32_t, f.n);
+    f.beside = arena_take(own, f.n, sizeof *f.beside);
+    for (int k = 0; k < 5; k++)
+        *of[k] = ARENA_TAKE(own, double, f.n);
     extremes(h, &low, &high);
     double middle = 0.5 * low + 0.5 * high, span = high > low ? high - low : 1;
     fill_system(&f, h, middle, span);
@@ -359,19 +332,6 @@ struct load {
     struct err *e;
 };
 
-static bool check_shape(const struct load *l)
-{
-    const struct heightfile *h = l->h;
-    if (h->rows == 1)
-        return h->columns >= 4 ||
-               err_set(l->e, ERR_SCENE, "%s: %zu samples are too few for a profile (at least 4): give a longer one",
-                       l->path, h->columns);
-    return (h->rows >= 4 && h->columns >= 4) ||
-           err_set(l->e, ERR_SCENE,
-                   "%s: %zu x %zu samples are too few for a map (at least 4 x 4); a profile is one row", l->path,
-                   h->columns, h->rows);
-}
-
 /* The unit of which x metres are said, of those that bring it into the range: "", or " (were these micrometres ...)".
  */
 static void slip(char text[120], double x, const double range[2])
@@ -393,20 +353,11 @@ static void slip(char text[120], double x, const double range[2])
         }
 }
 
-static bool check_pitch(const struct load *l, double pitch)
-{
-    static const double likely[2] = {1e-7, 2e-4};
-    char hint[120];
-    if (pitch >= 10e-9 && pitch <= 1e-3) return true;
-    slip(hint, pitch, likely);
-    return err_set(l->e, ERR_SCENE,
-                   "%s: a pitch of %g m between samples is not that of a surface profile (10 nm to 1 mm); check %s%s",
-                   l->path, pitch, l->names->pitch, hint);
-}
-
 /* One direction's pitch: the file's, or the one given, which must not be another. */
 static bool take_pitch(const struct load *l, double *pitch)
 {
+    static const double likely[2] = {1e-7, 2e-4};
+    char hint[120];
     double given = l->o->pitch;
     if (isnan(given) && isnan(*pitch))
         return err_set(l->e, ERR_SCENE, "%s: the file does not say how far apart its samples are: give %s", l->path,
@@ -415,7 +366,11 @@ static bool take_pitch(const struct load *l, double *pitch)
         return err_set(l->e, ERR_SCENE, "%s: %s is %g m but the file says %g m: leave %s out, or mend the file",
                        l->path, l->names->pitch, given, *pitch, l->names->pitch);
     *pitch = isnan(*pitch) ? given : *pitch;
-    return check_pitch(l, *pitch);
+    if (*pitch >= 10e-9 && *pitch <= 1e-3) return true;
+    slip(hint, *pitch, likely);
+    return err_set(l->e, ERR_SCENE,
+                   "%s: a pitch of %g m between samples is not that of a surface profile (10 nm to 1 mm); check %s%s",
+                   l->path, *pitch, l->names->pitch, hint);
 }
 
 /* Stored units into metres. */
@@ -475,8 +430,16 @@ bool heightfile_load(const char *path, const struct heightfile_options *o, struc
                      struct err *e)
 {
     struct load l = {path, o, o->names ? o->names : &scene_names, h, e};
-    if (!heightfile_read(path, a, h, e) || !check_shape(&l) || !take_pitch(&l, &h->pitch_x) ||
-        (h->rows > 1 && !take_pitch(&l, &h->pitch_y)) || !take_scale(&l) || !take_holes(&l) || !check_heights(&l))
+    if (!heightfile_read(path, a, h, e)) return false;
+    if (h->rows == 1 && h->columns < 4)
+        return err_set(e, ERR_SCENE, "%s: %zu samples are too few for a profile (at least 4): give a longer one", path,
+                       h->columns);
+    if (h->rows > 1 && (h->rows < 4 || h->columns < 4))
+        return err_set(e, ERR_SCENE,
+                       "%s: %zu x %zu samples are too few for a map (at least 4 x 4); a profile is one row", path,
+                       h->columns, h->rows);
+    if (!take_pitch(&l, &h->pitch_x) || (h->rows > 1 && !take_pitch(&l, &h->pitch_y)) || !take_scale(&l) ||
+        !take_holes(&l) || !check_heights(&l))
         return false;
     h->levelled = heightfile_level(h, o->levelling);
     return true;
@@ -574,27 +537,10 @@ static void write_gsf(FILE *f, const struct heightfile *h)
     }
 }
 
-static void write_npy(FILE *f, const struct heightfile *h)
-{
-    npy_write_array(f, h->rows, h->columns);
-    for (size_t i = 0; i < h->rows * h->columns; i++)
-        bytes_put_f64(f, h->z[i]);
-}
-
-static bool check_writable(const char *path, const struct heightfile *h, double most, struct err *e)
-{
-    for (size_t i = 0; i < h->rows * h->columns; i++)
-        if (!(fabs(h->z[i]) <= most) && !(isnan(h->z[i]) && h->holes))
-            return err_set(e, ERR_NUMBERS, "%s: the height at row %zu, column %zu is %g, which %s", path,
-                           i / h->columns, i % h->columns, h->z[i],
-                           isfinite(h->z[i]) ? "float32 does not hold" : "is no height");
-    return true;
-}
-
 static bool check_fits(const char *path, const struct heightfile *h, enum heightfile_format format, struct err *e)
 {
-    bool sdf = format == HEIGHTFILE_SDF;
-    if (sdf && (h->columns > 65535 || h->rows > 65535))
+    double most = format == HEIGHTFILE_GSF ? (double)FLT_MAX : DBL_MAX;
+    if (format == HEIGHTFILE_SDF && (h->columns > 65535 || h->rows > 65535))
         return err_set(
             e, ERR_SCENE,
             "%s: %zu x %zu samples; binary SDF holds at most 65535 x 65535: write SDF as text, or GSF, GWY, NPY", path,
@@ -604,41 +550,42 @@ static bool check_fits(const char *path, const struct heightfile *h, enum height
                        h->holes);
     if (format == HEIGHTFILE_PNG && (h->columns > 1000000 || h->rows > 1000000))
         return err_set(e, ERR_SCENE, "%s: %zu x %zu samples; a PNG may have 1000000 a side", path, h->columns, h->rows);
-    return format != HEIGHTFILE_GWY || heightfile_gwy_write_fits(h) ||
-           err_set(e, ERR_SCENE, "%s: %zu x %zu samples are more than a GWY file holds (4 GiB): write GSF or NPY", path,
-                   h->columns, h->rows);
-}
-
-static bool write_it(FILE *f, const struct heightfile *h, enum heightfile_format format,
-                     const struct heightfile_written *w, struct err *e)
-{
-    if (format == HEIGHTFILE_PNG) return heightfile_formats_png_write(f, h, w->low, w->range, e);
-    if (format == HEIGHTFILE_GSF)
-        write_gsf(f, h);
-    else if (format == HEIGHTFILE_GWY)
-        heightfile_gwy_write(f, h);
-    else if (format == HEIGHTFILE_NPY)
-        write_npy(f, h);
-    else if (format == HEIGHTFILE_CSV)
-        heightfile_formats_csv_write(f, h);
-    else
-        heightfile_sdf_write(f, h, format == HEIGHTFILE_SDF);
-    return true;
+    if (format == HEIGHTFILE_GWY && !heightfile_gwy_write_fits(h))
+        return err_set(e, ERR_SCENE, "%s: %zu x %zu samples are more than a GWY file holds (4 GiB): write GSF or NPY",
+                       path, h->columns, h->rows);
+    for (size_t i = 0; i < h->rows * h->columns; i++)
+        if (!(fabs(h->z[i]) <= most) && !(isnan(h->z[i]) && h->holes))
+            return err_set(e, ERR_NUMBERS, "%s: the height at row %zu, column %zu is %g, which %s", path,
+                           i / h->columns, i % h->columns, h->z[i],
+                           isfinite(h->z[i]) ? "float32 does not hold" : "is no height");
+    return format != HEIGHTFILE_GSF || !h->title || !h->title[strcspn(h->title, "\r\n")] ||
+           err_set(e, ERR_SCENE, "%s: the title of a GSF is one line", path);
 }
 
 bool heightfile_write(const char *path, const struct heightfile *h, enum heightfile_format format,
                       struct heightfile_written *w, struct err *e)
 {
     struct outfile o;
-    double most = format == HEIGHTFILE_GSF ? (double)FLT_MAX : DBL_MAX;
     double low, high;
+    bool ok = true;
     extremes(h, &low, &high);
     *w = (struct heightfile_written){low, high - low, format == HEIGHTFILE_PNG ? (high - low) / 65535 : 0};
-    if (!check_fits(path, h, format, e) || !check_writable(path, h, most, e)) return false;
-    if (format == HEIGHTFILE_GSF && h->title && h->title[strcspn(h->title, "\r\n")])
-        return err_set(e, ERR_SCENE, "%s: the title of a GSF is one line", path);
-    if (!outfile_open(&o, path, e)) return false;
-    if (write_it(o.stream, h, format, w, e)) return outfile_commit(&o, e);
+    if (!check_fits(path, h, format, e) || !outfile_open(&o, path, e)) return false;
+    if (format == HEIGHTFILE_PNG)
+        ok = heightfile_formats_png_write(o.stream, h, w->low, w->range, e);
+    else if (format == HEIGHTFILE_GSF)
+        write_gsf(o.stream, h);
+    else if (format == HEIGHTFILE_GWY)
+        heightfile_gwy_write(o.stream, h);
+    else if (format == HEIGHTFILE_CSV)
+        heightfile_formats_csv_write(o.stream, h);
+    else if (format != HEIGHTFILE_NPY)
+        heightfile_sdf_write(o.stream, h, format == HEIGHTFILE_SDF);
+    else
+        npy_write_array(o.stream, h->rows, h->columns);
+    for (size_t i = 0; format == HEIGHTFILE_NPY && i < h->rows * h->columns; i++)
+        bytes_put_f64(o.stream, h->z[i]);
+    if (ok) return outfile_commit(&o, e);
     outfile_drop(&o);
     return err_at(e, "%s", path);
 }

@@ -100,15 +100,6 @@ static bool cell(const struct grid *g, const char **p, double *z, bool *last)
     return *g->gaps == ' ' ? n > 0 && (*last || stop > at + n) : *last || *stop == *g->gaps;
 }
 
-static bool bad_cell(const struct grid *g, int line, size_t column, const char *p)
-{
-    p = skip_blanks(p);
-    int n = (int)strcspn(p, *g->gaps == ' ' ? " \t\r\n" : *g->gaps == ';' ? ";\r\n" : ",\r\n");
-    bool comma = *g->gaps == ';' && memchr(p, ',', (size_t)n);
-    return err_set(g->e, ERR_SCENE, "%s:%d: column %zu: '%.*s' is not a number%s", g->path, line, column + 1,
-                   n < 40 ? n : 40, p, comma ? "; write decimal points instead of commas" : "");
-}
-
 /* One line into z (NULL: only counted); p moves to the next. */
 static bool read_row(const struct grid *g, const char **p, int line, double *z, size_t *columns)
 {
@@ -116,7 +107,13 @@ static bool read_row(const struct grid *g, const char **p, int line, double *z, 
     for (*columns = 0; !last; ++*columns) {
         const char *at = *p;
         double v;
-        if (!cell(g, p, &v, &last)) return bad_cell(g, line, *columns, at);
+        if (!cell(g, p, &v, &last)) {
+            at = skip_blanks(at);
+            int n = (int)strcspn(at, *g->gaps == ' ' ? " \t\r\n" : *g->gaps == ';' ? ";\r\n" : ",\r\n");
+            bool comma = *g->gaps == ';' && memchr(at, ',', (size_t)n);
+            return err_set(g->e, ERR_SCENE, "%s:%d: column %zu: '%.*s' is not a number%s", g->path, line, *columns + 1,
+                           n < 40 ? n : 40, at, comma ? "; write decimal points instead of commas" : "");
+        }
         if (z && *columns < g->columns) z[*columns] = v;
     }
     *p += strcspn(*p, "\n");
@@ -338,16 +335,6 @@ static const struct npy_type *npy_type(const struct npy_heights *p)
     return NULL;
 }
 
-/* Number i; of big-endian ones the bytes are turned round. */
-static double npy_number(const struct npy_heights *p, const struct npy_type *type, size_t i)
-{
-    const char *at = p->at + i * type->size;
-    char turned[8];
-    for (size_t k = 0; k < type->size; k++)
-        turned[k] = at[p->head.descr[0] == '>' ? type->size - 1 - k : k];
-    return bytes_number(turned, type->name[0], type->size);
-}
-
 static bool npy_data(const struct npy_heights *p, struct arena *a, struct heightfile *h)
 {
     const struct npy_type *type = npy_type(p);
@@ -369,8 +356,12 @@ static bool npy_data(const struct npy_heights *p, struct arena *a, struct height
         memcpy(h->z, p->at, bytes);
         return true;
     }
-    for (size_t i = 0; i < n; i++)
-        h->z[i] = npy_number(p, type, i);
+    for (size_t i = 0; i < n; i++) {
+        char turned[8]; /* of big-endian numbers the bytes are turned round */
+        for (size_t k = 0; k < type->size; k++)
+            turned[k] = p->at[i * type->size + (p->head.descr[0] == '>' ? type->size - 1 - k : k)];
+        h->z[i] = bytes_number(turned, type->name[0], type->size);
+    }
     return true;
 }
 
@@ -444,14 +435,6 @@ static bool check_kind(struct reading *r, struct heightfile *h)
                    h->columns, h->rows, r->b->n);
 }
 
-static void make_rows(struct reading *r, const struct heightfile *h)
-{
-    unsigned char *all = arena_take(r->own, h->rows * h->columns, 2);
-    r->rows = ARENA_TAKE(r->own, png_bytep, h->rows);
-    for (size_t i = 0; i < h->rows; i++)
-        r->rows[i] = all + i * h->columns * 2;
-}
-
 /* libpng's way out of an error is a jump: so what changes after setjmp lies in *r and *h. */
 static bool png_run(struct reading *r, struct arena *a, struct heightfile *h)
 {
@@ -461,7 +444,10 @@ static bool png_run(struct reading *r, struct arena *a, struct heightfile *h)
                                 -1); /* else memory is taken for whatever length a damaged chunk says */
     png_read_info(r->png, r->info);
     if (!check_kind(r, h) || !heightfile_room(r->path, h, a, r->e)) return false;
-    make_rows(r, h);
+    unsigned char *all = arena_take(r->own, h->rows * h->columns, 2);
+    r->rows = ARENA_TAKE(r->own, png_bytep, h->rows);
+    for (size_t i = 0; i < h->rows; i++)
+        r->rows[i] = all + i * h->columns * 2;
     png_read_image(r->png, r->rows);
     png_read_end(r->png, NULL);
     return true;
@@ -521,8 +507,12 @@ static void png_say_number(struct writing *w, const char *key, double value)
     png_say(w, key, text);
 }
 
-static void png_say_all(struct writing *w)
+static bool png_put(struct writing *w)
 {
+    if (setjmp(png_jmpbuf(w->png))) return false;
+    png_init_io(w->png, w->f);
+    png_set_IHDR(w->png, w->info, (png_uint_32)w->h->columns, (png_uint_32)w->h->rows, 16, PNG_COLOR_TYPE_GRAY,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_say_number(w, "Gwy::XReal", w->h->pitch_x * (double)w->h->columns);
     png_say_number(w, "Gwy::YReal", (w->h->rows > 1 ? w->h->pitch_y : w->h->pitch_x) * (double)w->h->rows);
     png_say_number(w, "Gwy::ZMin", w->low);
@@ -530,28 +520,15 @@ static void png_say_all(struct writing *w)
     png_say(w, "Gwy::XYUnit", "m");
     png_say(w, "Gwy::ZUnit", "m");
     if (w->h->title) png_say(w, "Gwy::Title", w->h->title);
-}
-
-static void png_put_row(struct writing *w, const double *z)
-{
-    for (size_t i = 0; i < w->h->columns; i++) {
-        unsigned v = w->range > 0 ? (unsigned)rint((z[i] - w->low) / w->range * 65535) : 0;
-        w->row[2 * i] = (unsigned char)(v >> 8);
-        w->row[2 * i + 1] = (unsigned char)v;
-    }
-    png_write_row(w->png, w->row);
-}
-
-static bool png_put(struct writing *w)
-{
-    if (setjmp(png_jmpbuf(w->png))) return false;
-    png_init_io(w->png, w->f);
-    png_set_IHDR(w->png, w->info, (png_uint_32)w->h->columns, (png_uint_32)w->h->rows, 16, PNG_COLOR_TYPE_GRAY,
-                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_say_all(w);
     png_write_info(w->png, w->info);
-    for (size_t i = 0; i < w->h->rows; i++)
-        png_put_row(w, w->h->z + i * w->h->columns);
+    for (const double *z = w->h->z, *end = z + w->h->rows * w->h->columns; z < end; z += w->h->columns) {
+        for (size_t i = 0; i < w->h->columns; i++) {
+            unsigned v = w->range > 0 ? (unsigned)rint((z[i] - w->low) / w->range * 65535) : 0;
+            w->row[2 * i] = (unsigned char)(v >> 8);
+            w->row[2 * i + 1] = (unsigned char)v;
+        }
+        png_write_row(w->png, w->row);
+    }
     png_write_end(w->png, w->info);
     return true;
 }

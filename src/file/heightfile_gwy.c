@@ -71,24 +71,6 @@ static bool gwy_object(const struct gwy *g, struct gwy_part *p, const char **nam
     return true;
 }
 
-/* 0: texts and objects, whose size their contents say. */
-static size_t gwy_size(char type)
-{
-    if (strchr("bcC", type)) return 1;
-    if (strchr("iI", type)) return 4;
-    return strchr("qQdD", type) ? 8 : 0;
-}
-
-/* The length of an array, and p behind it. */
-static bool gwy_count(const struct gwy *g, struct gwy_part *p, struct gwy_item *t)
-{
-    if (p->end - p->at < 4) return gwy_bad(g, p->at, "an array ends inside its length");
-    t->count = (size_t)bytes_word(p->at, 4);
-    p->at += 4;
-    t->data = p->at;
-    return true;
-}
-
 /* Passes over `count` texts or objects. */
 static bool gwy_pass(const struct gwy *g, struct gwy_part *p, const struct gwy_item *t)
 {
@@ -111,8 +93,13 @@ static bool gwy_item(const struct gwy *g, struct gwy_part *p, struct gwy_item *t
     t->count = 1;
     if (!strchr("bciqdsoCIQDSO", t->type))
         return gwy_bad(g, p->at - 1, "a component's type is none that the format has");
-    if (t->type < 'a' && !gwy_count(g, p, t)) return false;
-    size_t size = gwy_size(t->type);
+    if (t->type < 'a') { /* an array, behind its length */
+        if (p->end - p->at < 4) return gwy_bad(g, p->at, "an array ends inside its length");
+        t->count = (size_t)bytes_word(p->at, 4);
+        t->data = p->at += 4;
+    }
+    /* 0: texts and objects, whose size their contents say */
+    size_t size = strchr("bcC", t->type) ? 1 : strchr("iI", t->type) ? 4 : strchr("qQdD", t->type) ? 8 : 0;
     if (size == 0 && !gwy_pass(g, p, t)) return false;
     if ((size_t)(p->end - p->at) / (size ? size : 1) < (size ? t->count : 0))
         return gwy_bad(g, p->at, "a component is larger than its object: the file is cut short or damaged");
@@ -277,16 +264,12 @@ static size_t gwy_field_size(const struct heightfile *h)
     return GWY_FIELD + 2 * (size_t)GWY_UNIT + 8 * h->columns * h->rows;
 }
 
-static size_t gwy_title_size(const struct heightfile *h)
-{
-    return h->title ? sizeof "/0/data/title" + 1 + strlen(h->title) + 1 : 0;
-}
-
 /* Of the container: a component is name, type, object (name, size, contents). */
 static size_t gwy_all(const struct heightfile *h)
 {
     size_t field = 1 + sizeof "GwyDataField" + 4 + gwy_field_size(h);
-    return sizeof "/0/data" + field + (h->holes ? sizeof "/0/mask" + field : 0) + gwy_title_size(h);
+    return sizeof "/0/data" + field + (h->holes ? sizeof "/0/mask" + field : 0) +
+           (h->title ? sizeof "/0/data/title" + 1 + strlen(h->title) + 1 : 0);
 }
 
 bool heightfile_gwy_write_fits(const struct heightfile *h) { return gwy_all(h) <= UINT32_MAX; }

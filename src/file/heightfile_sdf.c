@@ -220,42 +220,31 @@ bool heightfile_sdf_read(const char *path, const struct bytes *b, struct arena *
 
 /* ------------------------------------------------------------------ writing */
 
-static double sdf_or_zero(double pitch) { return isnan(pitch) ? 0 : pitch; }
-
-static void sdf_write_text(FILE *f, const struct heightfile *h)
+void heightfile_sdf_write(FILE *f, const struct heightfile *h, bool binary)
 {
     char x[32], y[32];
-    fprintf(f,
-            "aISO-1.0\nManufacID = rasp\nCreateDate = 010120000000\nModDate = 010120000000\nNumPoints = "
-            "%zu\nNumProfiles = %zu\n"
-            "Xscale = %s\nYscale = %s\nZscale = 1\nZresolution = -1\nCompression = 0\nDataType = 7\nCheckType = 0\n*\n",
-            h->columns, h->rows, heightfile_formats_number(x, h->pitch_x),
-            heightfile_formats_number(y, sdf_or_zero(h->rows > 1 ? h->pitch_y : NAN)));
-    for (size_t i = 0; i < h->columns * h->rows; i++)
-        fprintf(f, "%s\n", isnan(h->z[i]) ? "BAD" : heightfile_formats_number(x, h->z[i]));
-    fputs("*\n", f);
-}
-
-static void sdf_write_binary(FILE *f, const struct heightfile *h)
-{
+    double pitch_y = h->rows > 1 && !isnan(h->pitch_y) ? h->pitch_y : 0;
+    if (!binary) {
+        fprintf(f,
+                "aISO-1.0\nManufacID = rasp\nCreateDate = 010120000000\nModDate = 010120000000\nNumPoints = "
+                "%zu\nNumProfiles = %zu\n"
+                "Xscale = %s\nYscale = %s\nZscale = 1\nZresolution = -1\nCompression = 0\nDataType = 7\nCheckType = "
+                "0\n*\n",
+                h->columns, h->rows, heightfile_formats_number(x, h->pitch_x), heightfile_formats_number(y, pitch_y));
+        for (size_t i = 0; i < h->columns * h->rows; i++)
+            fprintf(f, "%s\n", isnan(h->z[i]) ? "BAD" : heightfile_formats_number(x, h->z[i]));
+        fputs("*\n", f);
+        return;
+    }
     fwrite("bISO-1.0rasp\0\0\0\0\0\0"
            "010120000000010120000000",
            1, 42, f);
     bytes_put(f, h->columns, 2);
     bytes_put(f, h->rows, 2);
-    bytes_put_f64(f, h->pitch_x);
-    bytes_put_f64(f, sdf_or_zero(h->rows > 1 ? h->pitch_y : NAN));
-    bytes_put_f64(f, 1);
-    bytes_put_f64(f, -1);
+    const double scales[] = {h->pitch_x, pitch_y, 1, -1};
+    for (int i = 0; i < 4; i++)
+        bytes_put_f64(f, scales[i]);
     fwrite("\0\7\0", 1, 3, f);
     for (size_t i = 0; i < h->columns * h->rows; i++)
         bytes_put_f64(f, h->z[i]);
-}
-
-void heightfile_sdf_write(FILE *f, const struct heightfile *h, bool binary)
-{
-    if (binary)
-        sdf_write_binary(f, h);
-    else
-        sdf_write_text(f, h);
 }

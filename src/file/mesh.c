@@ -213,18 +213,6 @@ void mesh_raw_face(struct mesh_raw *r, int64_t group, const int corner[3])
     memcpy(r->face[r->faces++].corner, corner, 3 * sizeof *corner);
 }
 
-/* Numbers of the nodes that are used, -1: not. */
-static int *used_nodes(struct mesh_raw *r, struct mesh *m)
-{
-    int *number = ARENA_TAKE(r->arena, int, r->nodes);
-    for (size_t i = 0; i < r->elements; i++)
-        for (int k = 0; k < r->corners; k++)
-            number[r->element[i][k]] = 1;
-    for (size_t i = 0; i < r->nodes; i++)
-        number[i] = number[i] ? m->nodes++ : -1;
-    return number;
-}
-
 static int by_group(const void *p, const void *q)
 {
     const struct mesh_raw_face *a = p, *b = q;
@@ -272,7 +260,12 @@ bool mesh_raw_finish(struct mesh_raw *r, const char *path, double unit, const st
     if (r->elements == 0)
         return err_set(e, ERR_SCENE, "%s: no tetrahedra; fill the solid with elements (gmsh -3, tetgen -pq)", path);
     *m = (struct mesh){.name = arena_text(r->arena, path), .elements = (int)r->elements, .linear = r->corners == 4};
-    int *number = used_nodes(r, m);
+    int *number = ARENA_TAKE(r->arena, int, r->nodes); /* of the nodes that are used, -1: not */
+    for (size_t i = 0; i < r->elements; i++)
+        for (int k = 0; k < r->corners; k++)
+            number[r->element[i][k]] = 1;
+    for (size_t i = 0; i < r->nodes; i++)
+        number[i] = number[i] ? m->nodes++ : -1;
     m->at = arena_take(r->arena, (size_t)m->nodes, sizeof *m->at);
     for (size_t i = 0; i < r->nodes; i++)
         for (int c = 0; c < 3 && number[i] >= 0; c++) {
@@ -338,61 +331,52 @@ static bool read_nodes(struct mesh_raw *r, struct mesh_source *s)
     return mesh_raw_sort(r, s);
 }
 
-static bool read_element(struct mesh_raw *r, struct mesh_source *s, int corners, int64_t attributes)
-{
-    static const int place[10] = {0, 1, 2, 3, 9, 7, 4, 5, 8, 6};
-    int64_t tag;
-    int node[10] = {0};
-    double skipped;
-    if (!mesh_source_whole(s, 4, &tag, "the number of an element")) return false;
-    for (int i = 0; i < corners; i++)
-        if (!mesh_source_whole(s, 4, &tag, "a node of an element") || (node[place[i]] = mesh_raw_find(r, tag, s)) < 0)
-            return false;
-    for (int64_t i = 0; i < attributes; i++)
-        if (!mesh_source_real(s, &skipped, "an attribute of an element")) return false;
-    return mesh_raw_element(r, corners, node, s);
-}
-
 static bool read_elements(struct mesh_raw *r, struct mesh_source *s)
 {
+    static const int place[10] = {0, 1, 2, 3, 9, 7, 4, 5, 8, 6};
     size_t n;
-    int64_t more[3] = {4, 0, 0};
+    int64_t more[3] = {4, 0, 0}, tag;
+    double skipped;
     if (!read_header(s, 10, "the number of elements", &n, more)) return false;
     if ((more[0] != 4 && more[0] != 10) || more[1] < 0 || more[1] > 1000)
         return mesh_source_bad(
             s, "elements of %" PRId64 " nodes with %" PRId64 " attributes; tetrahedra have 4 or 10 nodes", more[0],
             more[1]);
-    for (size_t i = 0; i < n; i++)
-        if (!read_element(r, s, (int)more[0], more[1])) return false;
+    for (size_t i = 0; i < n; i++) {
+        int node[10] = {0};
+        if (!mesh_source_whole(s, 4, &tag, "the number of an element")) return false;
+        for (int k = 0; k < more[0]; k++)
+            if (!mesh_source_whole(s, 4, &tag, "a node of an element") ||
+                (node[place[k]] = mesh_raw_find(r, tag, s)) < 0)
+                return false;
+        for (int64_t k = 0; k < more[1]; k++)
+            if (!mesh_source_real(s, &skipped, "an attribute of an element")) return false;
+        if (!mesh_raw_element(r, (int)more[0], node, s)) return false;
+    }
     return true;
 }
 
-/* One line: number, 3 or 6 nodes, marker. */
-static bool read_face(struct mesh_raw *r, struct mesh_source *s, bool marked)
-{
-    int64_t v[8];
-    int n = 0, corner[3];
-    if (!mesh_source_whole(s, 4, &v[n++], "the number of a face")) return false;
-    for (; n < 8 && mesh_source_on_line(s); n++)
-        if (!mesh_source_whole(s, 4, &v[n], "a node of a face")) return false;
-    if (n != 4 + marked && n != 7 + marked)
-        return mesh_source_bad(s, "a face of %d numbers; they are its number, 3 or 6 nodes%s", n,
-                               marked ? ", and a marker" : "");
-    for (int i = 0; i < 3; i++)
-        if ((corner[i] = mesh_raw_find(r, v[1 + i], s)) < 0) return false;
-    if (marked && v[n - 1] != 0) mesh_raw_face(r, v[n - 1], corner);
-    return true;
-}
-
+/* One a line: number, 3 or 6 nodes, marker. */
 static bool read_faces(struct mesh_raw *r, struct mesh_source *s)
 {
     size_t n;
-    int64_t more[3] = {0, 0, 0};
+    int64_t more[3] = {0, 0, 0}, v[8];
     if (!read_header(s, 8, "the number of faces", &n, more)) return false;
     if (more[0] < 0 || more[0] > 1)
         return mesh_source_bad(s, "faces with %" PRId64 " markers; they have 0 or 1", more[0]);
-    for (size_t i = 0; i < n; i++)
-        if (!read_face(r, s, more[0] == 1)) return false;
+    bool marked = more[0] == 1;
+    for (size_t i = 0; i < n; i++) {
+        int k = 1, corner[3];
+        if (!mesh_source_whole(s, 4, &v[0], "the number of a face")) return false;
+        for (; k < 8 && mesh_source_on_line(s); k++)
+            if (!mesh_source_whole(s, 4, &v[k], "a node of a face")) return false;
+        if (k != 4 + marked && k != 7 + marked)
+            return mesh_source_bad(s, "a face of %d numbers; they are its number, 3 or 6 nodes%s", k,
+                                   marked ? ", and a marker" : "");
+        for (int c = 0; c < 3; c++)
+            if ((corner[c] = mesh_raw_find(r, v[1 + c], s)) < 0) return false;
+        if (marked && v[k - 1] != 0) mesh_raw_face(r, v[k - 1], corner);
+    }
     return true;
 }
 
@@ -409,10 +393,7 @@ bool mesh_tetgen_read(const char *path, double unit, struct arena *a, struct mes
     return mesh_raw_finish(&r, path, unit, NULL, m, e);
 }
 
-void mesh_note(struct mesh *m, struct arena *a, const char *text)
-{
-    m->note = arena_line(a, m->note, text);
-}
+void mesh_note(struct mesh *m, struct arena *a, const char *text) { m->note = arena_line(a, m->note, text); }
 
 bool mesh_read(const char *path, double unit, struct arena *a, struct mesh *m, struct err *e)
 {

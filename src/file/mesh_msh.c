@@ -22,7 +22,8 @@ struct mesh_msh {
     } * name;
     struct mesh_msh_belongs {
         int64_t surface, physical;
-    } * to; /* 4.1 */
+    } * to;            /* 4.1 */
+    int64_t *physical; /* [belongs] of the same, in their order */
 };
 
 /* Elements by their number in Gmsh. */
@@ -106,28 +107,16 @@ static bool nodes_2(struct mesh_msh *g)
     return true;
 }
 
-/* Tags and nodes of one element. */
-static bool read_element(struct mesh_msh *g, int64_t type, int64_t tags)
+/* A tetrahedron, or a triangle of so many groups; others are passed over. */
+static bool take_element(struct mesh_msh *g, int64_t type, const int node[10], const int64_t *groups, size_t n)
 {
-    int64_t tag, physical = 0;
-    int node[10] = {0};
-    for (int64_t i = 0; i < tags; i++) {
-        if (!mesh_source_whole(&g->source, 4, &tag, "a tag of an element")) return false;
-        physical = i == 0 ? tag : physical;
-    }
-    if (!element_nodes(g, type, 4, node)) return false;
     if (type == TETRAHEDRON || type == TETRAHEDRON_10)
         return mesh_raw_element(&g->raw, type == TETRAHEDRON ? 4 : 10, node, &g->source);
-    if (type == TRIANGLE || type == TRIANGLE_6) {
-        g->raw.triangles++;
-        if (physical != 0) mesh_raw_face(&g->raw, physical, node);
-    }
+    if (type != TRIANGLE && type != TRIANGLE_6) return true;
+    g->raw.triangles++;
+    for (size_t i = 0; i < n; i++)
+        mesh_raw_face(&g->raw, groups[i], node);
     return true;
-}
-
-static bool good_tags(const struct mesh_source *s, int64_t tags)
-{
-    return (tags >= 0 && tags <= 10000) || mesh_source_bad(s, "an element with %" PRId64 " tags", tags);
 }
 
 static bool elements_2(struct mesh_msh *g)
@@ -140,15 +129,22 @@ static bool elements_2(struct mesh_msh *g)
         if ((!s->binary && !mesh_source_whole(s, 4, &tag, "the number of an element")) ||
             !mesh_source_whole(s, 4, &type, "the type of an element") ||
             (s->binary && !mesh_source_whole(s, 4, &run, "the number of elements of a type")) ||
-            !mesh_source_whole(s, 4, &tags, "the number of an element's tags"))
+            !mesh_source_whole(s, 4, &tags, "the number of an element's tags") || element_size(g, type) == 0)
             return false;
-        if (element_size(g, type) == 0 || !good_tags(s, tags)) return false;
+        if (tags < 0 || tags > 10000) return mesh_source_bad(s, "an element with %" PRId64 " tags", tags);
         if (run < 1 || (uint64_t)run > n - i)
             return mesh_source_bad(s, "%" PRId64 " elements of type %" PRId64 ", and %zu are left", run, type, n - i);
-        for (int64_t k = 0; k < run; k++, i++)
-            if ((s->binary && !mesh_source_whole(s, 4, &tag, "the number of an element")) ||
-                !read_element(g, type, tags))
+        for (int64_t k = 0; k < run; k++, i++) {
+            int64_t physical = 0;
+            int node[10] = {0};
+            if (s->binary && !mesh_source_whole(s, 4, &tag, "the number of an element")) return false;
+            for (int64_t j = 0; j < tags; j++) {
+                if (!mesh_source_whole(s, 4, &tag, "a tag of an element")) return false;
+                physical = j == 0 ? tag : physical;
+            }
+            if (!element_nodes(g, type, 4, node) || !take_element(g, type, node, &physical, physical != 0))
                 return false;
+        }
     }
     return true;
 }
@@ -226,6 +222,9 @@ static bool entities_4(struct mesh_msh *g)
         for (size_t i = 0; i < n[d]; i++)
             if (!read_entity(g, d)) return false;
     if (g->belongs > 0) qsort(g->to, g->belongs, sizeof *g->to, by_surface);
+    g->physical = ARENA_TAKE(g->raw.arena, int64_t, g->belongs + 1);
+    for (size_t i = 0; i < g->belongs; i++)
+        g->physical[i] = g->to[i].physical;
     for (size_t i = MOST_GROUPS; i < g->belongs; i++)
         if (g->to[i].surface == g->to[i - MOST_GROUPS].surface)
             return mesh_source_bad(&g->source, "surface %" PRId64 " is in more than %d physical groups",
@@ -282,18 +281,6 @@ static bool nodes_4(struct mesh_msh *g)
            mesh_source_bad(&g->source, "the blocks hold %zu nodes, and $Nodes said %zu", g->raw.nodes, h.all);
 }
 
-static bool take_element(struct mesh_msh *g, int64_t type, int64_t entity, const int node[10])
-{
-    if (type == TETRAHEDRON || type == TETRAHEDRON_10)
-        return mesh_raw_element(&g->raw, type == TETRAHEDRON ? 4 : 10, node, &g->source);
-    if (type == TRIANGLE || type == TRIANGLE_6) {
-        g->raw.triangles++;
-        for (size_t i = first_of(g, entity); i < g->belongs && g->to[i].surface == entity; i++)
-            mesh_raw_face(&g->raw, g->to[i].physical, node);
-    }
-    return true;
-}
-
 static bool read_element_block(struct mesh_msh *g, size_t *left)
 {
     struct mesh_source *s = &g->source;
@@ -308,9 +295,12 @@ static bool read_element_block(struct mesh_msh *g, size_t *left)
         return false;
     if (n > *left) return mesh_source_bad(s, "a block of %zu elements, and %zu are left", n, *left);
     *left -= n;
+    size_t first = first_of(g, entity), end = first;
+    while (end < g->belongs && g->to[end].surface == entity)
+        end++;
     for (size_t i = 0; i < n; i++)
         if (!mesh_source_whole(s, 8, &tag, "the number of an element") || !element_nodes(g, type, 8, node) ||
-            !take_element(g, type, entity, node))
+            !take_element(g, type, node, g->physical + first, end - first))
             return false;
     return true;
 }

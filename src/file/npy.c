@@ -60,24 +60,20 @@ static bool npy_string(struct npy_reader *p, char text[NPY_NAME])
     return true;
 }
 
-static bool npy_size(struct npy_reader *p, size_t *n)
-{
-    npy_blanks(p);
-    const char *first = p->at;
-    *n = 0;
-    for (; p->at < p->end && *p->at >= '0' && *p->at <= '9'; p->at++)
-        if (__builtin_mul_overflow(*n, (size_t)10, n) || __builtin_add_overflow(*n, (size_t)(*p->at - '0'), n))
-            return npy_bad(p, "the shape is too large");
-    return p->at > first || npy_bad(p, "a size in the shape is not a whole number");
-}
-
 static bool npy_shape(struct npy_reader *p)
 {
     if (!npy_next(p, '(')) return npy_bad(p, "'shape' is not a tuple");
     while (!npy_next(p, ')')) {
         if (p->to->dimensions == 2)
             return npy_bad(p, "the array has more than two dimensions; a height map has one (a profile) or two");
-        if (!npy_size(p, &p->to->shape[p->to->dimensions++])) return false;
+        size_t *n = &p->to->shape[p->to->dimensions++];
+        npy_blanks(p);
+        const char *first = p->at;
+        *n = 0;
+        for (; p->at < p->end && *p->at >= '0' && *p->at <= '9'; p->at++)
+            if (__builtin_mul_overflow(*n, (size_t)10, n) || __builtin_add_overflow(*n, (size_t)(*p->at - '0'), n))
+                return npy_bad(p, "the shape is too large");
+        if (p->at == first) return npy_bad(p, "a size in the shape is not a whole number");
         if (!npy_next(p, ',') && (p->at == p->end || *p->at != ')'))
             return npy_bad(p, "the shape is not a list of sizes");
     }
@@ -139,26 +135,21 @@ static bool npy_dictionary(struct npy_reader *p)
 
 bool npy_is(const struct bytes *b) { return b->n >= 6 && !memcmp(b->at, "\x93NUMPY", 6); }
 
-/* Finds the header: at .. end. */
-static bool npy_open(struct npy_reader *p, const struct bytes *b)
-{
-    const unsigned char *u = (const unsigned char *)b->at;
-    size_t version = b->n > 6 ? u[6] : 0, width = version == 1 ? 2 : 4;
-    if (version < 1 || version > 3)
-        return err_set(p->e, ERR_SCENE, "%s: NPY version %zu; 1, 2 and 3 are read", p->path, version);
-    size_t length = b->n >= 8 + width ? (size_t)bytes_word(u + 8, width) : b->n;
-    if (length > b->n - (b->n >= 8 + width ? 8 + width : 0) || b->n < 8 + width)
-        return err_set(p->e, ERR_SCENE, "%s: the file ends inside its NPY header, at byte %zu", p->path, b->n);
-    p->at = b->at + 8 + width;
-    p->end = p->at + length;
-    return true;
-}
-
 bool npy_read(const char *path, const struct bytes *b, struct arena *a, struct npy *to, struct err *e)
 {
     struct npy_reader p = {.path = path, .start = b->at, .to = to, .arena = a, .e = e};
     *to = (struct npy){.fields = ARENA_TAKE(a, const char *, NPY_FIELDS)};
-    if (!npy_open(&p, b) || !npy_dictionary(&p)) return false;
+    const unsigned char *u = (const unsigned char *)b->at;
+    size_t version = b->n > 6 ? u[6] : 0, width = version == 1 ? 2 : 4;
+    if (version < 1 || version > 3)
+        return err_set(e, ERR_SCENE, "%s: NPY version %zu; 1, 2 and 3 are read", path, version);
+    bool whole = b->n >= 8 + width;
+    size_t length = whole ? (size_t)bytes_word(u + 8, width) : 0;
+    if (!whole || length > b->n - 8 - width)
+        return err_set(e, ERR_SCENE, "%s: the file ends inside its NPY header, at byte %zu", path, b->n);
+    p.at = b->at + 8 + width;
+    p.end = p.at + length;
+    if (!npy_dictionary(&p)) return false;
     if (to->fortran && to->dimensions == 2)
         return err_set(e, ERR_SCENE, "%s: the array is in Fortran order; save numpy.ascontiguousarray(z) instead",
                        path);
@@ -187,11 +178,9 @@ void npy_write(FILE *f, const char *const *fields, size_t n, size_t rows)
 
 void npy_write_array(FILE *f, size_t rows, size_t columns)
 {
-    char text[192];
-    int n = snprintf(text, sizeof text, "{'descr': '<f8', 'fortran_order': False, 'shape': (");
-    if (rows > 1)
-        snprintf(text + n, sizeof text - (size_t)n, "%zu, %zu), }", rows, columns);
-    else
-        snprintf(text + n, sizeof text - (size_t)n, "%zu,), }", columns);
+    char text[192], first[32] = "";
+    if (rows > 1) snprintf(first, sizeof first, "%zu, ", rows);
+    snprintf(text, sizeof text, "{'descr': '<f8', 'fortran_order': False, 'shape': (%s%zu%s), }", first, columns,
+             rows > 1 ? "" : ",");
     npy_put(f, text);
 }

@@ -77,13 +77,6 @@ static const struct {
                  {32, SF_FORMAT_PCM_32}, {8, SF_FORMAT_PCM_S8},  {8, SF_FORMAT_PCM_U8}};
 enum { WRITTEN = 4, ENCODINGS = sizeof encodings / sizeof encodings[0] }; /* the first of them */
 
-static int integer_bits(int format)
-{
-    for (int i = 0; i < ENCODINGS; i++)
-        if ((format & SF_FORMAT_SUBMASK) == encodings[i].format && encodings[i].bits > 0) return encodings[i].bits;
-    return 0;
-}
-
 /* A hostile header may claim more than any machine holds; no encoding gets 32768 samples out of a byte. */
 static bool check_info(const char *path, const SF_INFO *i, struct err *e)
 {
@@ -93,23 +86,6 @@ static bool check_info(const char *path, const SF_INFO *i, struct err *e)
         return err_set(e, ERR_SCENE, "%s: its header says %lld frames, more than the file can hold", path,
                        (long long)i->frames);
     return true;
-}
-
-static bool check_finite(const char *path, const struct wav *w, struct err *e)
-{
-    for (size_t i = 0; i < w->frames * (size_t)w->channels; i++)
-        if (!isfinite(w->x[i]))
-            return err_set(e, ERR_SCENE, "%s: frame %zu, channel %d: %g is not finite: mend it", path,
-                           i / (size_t)w->channels, (int)(i % (size_t)w->channels) + 1, w->x[i]);
-    return true;
-}
-
-static bool read_samples(const char *path, SNDFILE *f, struct wav *w, struct err *e)
-{
-    sf_count_t got = sf_readf_double(f, w->x, (sf_count_t)w->frames);
-    if (got != (sf_count_t)w->frames)
-        return err_set(e, ERR_SCENE, "%s: ends at frame %lld of %zu", path, (long long)got, w->frames);
-    return check_finite(path, w, e);
 }
 
 static SNDFILE *sound_read(const char *path, SF_INFO *i, struct err *e)
@@ -129,15 +105,21 @@ bool wav_read(const char *path, struct arena *a, struct wav *w, struct err *e)
 {
     SF_INFO i = {0};
     SNDFILE *f = sound_read(path, &i, e);
-    if (!f) return false;
-    bool ok = check_info(path, &i, e);
+    bool ok = f && check_info(path, &i, e);
     if (ok) {
-        *w = (struct wav){
-            .rate = i.samplerate, .channels = i.channels, .frames = (size_t)i.frames, .bits = integer_bits(i.format)};
+        *w = (struct wav){.rate = i.samplerate, .channels = i.channels, .frames = (size_t)i.frames};
+        for (int k = 0; k < ENCODINGS; k++)
+            if ((i.format & SF_FORMAT_SUBMASK) == encodings[k].format && encodings[k].bits > 0)
+                w->bits = encodings[k].bits;
         w->x = ARENA_TAKE(a, double, w->frames *(size_t)w->channels);
-        ok = read_samples(path, f, w, e);
+        sf_count_t got = sf_readf_double(f, w->x, i.frames);
+        ok = got == i.frames || err_set(e, ERR_SCENE, "%s: ends at frame %lld of %zu", path, (long long)got, w->frames);
     }
-    sf_close(f);
+    for (size_t k = 0; ok && k < w->frames * (size_t)w->channels; k++)
+        if (!isfinite(w->x[k]))
+            ok = err_set(e, ERR_SCENE, "%s: frame %zu, channel %d: %g is not finite: mend it", path,
+                         k / (size_t)w->channels, (int)(k % (size_t)w->channels) + 1, w->x[k]);
+    if (f) sf_close(f);
     return ok;
 }
 
@@ -168,10 +150,11 @@ enum { PIECE = 4096 /* samples converted at a time */, COPY = 1 << 16 /* bytes; 
 #define FULL_SCALE (1 + 1e-12) /* a peak that was asked to be 1 is 1 but for rounding */
 
 struct wav_out {
+    struct arena *arena; /* it lies in it */
     SNDFILE *sound;
     struct outfile out;
     struct wav_format format;
-    char *path;
+    const char *path;
     double frames, riff_bytes;
     bool long_file; /* RF64 already */
     bool *audible;  /* [channels] */
@@ -220,67 +203,43 @@ static bool sound_open(struct wav_out *w, int container, struct err *e)
     return true;
 }
 
-static bool check_format(const char *path, const struct wav_format *f, struct err *e)
+void wav_drop(struct wav_out *w)
 {
-    if (!encoding(f->bits))
-        return err_set(e, ERR_SCENE,
-                       "%s: %d bits: only 16 and 24 (integers), -32 and -64 (floating point) can be written", path,
-                       f->bits);
-    if (!(f->rate >= 1 && f->rate <= 1e7) || f->rate != floor(f->rate))
-        return err_set(e, ERR_SCENE, "%s: a WAV's sample rate is a whole number of Hz up to 1e7, not %.9g", path,
-                       f->rate);
-    if (f->channels < 1 || f->channels > 1024)
-        return err_set(e, ERR_SCENE, "%s: a WAV has 1 to 1024 channels, not %d", path, f->channels);
-    return true;
-}
-
-static void wav_free(struct wav_out *w)
-{
+    if (!w) return;
     if (w->sound) sf_close(w->sound);
     outfile_drop(&w->out);
-    free((char *)w->format.title);
-    free((char *)w->format.comment);
-    free(w->path);
-    free(w->audible);
-    free(w);
-}
-
-static struct wav_out *wav_new(const char *path, const struct wav_format *f)
-{
-    struct wav_out *w = calloc(1, sizeof *w);
-    if (!w) return NULL;
-    w->format = *f;
-    w->path = strdup(path);
-    w->format.title = f->title ? strdup(f->title) : NULL;
-    w->format.comment = f->comment ? strdup(f->comment) : NULL;
-    w->audible = calloc((size_t)f->channels, sizeof *w->audible);
-    w->silent = f->channels;
-    if (w->path && w->audible && (w->format.title || !f->title) && (w->format.comment || !f->comment)) return w;
-    wav_free(w);
-    return NULL;
+    arena_close(w->arena);
 }
 
 struct wav_out *wav_create(const char *path, const struct wav_format *f, struct err *e)
 {
-    if (!check_format(path, f, e)) return NULL;
-    struct wav_out *w = wav_new(path, f);
-    if (!w) {
-        err_set(e, ERR_MEMORY, "%s: out of memory", path);
-        return NULL;
-    }
-    double texts = (double)((f->title ? strlen(f->title) : 0) + (f->comment ? strlen(f->comment) : 0)),
-           header = 4096 + texts;
-    w->riff_bytes = f->riff_bytes > 0 ? f->riff_bytes : 4294967295.0 - header;
+    if (!encoding(f->bits))
+        err_set(e, ERR_SCENE, "%s: %d bits: only 16 and 24 (integers), -32 and -64 (floating point) can be written",
+                path, f->bits);
+    else if (!(f->rate >= 1 && f->rate <= 1e7) || f->rate != floor(f->rate))
+        err_set(e, ERR_SCENE, "%s: a WAV's sample rate is a whole number of Hz up to 1e7, not %.9g", path, f->rate);
+    else if (f->channels < 1 || f->channels > 1024)
+        err_set(e, ERR_SCENE, "%s: a WAV has 1 to 1024 channels, not %d", path, f->channels);
+    if (e->kind) return NULL;
+    struct arena *a = arena_open();
+    struct wav_out *w = ARENA_TAKE(a, struct wav_out, 1);
+    double header = 4096 + (double)((f->title ? strlen(f->title) : 0) + (f->comment ? strlen(f->comment) : 0));
+    *w = (struct wav_out){.arena = a,
+                          .format = *f,
+                          .path = arena_text(a, path),
+                          .riff_bytes = f->riff_bytes > 0 ? f->riff_bytes : 4294967295.0 - header,
+                          .audible = ARENA_TAKE(a, bool, f->channels),
+                          .silent = f->channels};
+    w->format.title = f->title ? arena_text(a, f->title) : NULL;
+    w->format.comment = f->comment ? arena_text(a, f->comment) : NULL;
     if (outfile_open_fd(&w->out, path, e) && sound_open(w, SF_FORMAT_WAV, e)) return w;
-    wav_free(w);
+    wav_drop(w);
     return NULL;
 }
 
 bool wav_comment(struct wav_out *w, const char *text, struct err *e)
 {
-    free((char *)w->format.comment);
-    w->format.comment = strdup(text);
-    if (!w->format.comment) return err_set(e, ERR_MEMORY, "%s: out of memory", w->path);
+    w->format.comment = arena_text(w->arena, text);
     errno = 0;
     if (w->frames > 0 || sf_set_string(w->sound, SF_STR_COMMENT, text))
         return out_of_memory(w, e) ||
@@ -304,8 +263,8 @@ static bool copy_data(struct wav_out *w, SNDFILE *from, struct err *e)
 {
     sf_count_t frame = frame_bytes(w), most = COPY / frame * frame;
     double left = w->frames * (double)frame;
-    char *piece = malloc((size_t)most);
-    bool ok = piece || err_set(e, ERR_MEMORY, "%s: out of memory", w->path);
+    char *piece = memory_take((size_t)most);
+    bool ok = true;
     while (ok && left > 0) {
         sf_count_t n = left < (double)most ? (sf_count_t)left : most;
         errno = 0;
@@ -480,11 +439,6 @@ const char *wav_temporary(const struct wav_out *w) { return w->out.temporary; }
 bool wav_commit(struct wav_out *w, struct err *e)
 {
     bool ok = wav_finish(w, e) && outfile_commit(&w->out, e);
-    wav_free(w);
+    wav_drop(w);
     return ok;
-}
-
-void wav_drop(struct wav_out *w)
-{
-    if (w) wav_free(w);
 }

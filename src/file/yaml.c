@@ -103,14 +103,6 @@ const char *yaml_bytes_text(const char *file, struct arena *a, size_t *size)
     return good ? b.at : NULL;
 }
 
-static void note_file(struct yaml *y, const char *name)
-{
-    struct yaml_file *f = ARENA_TAKE(y->arena, struct yaml_file, 1);
-    f->name = name;
-    *(y->last_file ? &y->last_file->next : &y->files) = f;
-    y->last_file = f;
-}
-
 struct diag_source *yaml_bytes_read(struct yaml *y, const char *file, struct diag_place named)
 {
     size_t size;
@@ -124,18 +116,13 @@ struct diag_source *yaml_bytes_read(struct yaml *y, const char *file, struct dia
         return NULL;
     }
     const char *name = arena_text(y->arena, file);
-    note_file(y, name);
+    struct yaml_file *f = ARENA_TAKE(y->arena, struct yaml_file, 1);
+    f->name = name;
+    *(y->last_file ? &y->last_file->next : &y->files) = f;
+    y->last_file = f;
     struct diag_source *source = yaml_source(y, name, text, size);
     source->named = named;
     return source;
-}
-
-static const char *byte_order_mark(const struct diag_source *s)
-{
-    if (s->size >= 3 && memcmp(s->text, "\xef\xbb\xbf", 3) == 0) return "UTF-8 with a byte order mark";
-    if (s->size >= 2 && (memcmp(s->text, "\xff\xfe", 2) == 0 || memcmp(s->text, "\xfe\xff", 2) == 0))
-        return "UTF-16 or UTF-32";
-    return NULL;
 }
 
 /* YAML's printable characters and line breaks. */
@@ -150,29 +137,24 @@ static bool line_break(uint32_t c, char next)
     return c == '\n' || (c == '\r' && next != '\n') || c == 0x85 || c == 0x2028 || c == 0x2029;
 }
 
-static bool bad_character(struct yaml *y, struct diag_place at, int length, uint32_t code)
-{
-    if (length == 0) return diag_add(y->diag, at, "save the file with the encoding UTF-8", "not valid UTF-8");
-    if (code == 0) return diag_add(y->diag, at, "save the file as plain text in UTF-8", "a NUL byte");
-    return diag_add(y->diag, at, "remove it", "control character U+%04X", (unsigned)code);
-}
-
 /* UTF-8 without byte order mark, NUL or control characters, at most 4 MiB; else an error is told. */
 static bool text_good(struct yaml *y, const struct diag_source *s)
 {
-    struct diag_place at = {s, 1, 1, 1};
-    const char *mark = byte_order_mark(s);
+    struct diag_place at = {s, 1, 1, 1}, whole = {s, 0, 0, 0};
+    bool utf8 = s->size >= 3 && memcmp(s->text, "\xef\xbb\xbf", 3) == 0,
+         other = s->size >= 2 && (memcmp(s->text, "\xff\xfe", 2) == 0 || memcmp(s->text, "\xfe\xff", 2) == 0);
     if (s->size > SIZE_MAX_BYTES)
-        return diag_add(y->diag, (struct diag_place){s, 0, 0, 0},
-                        "is it a scene? measured data belong in files of their own", "larger than %d MiB",
-                        SIZE_MAX_BYTES >> 20);
-    if (mark)
-        return diag_add(y->diag, (struct diag_place){s, 0, 0, 0},
-                        "save the file as UTF-8 without a byte order mark (BOM)", "encoded as %s", mark);
+        return diag_add(y->diag, whole, "is it a scene? measured data belong in files of their own",
+                        "larger than %d MiB", SIZE_MAX_BYTES >> 20);
+    if (utf8 || other)
+        return diag_add(y->diag, whole, "save the file as UTF-8 without a byte order mark (BOM)", "encoded as %s",
+                        utf8 ? "UTF-8 with a byte order mark" : "UTF-16 or UTF-32");
     for (size_t i = 0; i < s->size;) {
         uint32_t code = 0;
         int length = text_utf8(s->text + i, s->size - i, &code);
-        if (length == 0 || !printable(code)) return bad_character(y, at, length, code);
+        if (length == 0) return diag_add(y->diag, at, "save the file with the encoding UTF-8", "not valid UTF-8");
+        if (code == 0) return diag_add(y->diag, at, "save the file as plain text in UTF-8", "a NUL byte");
+        if (!printable(code)) return diag_add(y->diag, at, "remove it", "control character U+%04X", (unsigned)code);
         i += (size_t)length;
         at.column++;
         if (line_break(code, i < s->size ? s->text[i] : '\0')) {
@@ -288,23 +270,21 @@ static bool event_next(struct parse *p, struct event *ev)
 
 /* ------------------------------------------------------------------ nodes */
 
-static bool room_for_one(struct parse *p, struct diag_place at)
+/* NULL: there are too many, by the fault of what stands at `cause`. */
+static struct yaml_node *node_new(struct parse *p, enum yaml_kind kind, struct diag_place at, const char *text,
+                                  struct diag_place cause)
 {
-    return ++p->y->nodes <= NODES_MAX ||
-           diag_add(p->y->diag, at, "a scene needs a few hundred; look for aliases (*name) of aliases",
-                    "more than %d values after expanding aliases", NODES_MAX);
-}
-
-static struct yaml_node *node_new(struct parse *p, enum yaml_kind kind, struct diag_place at, const char *text)
-{
-    return room_for_one(p, at) ? yaml_make(p->y, kind, at, text) : NULL;
+    if (++p->y->nodes <= NODES_MAX) return yaml_make(p->y, kind, at, text);
+    diag_add(p->y->diag, cause, "a scene needs a few hundred; look for aliases (*name) of aliases",
+             "more than %d values after expanding aliases", NODES_MAX);
+    return NULL;
 }
 
 /* A copy keeps the place of what it is a copy of; too many are the alias's fault. */
 static struct yaml_node *node_copy(struct parse *p, const struct yaml_node *from, struct diag_place alias)
 {
-    if (!room_for_one(p, alias)) return NULL;
-    struct yaml_node *copy = yaml_make(p->y, from->kind, from->at, from->text);
+    struct yaml_node *copy = node_new(p, from->kind, from->at, from->text, alias);
+    if (!copy) return NULL;
     copy->plain = from->plain;
     for (const struct yaml_node *item = from->first; item; item = item->next) {
         struct yaml_node *value = node_copy(p, item, alias);
@@ -326,7 +306,7 @@ static struct yaml_node *alias_read(struct parse *p, const struct event *ev)
 
 static struct yaml_node *scalar_read(struct parse *p, const struct event *ev)
 {
-    struct yaml_node *node = node_new(p, YAML_SCALAR, ev->at, ev->text);
+    struct yaml_node *node = node_new(p, YAML_SCALAR, ev->at, ev->text, ev->at);
     if (!node) return NULL;
     node->plain = ev->plain;
     if (strlen(ev->text) == ev->size) return node;
@@ -347,7 +327,7 @@ static void close_place(struct yaml_node *node, const struct event *end)
 
 static struct yaml_node *list_read(struct parse *p, const struct event *start)
 {
-    struct yaml_node *list = node_new(p, YAML_LIST, start->at, NULL), *item;
+    struct yaml_node *list = node_new(p, YAML_LIST, start->at, NULL, start->at), *item;
     struct event ev;
     while (list && event_next(p, &ev)) {
         if (ev.type == YAML_SEQUENCE_END_EVENT) {
@@ -360,11 +340,6 @@ static struct yaml_node *list_read(struct parse *p, const struct event *start)
     return NULL;
 }
 
-static const char *first_set(struct parse *p, const struct yaml_node *key)
-{
-    return arena_format(p->y->arena, "first set on line %d", key->at.line);
-}
-
 /* Is the pair to be kept? If not, says why. */
 static bool key_good(struct parse *p, const struct yaml_node *map, const struct yaml_node *key)
 {
@@ -375,7 +350,8 @@ static bool key_good(struct parse *p, const struct yaml_node *map, const struct 
         diag_add(p->y->diag, key->at, "write the keys out, or put them into a file of their own and include: it",
                  "'<<' is not supported");
     else if (same)
-        diag_add(p->y->diag, key->at, first_set(p, same->key), "duplicate key '%s'", diag_shown(p->y->diag, key->text));
+        diag_add(p->y->diag, key->at, arena_format(p->y->arena, "first set on line %d", same->key->at.line),
+                 "duplicate key '%s'", diag_shown(p->y->diag, key->text));
     else
         return true;
     return false;
@@ -393,7 +369,7 @@ static bool pair_read(struct parse *p, struct yaml_node *map, const struct event
 
 static struct yaml_node *map_read(struct parse *p, const struct event *start)
 {
-    struct yaml_node *map = node_new(p, YAML_MAP, start->at, NULL);
+    struct yaml_node *map = node_new(p, YAML_MAP, start->at, NULL, start->at);
     struct event ev;
     while (map && event_next(p, &ev)) {
         if (ev.type == YAML_MAPPING_END_EVENT) {
@@ -403,14 +379,6 @@ static struct yaml_node *map_read(struct parse *p, const struct event *start)
         if (!pair_read(p, map, &ev)) return NULL;
     }
     return NULL;
-}
-
-static bool anchor_add(struct parse *p, const struct event *ev, const struct yaml_node *node)
-{
-    if (p->n_anchors == ANCHORS_MAX) return diag_add(p->y->diag, ev->at, NULL, "more than %d anchors", ANCHORS_MAX);
-    if (!p->anchors) p->anchors = ARENA_TAKE(p->y->arena, struct anchor, ANCHORS_MAX);
-    p->anchors[p->n_anchors++] = (struct anchor){ev->anchor, node};
-    return true;
 }
 
 static struct yaml_node *node_read(struct parse *p, const struct event *ev)
@@ -433,7 +401,13 @@ static struct yaml_node *node_read(struct parse *p, const struct event *ev)
     else if (ev->type == YAML_MAPPING_START_EVENT)
         node = map_read(p, ev);
     p->depth--;
-    if (node && ev->anchor && ev->type != YAML_ALIAS_EVENT && !anchor_add(p, ev, node)) return NULL;
+    if (!node || !ev->anchor || ev->type == YAML_ALIAS_EVENT) return node;
+    if (p->n_anchors == ANCHORS_MAX) {
+        diag_add(p->y->diag, ev->at, NULL, "more than %d anchors", ANCHORS_MAX);
+        return NULL;
+    }
+    p->anchors = arena_more(p->y->arena, p->anchors, p->n_anchors, sizeof *p->anchors);
+    p->anchors[p->n_anchors++] = (struct anchor){ev->anchor, node};
     return node;
 }
 
