@@ -135,13 +135,13 @@ static void show_line(FILE *out, const struct diag_place *at)
     show_caret(out, line, column, at->width);
 }
 
-static bool has_lines(const struct diag_place *at) { return at->line > 0 && !at->source->option && !at->source->made; }
-
 /* "scene.yaml:4:12", or the name alone. */
 static const char *place_text(struct arena *a, const struct diag_place *at)
 {
     const char *name = text_shown(a, at->source->name);
-    return has_lines(at) ? arena_format(a, "%s:%d:%d", name, at->line, at->column) : name;
+    return at->line > 0 && !at->source->option && !at->source->made
+               ? arena_format(a, "%s:%d:%d", name, at->line, at->column)
+               : name;
 }
 
 const char *diag_named(struct arena *a, const struct diag_source *source)
@@ -159,21 +159,15 @@ static const char *header(struct diag *d, const struct diag_error *x)
                         diag_named(d->arena, x->at.source));
 }
 
-static void show(FILE *out, struct diag *d, const struct diag_error *x)
-{
-    fprintf(out, "%s\n", header(d, x));
-    if (x->at.source && x->at.line > 0 && !x->at.source->made) show_line(out, &x->at);
-    if (x->help) fprintf(out, "      = help: %s\n", x->help);
-}
-
 static int by_place(const void *pa, const void *pb)
 {
     const struct diag_error *a = pa, *b = pb;
-    int oa = a->at.source ? a->at.source->order : -1, ob = b->at.source ? b->at.source->order : -1;
-    if (oa != ob) return oa < ob ? -1 : 1;
-    if (a->at.line != b->at.line) return a->at.line < b->at.line ? -1 : 1;
-    if (a->at.column != b->at.column) return a->at.column < b->at.column ? -1 : 1;
-    return a->serial < b->serial ? -1 : a->serial > b->serial;
+    const int of[2][4] = {{a->at.source ? a->at.source->order : -1, a->at.line, a->at.column, a->serial},
+                          {b->at.source ? b->at.source->order : -1, b->at.line, b->at.column, b->serial}};
+    int k = 0;
+    while (k < 3 && of[0][k] == of[1][k])
+        k++;
+    return (of[0][k] > of[1][k]) - (of[0][k] < of[1][k]);
 }
 
 static int sorted(struct diag *d)
@@ -189,8 +183,11 @@ const char *diag_text(struct diag *d)
     size_t size = 0;
     FILE *out = memory_stream(&buffer, &size);
     int stored = sorted(d);
-    for (int i = 0; i < stored && i < DIAG_SHOWN; i++)
-        show(out, d, &d->errors[i]);
+    for (const struct diag_error *x = d->errors; x < d->errors + stored && x < d->errors + DIAG_SHOWN; x++) {
+        fprintf(out, "%s\n", header(d, x));
+        if (x->at.source && x->at.line > 0 && !x->at.source->made) show_line(out, &x->at);
+        if (x->help) fprintf(out, "      = help: %s\n", x->help);
+    }
     if (d->n > DIAG_SHOWN) fprintf(out, "... and %d more\n", d->n - DIAG_SHOWN);
     fprintf(out, "%d error%s\n", d->n, d->n == 1 ? "" : "s");
     memory_stream_end(out, &buffer);

@@ -41,15 +41,6 @@ void hash_bytes(const void *data, size_t size, char hex[HASH_TEXT])
     hash_end(&h, hex);
 }
 
-static bool hash_stream(FILE *f, struct hash *h)
-{
-    unsigned char piece[1 << 16];
-    size_t n;
-    while ((n = fread(piece, 1, sizeof piece, f)) > 0)
-        hash_add(h, piece, n);
-    return !ferror(f);
-}
-
 bool hash_file(const char *path, char hex[HASH_TEXT], struct err *e)
 {
     struct stat s;
@@ -58,7 +49,10 @@ bool hash_file(const char *path, char hex[HASH_TEXT], struct err *e)
     FILE *f = memory_fopen(path, "rb");
     if (!f) return err_set(e, err_system(ERR_INPUT), "%s: %s", path, strerror(errno));
     struct hash h = hash_start();
-    bool ok = hash_stream(f, &h);
+    unsigned char piece[1 << 16];
+    for (size_t n; (n = fread(piece, 1, sizeof piece, f)) > 0;)
+        hash_add(&h, piece, n);
+    bool ok = !ferror(f);
     int why = errno;
     fclose(f);
     hash_end(&h, hex);

@@ -16,11 +16,6 @@ static const char *real_one(const char *folder, struct arena *a)
     return copy;
 }
 
-static const char *joined(const char *folder, const char *name, size_t n, struct arena *a)
-{
-    return arena_format(a, "%s/%.*s", strcmp(folder, "/") ? folder : "", (int)n, name);
-}
-
 /* Of a folder that is not there, or whose own cannot be looked into, as far as it is, then by its names. */
 static const char *real_folder(const char *folder, struct arena *a)
 {
@@ -33,18 +28,11 @@ static const char *real_folder(const char *folder, struct arena *a)
         if (n == 0 || (n == 1 && *folder == '.')) continue;
         const char *next = n == 2 && !strncmp(folder, "..", 2)
                                ? (slash == at ? "/" : arena_format(a, "%.*s", (int)(slash - at), at))
-                               : joined(at, folder, n, a);
+                               : arena_format(a, "%s/%.*s", strcmp(at, "/") ? at : "", (int)n, folder);
         const char *real = real_one(next, a);
         at = real ? real : next;
     }
     return at;
-}
-
-static const char *absolute(const char *file, struct arena *a)
-{
-    char here[PATH_MAX];
-    if (file[0] == '/' || !getcwd(here, sizeof here)) return arena_text(a, file);
-    return arena_format(a, "%s/%s", here, file);
 }
 
 /* Length of the leading folders that two absolute paths share: /a/b and /a/bc share "/a". */
@@ -73,7 +61,10 @@ const char *relpath_make(const char *file, const char *folder, struct arena *a)
 {
     const char *from = real_folder(folder ? folder : ".", a), *to = real_folder(relpath_folder(file, a), a);
     const char *name = basename(file);
-    if (!from || !to) return absolute(file, a);
+    char here[PATH_MAX];
+    if (!from || !to)
+        return file[0] == '/' || !getcwd(here, sizeof here) ? arena_text(a, file)
+                                                            : arena_format(a, "%s/%s", here, file);
     if (!strcmp(from, to)) return arena_text(a, name);
     size_t n = shared(from, to);
     if (n == 0) return arena_format(a, "%s/%s", strcmp(to, "/") ? to : "", name);

@@ -31,13 +31,6 @@ size_t text_number_length(const char *s)
     return digits ? n + 1 + sign + digits : n;
 }
 
-static bool has_value(const char *s, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        if (s[i] >= '1' && s[i] <= '9') return true;
-    return false;
-}
-
 bool text_scaled(const char *s, size_t n, int power, double *x)
 {
     char copy[NUMBER_MAX + 1], shifted[NUMBER_MAX + 32];
@@ -50,7 +43,7 @@ bool text_scaled(const char *s, size_t n, int power, double *x)
     if (exponent < -100000 || exponent > 100000) exponent = exponent < 0 ? -100000 : 100000;
     snprintf(shifted, sizeof shifted, "%.*se%ld", (int)m, copy, exponent + power);
     double value = strtod(shifted, NULL);
-    if (!isfinite(value) || (value == 0 && has_value(copy, m))) return false;
+    if (!isfinite(value) || (value == 0 && strcspn(copy, "123456789") < m)) return false;
     *x = value;
     return true;
 }

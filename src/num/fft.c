@@ -94,14 +94,6 @@ static struct plans *plans_make(const struct fft *f)
     return p;
 }
 
-static struct plans *plans_of(const struct fft *f)
-{
-    struct plans *p = keeping.first;
-    while (p && p->n != f->n)
-        p = p->next;
-    return p ? p : plans_make(f);
-}
-
 static void plans_drop(struct plans *p)
 {
     fftw_destroy_plan(p->forward);
@@ -128,7 +120,9 @@ struct fft *fft_open(size_t n)
     f->spectrum = or_end(fftw_malloc(2 * f->bins * sizeof(double)), n);
     f->time = or_end(fftw_malloc(n * sizeof(double)), n);
     pthread_mutex_lock(&planner);
-    f->plans = plans_of(f);
+    for (f->plans = keeping.first; f->plans && f->plans->n != n;)
+        f->plans = f->plans->next;
+    if (!f->plans) f->plans = plans_make(f);
     pthread_mutex_unlock(&planner);
     return f;
 }

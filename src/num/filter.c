@@ -47,12 +47,6 @@ static double bessel_i0(double x)
     return sum;
 }
 
-static int low_pass_reach(int over)
-{
-    double width = 2 * REAL_PI * (STOP - PASS) / over;
-    return (int)ceil((ATTENUATION - 7.95) / (2.285 * width) / 2);
-}
-
 /* g[i], i = 0..2 reach-1 at t = i - reach + 1/2; odd: i = 0..2 reach at t = i - reach. */
 static void low_pass(double *g, int reach, int over, bool odd)
 {
@@ -116,7 +110,9 @@ static void normalise(double *tap, int n)
 static struct filter decimator(struct arena *a, int over, bool bspline)
 {
     struct droop d = droop_make(over, bspline);
-    int inner = bspline && over == 1 ? 0 : low_pass_reach(over), reach = inner + d.order, taps = 2 * reach + bspline;
+    double width = 2 * REAL_PI * (STOP - PASS) / over;
+    int inner = bspline && over == 1 ? 0 : (int)ceil((ATTENUATION - 7.95) / (2.285 * width) / 2),
+        reach = inner + d.order, taps = 2 * reach + bspline;
     double *g = ARENA_TAKE(a, double, taps);
     low_pass(g + d.order, inner, over, bspline);
     double *tap = droop_undone(a, &d, g, taps);

@@ -112,27 +112,19 @@ static size_t convert(soxr_t s, const double *x, size_t n, double *y, size_t m)
     return done;
 }
 
-struct out {
-    double *y;
-    size_t m;
-};
-
-static bool convert_locked(const double *x, size_t n, const double rates[2], struct out out, struct err *e)
+static bool convert_alone(const double *x, size_t n, const double rates[2], double *y, size_t m, struct err *e)
 {
-    soxr_t s = open_soxr(rates[0], rates[1], e);
-    if (!s) return false;
-    size_t done = convert(s, x, n, out.y, out.m);
-    soxr_delete(s);
-    return done == out.m || err_set(e, ERR_NUMBERS, "resampling from %g to %g Hz: libsoxr gave %zu samples of %zu",
-                                    rates[0], rates[1], done, out.m);
-}
-
-static bool convert_alone(const double *x, size_t n, const double rates[2], struct out out, struct err *e)
-{
+    size_t done = m;
     pthread_mutex_lock(&one_at_a_time);
-    bool ok = convert_locked(x, n, rates, out, e);
+    soxr_t s = open_soxr(rates[0], rates[1], e);
+    if (s) {
+        done = convert(s, x, n, y, m);
+        soxr_delete(s);
+    }
     pthread_mutex_unlock(&one_at_a_time);
-    return ok;
+    if (!s || done == m) return s;
+    return err_set(e, ERR_NUMBERS, "resampling from %g to %g Hz: libsoxr gave %zu samples of %zu", rates[0], rates[1],
+                   done, m);
 }
 
 /* Numbers of samples, in and out, that take the same time: the last convergent of the ratio's continued fraction with
@@ -153,31 +145,10 @@ static void even_times(const double rates[2], size_t least, size_t *in, size_t *
     *out = (size_t)(times * p[1]);
 }
 
-/* x[n] behind silence; what came out before it folded into y[m]. */
-static bool convert_whole(const double *x, size_t n, const double rates[2], struct out to, struct err *e)
-{
-    double low = fmin(rates[0], rates[1]);
-    size_t leads = (size_t)ceil(REACH * rates[1] / low), still, before;
-    even_times(rates, (size_t)ceil(REACH * rates[0] / low) + 1, &still, &before);
-    struct arena *scratch = arena_open();
-    double *late = ARENA_TAKE(scratch, double, still + n), *y = ARENA_TAKE(scratch, double, before + to.m);
-    double *lead = ARENA_TAKE(scratch, double, leads);
-    memcpy(late + still, x, n * sizeof *x);
-    bool ok = convert_alone(late, still + n, rates, (struct out){y, before + to.m}, e);
-    memcpy(to.y, y + before, to.m * sizeof *y);
-    for (size_t m = 1; m <= leads; m++)
-        lead[m - 1] = y[before - m];
-    filter_fold_lead(lead, (long)leads, (long)ceil(rates[1] / low));
-    for (size_t m = 0; m < leads && m < to.m; m++)
-        to.y[m] += lead[m];
-    arena_close(scratch);
-    return ok;
-}
-
 bool resample(struct arena *a, const double *x, size_t n, double rate_in, double rate_out, double **y, size_t *m,
               struct err *e)
 {
-    double ratio = rate_out / rate_in;
+    const double rates[2] = {rate_in, rate_out}, ratio = rate_out / rate_in, low = fmin(rate_in, rate_out);
     if (!(ratio >= 1e-3 && ratio <= 1e3))
         return err_set(
             e, ERR_SCENE,
@@ -189,6 +160,20 @@ bool resample(struct arena *a, const double *x, size_t n, double rate_in, double
         memcpy(*y, x, n * sizeof *x);
         return true;
     }
-    const double rates[2] = {rate_in, rate_out};
-    return convert_whole(x, n, rates, (struct out){*y, *m}, e);
+    /* x behind silence; what comes out before it is folded into y */
+    size_t leads = (size_t)ceil(REACH * rate_out / low), still, before;
+    even_times(rates, (size_t)ceil(REACH * rate_in / low) + 1, &still, &before);
+    struct arena *scratch = arena_open();
+    double *late = ARENA_TAKE(scratch, double, still + n), *out = ARENA_TAKE(scratch, double, before + *m);
+    double *lead = ARENA_TAKE(scratch, double, leads);
+    memcpy(late + still, x, n * sizeof *x);
+    bool ok = convert_alone(late, still + n, rates, out, before + *m, e);
+    memcpy(*y, out + before, *m * sizeof *out);
+    for (size_t k = 1; k <= leads; k++)
+        lead[k - 1] = out[before - k];
+    filter_fold_lead(lead, (long)leads, (long)ceil(rate_out / low));
+    for (size_t k = 0; k < leads && k < *m; k++)
+        (*y)[k] += lead[k];
+    arena_close(scratch);
+    return ok;
 }
