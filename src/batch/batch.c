@@ -190,19 +190,6 @@ static bool level_all(struct batch *b, struct err *e)
 
 /* ------------------------------------------------------------------ before */
 
-static void divide(struct batch *b)
-{
-    struct batch_report *r = b->report;
-    int *to = ARENA_TAKE(b->arena, int, r->set.n);
-    r->mine = ARENA_TAKE(b->arena, bool, r->set.n);
-    b->now = ARENA_TAKE(b->arena, int, r->set.n);
-    b->slots = ARENA_TAKE(b->arena, struct slot, r->set.n);
-    set_deal(&r->set, b->ask->shard.n, to, b->arena);
-    for (int i = 0; i < r->set.n; i++)
-        if ((r->mine[i] = to[i] == b->ask->shard.i)) b->now[b->n_now++] = i;
-    r->n_mine = b->n_now;
-}
-
 static bool has_room(const struct batch *b, struct err *e)
 {
     const char *folder = b->ask->folder;
@@ -216,19 +203,6 @@ static bool has_room(const struct batch *b, struct err *e)
 }
 
 /* ------------------------------------------------------------------ only looking */
-
-static void list_missing(struct batch *b)
-{
-    struct batch_report *r = b->report;
-    int shards = b->ask->missing, *to = ARENA_TAKE(b->arena, int, r->set.n);
-    bool *lacks = ARENA_TAKE(b->arena, bool, shards + 1);
-    set_deal(&r->set, shards, to, b->arena);
-    for (int i = 0; i < r->set.n; i++)
-        lacks[to[i]] = lacks[to[i]] || !r->rows[i].there;
-    r->missing = "";
-    for (int k = 1; k <= shards; k++)
-        if (lacks[k]) r->missing = arena_format(b->arena, "%s%s%d", r->missing, *r->missing ? "," : "", k);
-}
 
 /* What of the set is there, and why the rest would be made. A gain is known when all are. */
 static bool look_at_folder(struct batch *b, struct err *e)
@@ -245,7 +219,16 @@ static bool look_at_folder(struct batch *b, struct err *e)
     pool_progress_begin(&b->progress, b->n_now, 0, true);
     run_jobs(b);
     if (b->stop.kind) return err_set(e, b->stop.kind, "%s", b->stop.text);
-    if (b->ask->missing) list_missing(b);
+    int shards = b->ask->missing, *to = ARENA_TAKE(b->arena, int, r->set.n);
+    bool *lacks = ARENA_TAKE(b->arena, bool, shards + 1);
+    if (shards) {
+        set_deal(&r->set, shards, to, b->arena);
+        r->missing = "";
+    }
+    for (int i = 0; i < r->set.n; i++)
+        lacks[to[i]] = lacks[to[i]] || !r->rows[i].there;
+    for (int k = 1; k <= shards; k++)
+        if (lacks[k]) r->missing = arena_format(b->arena, "%s%s%d", r->missing, *r->missing ? "," : "", k);
     bool gain = set_waits(&r->set) && are_all_there(b) && find_gain(b, &full_scale, &silent);
     for (int i = 0; i < r->set.n; i++)
         if (r->states[i] == STIMULUS_THERE && set_waits(&r->set) &&
@@ -367,7 +350,14 @@ static bool run(const struct batch_ask *ask, struct file_cache *file_cache, stru
                       .is = ARENA_TAKE(a, struct stimulus, r->set.n),
                       .k = {.set = &r->set, .folder = ask->folder, .file_cache = file_cache, .inputs = r->plan.inputs}};
     r->rows = ARENA_TAKE(a, struct tables_row, r->set.n);
-    divide(&b);
+    int *to = ARENA_TAKE(a, int, r->set.n);
+    r->mine = ARENA_TAKE(a, bool, r->set.n);
+    b.now = ARENA_TAKE(a, int, r->set.n);
+    b.slots = ARENA_TAKE(a, struct slot, r->set.n);
+    set_deal(&r->set, ask->shard.n, to, a);
+    for (int i = 0; i < r->set.n; i++)
+        if ((r->mine[i] = to[i] == ask->shard.i)) b.now[b.n_now++] = i;
+    r->n_mine = b.n_now;
     if (!ask->folder) return true;
     const struct folder_owner owner = {ask->folder,  ask->design,  r->set.sha256,
                                        ask->program, ask->replace, ask->shard.n > 1};

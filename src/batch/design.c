@@ -36,10 +36,8 @@ bool design_reading_must(const struct design_reading *r, const struct yaml_node 
 const char *design_reading_joined(const struct design_reading *r, const char *const *names)
 {
     const char *all = "";
-    for (int i = 0; names[i]; i++)
-        all = i == 12  ? arena_format(r->arena, "%s, ...", all)
-              : i > 12 ? all
-                       : arena_format(r->arena, "%s%s%s", all, i ? ", " : "", names[i]);
+    for (int i = 0; names[i] && i < 13; i++)
+        all = arena_format(r->arena, "%s%s%s", all, i ? ", " : "", i < 12 ? names[i] : "...");
     return all;
 }
 
@@ -75,20 +73,6 @@ int design_reading_factor(const struct design_reading *r, const struct yaml_node
     return -1;
 }
 
-static void no_level(const struct design_reading *r, int f, const struct yaml_node *label, bool recording)
-{
-    const struct design_factor *factor = &r->design->factors[f];
-    const char **names = ARENA_TAKE(r->arena, const char *, factor->n_levels + 1);
-    for (int i = 0; i < factor->n_levels; i++)
-        names[i] = factor->levels[i].label;
-    const char *cure = near_or_all(r, label->text, names, "its levels");
-    if (recording)
-        cure = arena_format(r->arena, "%s (a level that only recordings have: - {label: %s, of: recordings})", cure,
-                            diag_shown(r->yaml->diag, label->text));
-    diag_add(r->yaml->diag, label->at, cure, "'%s' is no level of %s", diag_shown(r->yaml->diag, label->text),
-             factor->name);
-}
-
 int design_reading_level(const struct design_reading *r, int f, const struct yaml_node *label, bool recording)
 {
     const struct design_factor *factor = &r->design->factors[f];
@@ -102,7 +86,15 @@ int design_reading_level(const struct design_reading *r, int f, const struct yam
         if (strcmp(factor->levels[i].label, label->text) == 0 ||
             (item->kind == YAML_SCALAR && strcmp(item->text, label->text) == 0))
             return i;
-    no_level(r, f, label, recording);
+    const char **names = ARENA_TAKE(r->arena, const char *, factor->n_levels + 1);
+    for (int i = 0; i < factor->n_levels; i++)
+        names[i] = factor->levels[i].label;
+    const char *cure = near_or_all(r, label->text, names, "its levels"),
+               *shown = diag_shown(r->yaml->diag, label->text);
+    if (recording)
+        cure = arena_format(r->arena, "%s (a level that only recordings have: - {label: %s, of: recordings})", cure,
+                            shown);
+    diag_add(r->yaml->diag, label->at, cure, "'%s' is no level of %s", shown, factor->name);
     return -1;
 }
 
@@ -173,16 +165,6 @@ static void order_read(const struct design_reading *r)
 
 /* ------------------------------------------------------------------ level */
 
-static double *level_field(struct level *l, const char *word)
-{
-    return !strcmp(word, "peak")           ? &l->peak
-           : !strcmp(word, "rms")          ? &l->rms
-           : !strcmp(word, "lufs")         ? &l->lufs
-           : !strcmp(word, "full_scale")   ? &l->full_scale
-           : !strcmp(word, "dbfs_at_1_pa") ? &l->dbfs_at_1_pa
-                                           : NULL;
-}
-
 static void level_value(const struct design_reading *r, const char *rule, const struct yaml_node *map)
 {
     static const char *const names[] = {"peak", "rms", "lufs", "full_scale", "dbfs_at_1_pa", NULL};
@@ -192,14 +174,18 @@ static void level_value(const struct design_reading *r, const char *rule, const 
                  design_reading_joined(r, names));
         return;
     }
-    double *field = level_field(&r->design->level, value->key->text);
-    if (!field) {
+    struct level *l = &r->design->level;
+    double *const fields[] = {&l->peak, &l->rms, &l->lufs, &l->full_scale, &l->dbfs_at_1_pa};
+    int i = 0;
+    while (names[i] && strcmp(names[i], value->key->text) != 0)
+        i++;
+    if (!names[i]) {
         design_reading_known(r, map, names, arena_format(r->arena, " in level.%s", rule));
         return;
     }
     const struct key *k = keys_find(arena_format(r->arena, "output.level.%s", value->key->text));
     struct scene_part part = {r->yaml, r->root, "", KEY_SCENE, NULL};
-    scene_values_number(&part, k, value, arena_format(r->arena, "level.%s.%s", rule, value->key->text), field);
+    scene_values_number(&part, k, value, arena_format(r->arena, "level.%s.%s", rule, value->key->text), fields[i]);
 }
 
 static void level_read(const struct design_reading *r)
@@ -329,45 +315,39 @@ static void design_text_read(const struct design_reading *r)
 
 /* ------------------------------------------------------------------ making */
 
-/* False: the factor has no level here. */
-static bool field_put(FILE *f, const struct design *d, const struct design_stimulus *s, const char *name, size_t n)
-{
-    if (is_field(name, n, "replicate")) return fprintf(f, "%d", s->replicate) > 0;
-    for (int k = 0; k < d->n_factors; k++) {
-        if (!is_field(name, n, d->factors[k].name)) continue;
-        const struct design_level *l = s->level[k] < 0 ? NULL : &d->factors[k].levels[s->level[k]];
-        return l && fputs(l->text ? l->text : l->label, f) >= 0;
-    }
-    return false;
-}
-
+/* False: a factor that it names has no level here. */
 static bool template_put(FILE *f, const struct design *d, const struct design_stimulus *s)
 {
     for (const char *t = d->text; *t;) {
         size_t n = strcspn(t, "{");
         fprintf(f, "%.*s", (int)n, t);
         t += n;
-        size_t m = *t ? strcspn(t + 1, "}") : 0;
-        if (*t && !field_put(f, d, s, t + 1, m)) return false;
-        t += *t ? m + 2 : 0;
+        if (!*t) break;
+        size_t m = strcspn(++t, "}");
+        int k = 0;
+        while (k < d->n_factors && !is_field(t, m, d->factors[k].name))
+            k++;
+        if (is_field(t, m, "replicate"))
+            fprintf(f, "%d", s->replicate);
+        else if (k == d->n_factors || s->level[k] < 0)
+            return false;
+        else
+            fputs(d->factors[k].levels[s->level[k]].text ? d->factors[k].levels[s->level[k]].text
+                                                         : d->factors[k].levels[s->level[k]].label,
+                  f);
+        t += m + 1;
     }
     return true;
-}
-
-/* Of a recording, what it says itself. */
-static const char *own_text(const struct design *d, const struct design_stimulus *s)
-{
-    const struct yaml_node *entry = s->recording ? d->texts->cells[s->cell].entry : NULL,
-                           *own = entry ? yaml_get(entry, "text") : NULL;
-    return own ? own->text : NULL;
 }
 
 const char *design_text(const struct design *d, int i, struct arena *a)
 {
     const struct design_stimulus *s = &d->stimuli[i];
+    const struct yaml_node *entry = s->recording ? d->texts->cells[s->cell].entry : NULL,
+                           *own = entry ? yaml_get(entry, "text") : NULL; /* what a recording says itself */
     char *memory = NULL;
     size_t size = 0;
-    if (own_text(d, s) || !d->text) return own_text(d, s);
+    if (own || !d->text) return own ? own->text : NULL;
     FILE *f = memory_stream(&memory, &size);
     bool whole = template_put(f, d, s);
     memory_stream_end(f, &memory);
@@ -377,17 +357,6 @@ const char *design_text(const struct design *d, int i, struct arena *a)
 }
 
 /* ------------------------------------------------------------------ scenes */
-
-struct layer {
-    struct scene_layer_key *keys;
-    int n;
-};
-
-static void add(struct layer *l, const struct design_change *c)
-{
-    if (c->n > 0) memcpy(l->keys + l->n, c->keys, (size_t)c->n * sizeof *c->keys);
-    l->n += c->n;
-}
 
 bool design_scene(const struct design *d, int i, struct arena *a, struct scene *s, const char **messages, struct err *e)
 {
@@ -401,20 +370,22 @@ bool design_scene(const struct design *d, int i, struct arena *a, struct scene *
     int n = t->set.n + 1;
     for (int f = 0; f < d->n_factors; f++)
         n += t->levels[f][level[f]].n;
-    struct layer l = {ARENA_TAKE(a, struct scene_layer_key, n), 0};
-    add(&l, &t->set);
-    for (int f = 0; f < d->n_factors; f++) {
-        const struct design_change *c = &t->levels[f][level[f]];
-        add(&l, c);
+    struct scene_layer_key *keys = ARENA_TAKE(a, struct scene_layer_key, n);
+    n = 0;
+    for (int f = -1; f < d->n_factors; f++) {
+        const struct design_change *c = f < 0 ? &t->set : &t->levels[f][level[f]];
+        for (int k = 0; k < c->n; k++)
+            keys[n++] = c->keys[k];
+        if (f < 0) continue;
         base = c->base ? d->factors[f].levels[level[f]].base : base;
         named = c->base ? c->base : named;
     }
     struct yaml *y = yaml_open(a); /* the design's seed in this stimulus, as a key of the scene */
     struct yaml_node **path = ARENA_TAKE(a, struct yaml_node *, 2);
     path[0] = yaml_make(y, YAML_SCALAR, t->seed, "seed");
-    l.keys[l.n++] = (struct scene_layer_key){
+    keys[n++] = (struct scene_layer_key){
         path, yaml_make(y, YAML_SCALAR, t->seed, arena_format(a, "%llu", (unsigned long long)d->stimuli[i].seed))};
-    const struct scene_layer layer = {named->at, l.keys, l.n};
+    const struct scene_layer layer = {named->at, keys, n};
     return scene_read(base, &(struct scene_overrides){.layer = &layer}, a, s, messages, e);
 }
 
@@ -539,31 +510,6 @@ static void parts_read(struct design_reading *r)
     if (errors->n == 0) design_rows_hash(r);
 }
 
-/* A design of another version: what else looks wrong in it need not be. */
-static bool another_version(struct yaml *y, const struct yaml_node *root)
-{
-    const struct yaml_node *node = yaml_get(root, "rasp-design");
-    if (!node || node->kind != YAML_SCALAR || !*node->text || strspn(node->text, "0123456789") != strlen(node->text) ||
-        strcmp(node->text, "1") == 0)
-        return false;
-    diag_add(y->diag, node->at,
-             "this program reads designs of version 1, written rasp-design: 1; a newer one may read this design",
-             "rasp-design must be 1, not '%s'", diag_shown(y->diag, node->text));
-    return true;
-}
-
-/* Which a design was asked for: what is wrong with it as one is no help. */
-static bool a_scene(struct yaml *y, const struct yaml_node *root)
-{
-    const struct yaml_node *node = yaml_get(root, "rasp");
-    if (!node || yaml_get(root, "rasp-design")) return false;
-    y->diag->n = 0;
-    diag_add(y->diag, node->key->at,
-             "rasp render renders it, rasp check checks it; rasp new design writes a starter design",
-             "this is a scene, not a design of many scenes");
-    return true;
-}
-
 static void text_read(struct yaml *y, const struct diag_source *source, struct design *d)
 {
     struct yaml_node *root = yaml_parse(y, source);
@@ -576,9 +522,21 @@ static void text_read(struct yaml *y, const struct diag_source *source, struct d
                  "a design must be a map of keys");
         return;
     }
-    if (another_version(y, root) || a_scene(y, root)) return;
-    r.keys = keys_text_names(y->arena);
-    parts_read(&r);
+    const struct yaml_node *version = yaml_get(root, "rasp-design"), *scene = yaml_get(root, "rasp");
+    if (version && version->kind == YAML_SCALAR && *version->text && strcmp(version->text, "1") != 0 &&
+        strspn(version->text, "0123456789") == strlen(version->text)) /* what else looks wrong in it need not be */
+        diag_add(y->diag, version->at,
+                 "this program reads designs of version 1, written rasp-design: 1; a newer one may read this design",
+                 "rasp-design must be 1, not '%s'", diag_shown(y->diag, version->text));
+    else if (scene && !version) { /* what is wrong with it as a design is no help */
+        y->diag->n = 0;
+        diag_add(y->diag, scene->key->at,
+                 "rasp render renders it, rasp check checks it; rasp new design writes a starter design",
+                 "this is a scene, not a design of many scenes");
+    } else {
+        r.keys = keys_text_names(y->arena);
+        parts_read(&r);
+    }
 }
 
 bool design_read(const char *file, struct arena *a, struct design *d, const char **messages, struct err *e)

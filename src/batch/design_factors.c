@@ -57,16 +57,6 @@ static bool starts(const char *path, const char *map)
     return strncmp(path, map, n) == 0 && (!path[n] || path[n] == '.');
 }
 
-/* A factor's key is looked at for each of its levels. */
-static bool is_reported(const struct diag *d, const struct diag_place *at)
-{
-    for (int i = 0; i < d->n && i < DIAG_STORED; i++)
-        if (d->errors[i].at.source == at->source && d->errors[i].at.line == at->line &&
-            d->errors[i].at.column == at->column)
-            return true;
-    return false;
-}
-
 /* Keys that are the design's to say. */
 static bool reserved(const struct design_reading *r, const struct yaml_node *key)
 {
@@ -84,8 +74,14 @@ static bool reserved(const struct design_reading *r, const struct yaml_node *key
     else if (starts(key->text, "output.duration") && d->length_rule != DESIGN_LENGTH_OWN)
         cure = "the design has one length rule for the set (length:, by default longest); write length: own to set "
                "durations here";
-    return cure && (is_reported(r->yaml->diag, &key->at) ||
-                    !diag_add(r->yaml->diag, key->at, cure, "%s cannot be set here", key->text));
+    bool reported = false; /* a factor's key is looked at for each of its levels */
+    for (int i = 0; i < r->yaml->diag->n && i < DIAG_STORED; i++) {
+        const struct diag_place *at = &r->yaml->diag->errors[i].at;
+        reported =
+            reported || (at->source == key->at.source && at->line == key->at.line && at->column == key->at.column);
+    }
+    if (cure && !reported) diag_add(r->yaml->diag, key->at, cure, "%s cannot be set here", key->text);
+    return cure;
 }
 
 /* ------------------------------------------------------------------ values */
@@ -437,23 +433,17 @@ static void same_label(const struct design_reading *r, int f, const int *two, co
 
 /* ------------------------------------------------------------------ levels */
 
-/* Told of the first such level: with a word that should be a key, all are. */
-static void no_key(const struct reading_level *l, const struct yaml_node *item)
-{
-    const char *near = design_changes_near(l->r, l->name->text);
-    if (l->index == 0 || l->r->factors[l->factor]->first->kind != YAML_SCALAR)
-        diag_add(l->r->yaml->diag, item->at,
-                 near ? arena_format(l->r->arena, "did you mean %s? else %s", near, map_cure) : map_cure,
-                 "a level of %s must be a map, not %s: %s is no key of scenes whose values could be levels",
-                 l->name->text, scene_values_kind(l->r->yaml, item), l->name->text);
-}
-
 static void scalar_read(const struct reading_level *l, const struct yaml_node *item)
 {
     const struct key *k = design_changes_key(l->name->text);
     struct arena *a = l->r->arena;
-    if (!l->key) {
-        no_key(l, item);
+    if (!l->key) { /* told of the first such level: with a word that should be a key, all are */
+        const char *near = design_changes_near(l->r, l->name->text);
+        if (l->index == 0 || l->r->factors[l->factor]->first->kind != YAML_SCALAR)
+            diag_add(l->r->yaml->diag, item->at,
+                     near ? arena_format(a, "did you mean %s? else %s", near, map_cure) : map_cure,
+                     "a level of %s must be a map, not %s: %s is no key of scenes whose values could be levels",
+                     l->name->text, scene_values_kind(l->r->yaml, item), l->name->text);
         return;
     }
     if (*item->text) {
@@ -462,16 +452,6 @@ static void scalar_read(const struct reading_level *l, const struct yaml_node *i
         label_set(l, label);
     }
     design_changes_add(l->r, change_of(l), l->name, item);
-}
-
-static void base_read(const struct reading_level *l, const struct yaml_node *base)
-{
-    if (base->kind != YAML_SCALAR || !*base->text) {
-        design_reading_must(l->r, base, "base", "the file name of a scene", "write for instance: base: scrape.yaml");
-        return;
-    }
-    change_of(l)->base = base;
-    level_of(l)->base = scene_merge_path(l->r->yaml, base->at.source, base->text);
 }
 
 /* A level of recordings has no scene to change. */
@@ -509,7 +489,12 @@ static void map_read(const struct reading_level *l, const struct yaml_node *map)
                             "write for instance: text: a plank of poplar");
     else if (text)
         level_of(l)->text = text->text;
-    if (base) base_read(l, base);
+    if (base && (base->kind != YAML_SCALAR || !*base->text))
+        design_reading_must(l->r, base, "base", "the file name of a scene", "write for instance: base: scrape.yaml");
+    else if (base) {
+        change_of(l)->base = base;
+        level_of(l)->base = scene_merge_path(l->r->yaml, base->at.source, base->text);
+    }
     if (yaml_get(map, "of")) of_read(l, map, yaml_get(map, "of"));
 }
 
@@ -528,14 +513,6 @@ static void level_read(const struct reading_level *l, const struct yaml_node *it
 
 /* ------------------------------------------------------------------ factors */
 
-static bool is_word(const char *s)
-{
-    if (!isalpha((unsigned char)*s)) return false;
-    while (isalnum((unsigned char)*s) || *s == '_' || *s == '-')
-        s++;
-    return !*s;
-}
-
 static bool name_good(const struct design_reading *r, const struct yaml_node *name, bool *key)
 {
     static const char *const taken[] = {"replicate", "order", "cell", NULL};
@@ -544,7 +521,10 @@ static bool name_good(const struct design_reading *r, const struct yaml_node *na
     if (text_is_one(name->text, taken))
         return diag_add(r->yaml->diag, name->at, "call the factor otherwise",
                         "%s has a meaning of its own in names: a factor cannot be called so", name->text);
-    return is_word(name->text) ||
+    const char *s = name->text;
+    while (isalnum((unsigned char)*s) || *s == '_' || *s == '-')
+        s++;
+    return (isalpha((unsigned char)name->text[0]) && !*s) ||
            diag_add(r->yaml->diag, name->at, "write for instance: material",
                     "a factor must be a key of scenes, or a word (letters, digits, _ and -, a letter first), not '%s'",
                     diag_shown(r->yaml->diag, name->text));
@@ -609,28 +589,20 @@ static void factors_read(struct design_reading *r, const struct yaml_node *map)
 
 /* ------------------------------------------------------------------ bases */
 
-static int bases_of(const struct design_reading *r, int f, const struct yaml_node **one, bool *all)
-{
-    int n = 0;
-    *all = true;
-    for (int i = 0; i < r->design->factors[f].n_levels; i++)
-        if (r->texts->levels[f][i].base) {
-            *one = r->texts->levels[f][i].base;
-            n++;
-        } else if (!r->design->factors[f].levels[i].recorded) {
-            *all = false;
-        }
-    return n;
-}
-
 /* A stimulus has one base: the design's, or that of the one factor whose levels have some. */
 static void bases_check(const struct design_reading *r)
 {
     const struct yaml_node *one = NULL;
     bool all = false, some = false;
     for (int f = 0; f < r->design->n_factors; f++) {
-        bool every;
-        int n = bases_of(r, f, &one, &every);
+        int n = 0;
+        bool every = true;
+        for (int i = 0; i < r->design->factors[f].n_levels; i++)
+            if (r->texts->levels[f][i].base) {
+                one = r->texts->levels[f][i].base;
+                n++;
+            } else if (!r->design->factors[f].levels[i].recorded)
+                every = false;
         if (n && some)
             diag_add(r->yaml->diag, one->key->at, "let one factor choose the scene",
                      "levels of two factors have a base");

@@ -211,29 +211,25 @@ struct names {
 
 static bool is_letter(char c) { return isalnum((unsigned char)c) || (c && strchr("+_.-", c)); }
 
-/* What stands in a name for the character at s, of `size` bytes, that is no letter of names. */
-static const char *instead(const char *label, const char *s, int size)
+static const char *label_name(const char *label, struct arena *a)
 {
     static const char *const signs[][2] = {
         {"\xc2\xb5", "u"}, {"\xce\xbc", "u"}, {"\xc2\xb2", "2"}, {"\xc2\xb3", "3"}, {"\xc2\xb0", "deg"}};
-    for (size_t i = 0; i < sizeof signs / sizeof signs[0]; i++)
-        if (size == 2 && strncmp(s, signs[i][0], 2) == 0) return signs[i][1];
-    return *s == ' ' && s > label && isdigit((unsigned char)s[-1]) && text_number_length(label) == (size_t)(s - label)
-               ? ""
-               : "_";
-}
-
-static const char *label_name(const char *label, struct arena *a)
-{
     char *name = arena_take(a, 2 * strlen(label) + 4, 1), *to = name;
     for (const char *s = label; *s;) {
         uint32_t code;
         int n = text_utf8(s, strlen(s), &code);
         n = n ? n : 1;
+        /* the blank between a number and its unit goes; "1 Hz" is 1Hz */
+        bool gap =
+            *s == ' ' && s > label && isdigit((unsigned char)s[-1]) && text_number_length(label) == (size_t)(s - label);
+        const char *instead = gap ? "" : "_";
+        for (size_t i = 0; n == 2 && i < sizeof signs / sizeof signs[0]; i++)
+            if (strncmp(s, signs[i][0], 2) == 0) instead = signs[i][1];
         if (is_letter(*s))
             *to++ = *s;
         else
-            to = stpcpy(to, instead(label, s, n));
+            to = stpcpy(to, instead);
         s += n;
     }
     return name;
@@ -260,23 +256,18 @@ static int field_of(const struct design_reading *r, const struct yaml_node *node
     return FIELD_TEXT;
 }
 
-static void letters_check(const struct design_reading *r, const struct yaml_node *node, const char *text)
-{
-    uint32_t code;
-    while (is_letter(*text) || *text == '/')
-        text++;
-    if (*text)
-        diag_add(r->yaml->diag, node->at, "names are of letters a-z, digits, + _ . - and / for folders",
-                 "a name cannot hold '%.*s'", text_utf8(text, strlen(text), &code), text);
-}
-
 /* One piece from s on; returns where the next begins. */
 static const char *piece_read(const struct design_reading *r, struct design_template *t, const char *s)
 {
     const char *end = s + strcspn(s, "{}");
     if (end > s) {
-        const char *text = arena_format(r->arena, "%.*s", (int)(end - s), s);
-        letters_check(r, t->node, text);
+        const char *text = arena_format(r->arena, "%.*s", (int)(end - s), s), *bad = text;
+        uint32_t code;
+        while (is_letter(*bad) || *bad == '/')
+            bad++;
+        if (*bad)
+            diag_add(r->yaml->diag, t->node->at, "names are of letters a-z, digits, + _ . - and / for folders",
+                     "a name cannot hold '%.*s'", text_utf8(bad, strlen(bad), &code), bad);
         t->pieces[t->n++] = (struct piece){FIELD_TEXT, text};
         return end;
     }
@@ -346,22 +337,6 @@ static const char *expanded(const struct names *x, const struct design_template 
     return arena_text(x->r->arena, name);
 }
 
-static int digits_of(long n) { return snprintf(NULL, 0, "%ld", n); }
-
-static void labels_make(struct names *x)
-{
-    const struct design *d = x->r->design;
-    x->labels = ARENA_TAKE(x->r->arena, const char **, d->n_factors + 1);
-    for (int f = 0; f < d->n_factors; f++) {
-        x->labels[f] = ARENA_TAKE(x->r->arena, const char *, d->factors[f].n_levels);
-        for (int i = 0; i < d->factors[f].n_levels; i++)
-            x->labels[f][i] = label_name(d->factors[f].levels[i].label, x->r->arena);
-    }
-    x->width[0] = digits_of(d->replicates);
-    x->width[1] = digits_of(d->n_stimuli);
-    x->width[2] = digits_of(x->r->n_cells);
-}
-
 void design_names_template(struct design_reading *r)
 {
     const struct yaml_node *node = design_reading_value(r, "name");
@@ -376,7 +351,15 @@ void design_names_make(struct design_reading *r)
     int errors = r->yaml->diag->n;
     struct names x = {.r = r};
     struct design_template t = r->template->node ? *r->template : template_default(r);
-    labels_make(&x);
+    const long most[3] = {d->replicates, d->n_stimuli, r->n_cells};
+    for (int k = 0; k < 3; k++)
+        x.width[k] = snprintf(NULL, 0, "%ld", most[k]);
+    x.labels = ARENA_TAKE(r->arena, const char **, d->n_factors + 1);
+    for (int f = 0; f < d->n_factors; f++) {
+        x.labels[f] = ARENA_TAKE(r->arena, const char *, d->factors[f].n_levels);
+        for (int i = 0; i < d->factors[f].n_levels; i++)
+            x.labels[f][i] = label_name(d->factors[f].levels[i].label, r->arena);
+    }
     for (int i = 0; i < d->n_stimuli && r->yaml->diag->n == errors; i++) {
         const struct design_cell *cell = &r->cells[d->stimuli[i].cell];
         const struct yaml_node *node = cell->recording ? yaml_get(cell->entry, "name") : NULL;

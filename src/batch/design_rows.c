@@ -153,22 +153,6 @@ static void level_name(const struct design_reading *r, int f, const struct yaml_
     if (i >= 0) named[i] = 1;
 }
 
-static void exclusion_read(const struct design_reading *r, struct exclusion *x)
-{
-    x->named = ARENA_TAKE(r->arena, unsigned char *, r->design->n_factors + 1);
-    if (x->entry->n == 0)
-        diag_add(r->yaml->diag, x->entry->at, "write for instance: exclude: [{material: wood, motion.rate: 2 Hz}]",
-                 "this excludes every cell");
-    for (const struct yaml_node *item = x->entry->first; item; item = item->next) {
-        int f = design_reading_factor(r, item->key);
-        if (f < 0) continue;
-        x->named[f] = arena_take(r->arena, (size_t)r->design->factors[f].n_levels, 1);
-        if (item->kind != YAML_LIST) level_name(r, f, item, x->named[f]);
-        for (const struct yaml_node *label = item->kind == YAML_LIST ? item->first : NULL; label; label = label->next)
-            level_name(r, f, label, x->named[f]);
-    }
-}
-
 static struct exclusion *exclusions_read(const struct design_reading *r, int *n)
 {
     const struct yaml_node *list = design_reading_value(r, "exclude");
@@ -183,8 +167,20 @@ static struct exclusion *exclusions_read(const struct design_reading *r, int *n)
         return all;
     for (const struct yaml_node *entry = list->first; entry; entry = entry->next) {
         if (entry->kind != YAML_MAP) continue;
-        all[*n] = (struct exclusion){.entry = entry};
-        exclusion_read(r, &all[(*n)++]);
+        struct exclusion *x = &all[(*n)++];
+        *x = (struct exclusion){.entry = entry,
+                                .named = ARENA_TAKE(r->arena, unsigned char *, r->design->n_factors + 1)};
+        if (entry->n == 0)
+            diag_add(r->yaml->diag, entry->at, "write for instance: exclude: [{material: wood, motion.rate: 2 Hz}]",
+                     "this excludes every cell");
+        for (const struct yaml_node *item = entry->first; item; item = item->next) {
+            int f = design_reading_factor(r, item->key);
+            if (f < 0) continue;
+            x->named[f] = arena_take(r->arena, (size_t)r->design->factors[f].n_levels, 1);
+            if (item->kind != YAML_LIST) level_name(r, f, item, x->named[f]);
+            for (const struct yaml_node *one = item->kind == YAML_LIST ? item->first : NULL; one; one = one->next)
+                level_name(r, f, one, x->named[f]);
+        }
     }
     return all;
 }
@@ -289,16 +285,6 @@ static int by_factor_name(const void *pa, const void *pb)
     return strcmp((*a)->name, (*b)->name);
 }
 
-static const struct design_factor **factors_by_name(const struct design_reading *r)
-{
-    int n = r->design->n_factors;
-    const struct design_factor **all = ARENA_TAKE(r->arena, const struct design_factor *, n + 1);
-    for (int f = 0; f < n; f++)
-        all[f] = &r->design->factors[f];
-    qsort(all, (size_t)n, sizeof *all, by_factor_name);
-    return all;
-}
-
 static void add_labels(struct hash *x, const struct design *d, const struct design_factor *const *factors,
                        const int *level, bool independent)
 {
@@ -309,30 +295,6 @@ static void add_labels(struct hash *x, const struct design *d, const struct desi
         hash_text(x, f->name);
         hash_text(x, f->levels[i].label);
     }
-}
-
-static uint64_t seed_of(const struct design *d, const struct design_factor *const *factors,
-                        const struct design_stimulus *s)
-{
-    struct hash x = hash_start();
-    hash_text(&x, "rasp design seed");
-    add_number(&x, d->seed);
-    add_number(&x, (uint64_t)s->replicate);
-    add_labels(&x, d, factors, s->level, true);
-    return first_64_bits(&x);
-}
-
-static uint64_t rank_of(const struct design_reading *r, const struct design_factor *const *factors,
-                        const struct design_stimulus *s)
-{
-    struct hash x = hash_start();
-    hash_text(&x, "rasp design order");
-    const struct yaml_node *file = s->recording ? yaml_get(r->cells[s->cell].entry, "file") : NULL;
-    add_number(&x, r->design->order_seed);
-    add_number(&x, (uint64_t)s->replicate);
-    hash_text(&x, file ? file->text : "");
-    add_labels(&x, r->design, factors, s->level, false);
-    return first_64_bits(&x);
 }
 
 struct ranked {
@@ -351,8 +313,17 @@ static void shuffle(struct design_reading *r, const struct design_factor *const 
 {
     struct design *d = r->design;
     struct ranked *all = ARENA_TAKE(r->arena, struct ranked, d->n_stimuli);
-    for (int i = 0; i < d->n_stimuli; i++)
-        all[i] = (struct ranked){d->stimuli[i], rank_of(r, factors, &d->stimuli[i])};
+    for (int i = 0; i < d->n_stimuli; i++) {
+        const struct design_stimulus *s = &d->stimuli[i];
+        const struct yaml_node *file = s->recording ? yaml_get(r->cells[s->cell].entry, "file") : NULL;
+        struct hash x = hash_start();
+        hash_text(&x, "rasp design order");
+        add_number(&x, d->order_seed);
+        add_number(&x, (uint64_t)s->replicate);
+        hash_text(&x, file ? file->text : "");
+        add_labels(&x, d, factors, s->level, false);
+        all[i] = (struct ranked){*s, first_64_bits(&x)};
+    }
     qsort(all, (size_t)d->n_stimuli, sizeof *all, by_rank);
     for (int i = 0; i < d->n_stimuli; i++)
         d->stimuli[i] = all[i].stimulus;
@@ -361,7 +332,10 @@ static void shuffle(struct design_reading *r, const struct design_factor *const 
 void design_rows_stimuli(struct design_reading *r)
 {
     struct design *d = r->design;
-    const struct design_factor **factors = factors_by_name(r);
+    const struct design_factor **factors = ARENA_TAKE(r->arena, const struct design_factor *, d->n_factors + 1);
+    for (int f = 0; f < d->n_factors; f++)
+        factors[f] = &d->factors[f];
+    qsort(factors, (size_t)d->n_factors, sizeof *factors, by_factor_name);
     d->stimuli = ARENA_TAKE(r->arena, struct design_stimulus, r->n_cells * d->replicates + 1);
     for (long c = 0; c < r->n_cells; c++) {
         const struct design_cell *cell = &r->cells[c];
@@ -369,7 +343,13 @@ void design_rows_stimuli(struct design_reading *r)
             struct design_stimulus *s = &d->stimuli[d->n_stimuli++];
             *s =
                 (struct design_stimulus){.level = cell->level, .replicate = k, .cell = c, .recording = cell->recording};
-            s->seed = cell->recording ? 0 : seed_of(d, factors, s);
+            if (cell->recording) continue;
+            struct hash x = hash_start();
+            hash_text(&x, "rasp design seed");
+            add_number(&x, d->seed);
+            add_number(&x, (uint64_t)k);
+            add_labels(&x, d, factors, s->level, true);
+            s->seed = first_64_bits(&x);
         }
     }
     if (d->shuffled) shuffle(r, factors);
@@ -385,37 +365,19 @@ static void add_change(struct hash *x, const struct design_change *c, const char
     hash_text(x, "");
 }
 
-static void add_rules(struct hash *x, const struct design *d)
-{
-    char text[200];
-    const struct level *l = &d->level;
-    hash_text(x, d->title ? d->title : "");
-    hash_text(x, d->text ? d->text : "");
-    add_number(x, d->seed);
-    snprintf(text, sizeof text, "%d %a %a %a %a %a %d %a", d->level_rule, l->peak, l->rms, l->lufs, l->full_scale,
-             l->dbfs_at_1_pa, d->length_rule, d->length);
-    hash_text(x, text);
-}
-
-static void add_stimulus(struct hash *x, const struct design_reading *r, const struct design_stimulus *s)
-{
-    hash_text(x, s->name);
-    for (int f = 0; f < r->design->n_factors; f++)
-        add_number(x, (uint64_t)(s->level[f] + 1));
-    add_number(x, (uint64_t)s->replicate);
-    add_number(x, (uint64_t)s->cell);
-    add_number(x, s->seed);
-    if (s->recording && yaml_get(r->cells[s->cell].entry, "text"))
-        hash_text(x, yaml_get(r->cells[s->cell].entry, "text")->text);
-    hash_text(x, s->recording ? yaml_get(r->cells[s->cell].entry, "file")->text : "");
-}
-
 void design_rows_hash(struct design_reading *r)
 {
     const struct design *d = r->design;
     struct hash x = hash_start();
+    const struct level *l = &d->level;
+    char rules[200];
     hash_text(&x, "rasp design 1");
-    add_rules(&x, d);
+    hash_text(&x, d->title ? d->title : "");
+    hash_text(&x, d->text ? d->text : "");
+    add_number(&x, d->seed);
+    snprintf(rules, sizeof rules, "%d %a %a %a %a %a %d %a", d->level_rule, l->peak, l->rms, l->lufs, l->full_scale,
+             l->dbfs_at_1_pa, d->length_rule, d->length);
+    hash_text(&x, rules);
     hash_text(&x, r->texts->base ? r->texts->base->text : "");
     add_change(&x, &r->texts->set, d->set);
     for (int f = 0; f < d->n_factors; f++) {
@@ -427,7 +389,17 @@ void design_rows_hash(struct design_reading *r)
             add_change(&x, &r->texts->levels[f][i], d->factors[f].levels[i].set);
         }
     }
-    for (int i = 0; i < d->n_stimuli; i++)
-        add_stimulus(&x, r, &d->stimuli[i]);
+    for (const struct design_stimulus *s = d->stimuli; s < d->stimuli + d->n_stimuli; s++) {
+        const struct yaml_node *entry = s->recording ? r->cells[s->cell].entry : NULL,
+                               *own = entry ? yaml_get(entry, "text") : NULL;
+        hash_text(&x, s->name);
+        for (int f = 0; f < d->n_factors; f++)
+            add_number(&x, (uint64_t)(s->level[f] + 1));
+        add_number(&x, (uint64_t)s->replicate);
+        add_number(&x, (uint64_t)s->cell);
+        add_number(&x, s->seed);
+        if (own) hash_text(&x, own->text);
+        hash_text(&x, entry ? yaml_get(entry, "file")->text : "");
+    }
     hash_end(&x, r->design->sha256);
 }

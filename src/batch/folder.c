@@ -170,19 +170,6 @@ static bool is_busy(const struct folder_owner *o, const struct owner *was, struc
                    o->folder, was->lines[4] ? ", " : "", was->lines[4] ? was->lines[4] : "");
 }
 
-static bool note(const struct folder_owner *o, int fd, struct arena *a, struct err *e)
-{
-    char host[256] = "";
-    gethostname(host, sizeof host - 1);
-    const char *text = arena_format(a, "%s\n%s\n%s\n%s\n%s, process %ld\n", format, o->sha256, place_of(o, a),
-                                    o->program, text_shown(a, host), (long)getpid());
-    size_t n = strlen(text);
-    if (n > MOST) return err_set(e, ERR_CREATE, "%s: the path is too long", o->design);
-    errno = ENOSPC; /* where less is written than was asked for */
-    if (pwrite(fd, text, n, 0) == (ssize_t)n && ftruncate(fd, (off_t)n) == 0) return true;
-    return err_set(e, err_system(ERR_CREATE), "%s/.rasp/owner: cannot be written: %s", o->folder, strerror(errno));
-}
-
 /* Takes the lock of who works, while nobody else can enter. */
 static bool enter(const struct folder_owner *o, int fd, struct arena *a, struct err *e)
 {
@@ -192,8 +179,17 @@ static bool enter(const struct folder_owner *o, int fd, struct arena *a, struct 
     bool alone = flock(fd, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK; /* else there are no locks */
     bool same = was.lines[0] && !strcmp(was.lines[1], o->sha256) && !strcmp(was.lines[3], o->program);
     if (!alone && !(o->part && same && flock(fd, LOCK_SH | LOCK_NB) == 0)) return is_busy(o, &was, e);
-    if (alone && !note(o, fd, a, e)) return false;
-    if (o->part && alone) flock(fd, LOCK_SH);
+    if (!alone) return true;
+    char host[256] = "";
+    gethostname(host, sizeof host - 1);
+    const char *text = arena_format(a, "%s\n%s\n%s\n%s\n%s, process %ld\n", format, o->sha256, place_of(o, a),
+                                    o->program, text_shown(a, host), (long)getpid());
+    size_t n = strlen(text);
+    if (n > MOST) return err_set(e, ERR_CREATE, "%s: the path is too long", o->design);
+    errno = ENOSPC; /* where less is written than was asked for */
+    if (pwrite(fd, text, n, 0) != (ssize_t)n || ftruncate(fd, (off_t)n) != 0)
+        return err_set(e, err_system(ERR_CREATE), "%s/.rasp/owner: cannot be written: %s", o->folder, strerror(errno));
+    if (o->part) flock(fd, LOCK_SH);
     return true;
 }
 
@@ -352,29 +348,23 @@ static void process_named(const char *pid, char text[64])
     snprintf(text, 64, "%.*s", from && to > from ? (int)(to - from) + 3 : 0, from ? from : "");
 }
 
-/* Does a program like this one run under that number? One that was killed may still be there, as a zombie; and its
- * number may have gone to another. */
-static bool runs(int pid)
-{
-    char number[16], other[64], self[64];
-    snprintf(number, sizeof number, "%d", pid);
-    process_named("self", self);
-    process_named(number, other);
-    size_t n = strlen(self);
-    if (!n) return kill(pid, 0) == 0 || errno != ESRCH; /* no /proc */
-    return strlen(other) == n && !strncmp(self, other, n - 1) && other[n - 1] != 'Z' && other[n - 1] != 'X';
-}
-
 /* ".rasp-1234-0.part" of a process that is not there: it was about to be renamed. */
 static bool is_left(const char *name)
 {
     const char *dash = !strncmp(name, ".rasp-", 6) ? strchr(name + 6, '-') : NULL;
     size_t n = strlen(name), digits = dash ? (size_t)(dash - name) - 6 : 0;
-    char text[16] = "";
+    char text[16] = "", other[64], self[64];
     int pid;
     if (!dash || n < 6 || strcmp(name + n - 5, ".part") != 0 || digits >= sizeof text) return false;
     memcpy(text, name + 6, digits);
-    return text_int(text, 1, 2147483647, &pid) && !runs(pid);
+    if (!text_int(text, 1, 2147483647, &pid)) return false;
+    /* Does a program like this one run under that number? One that was killed may still be there, as a zombie; and its
+       number may have gone to another. */
+    process_named("self", self);
+    process_named(text, other);
+    size_t size = strlen(self);
+    if (!size) return kill(pid, 0) != 0 && errno == ESRCH; /* no /proc */
+    return strlen(other) != size || strncmp(self, other, size - 1) != 0 || strchr("ZX", other[size - 1]);
 }
 
 /* ------------------------------------------------------------------ stale files */

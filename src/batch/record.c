@@ -118,18 +118,11 @@ bool record_write(const char *folder, const char *name, const struct record *r, 
 
 /* ------------------------------------------------------------------ reading */
 
-/* Files of a stimulus are called NAME.something: a record that says otherwise leads nowhere. */
-static bool is_own(const char *file, const char *name)
-{
-    const char *base = basename(name);
-    size_t n = strlen(base);
-    return file && !strchr(file, '/') && !strncmp(file, base, n) && file[n] == '.' && strcmp(file + n, ".json") != 0;
-}
-
 static bool parse_files(const json_t *list, const char *name, struct arena *a, struct record *r)
 {
     json_t *file;
-    size_t i;
+    const char *base = basename(name);
+    size_t i, n = strlen(base);
     r->files = ARENA_TAKE(a, struct record_file, json_array_size(list) + 1);
     json_array_foreach(list, i, file)
     {
@@ -139,7 +132,10 @@ static bool parse_files(const json_t *list, const char *name, struct arena *a, s
                                   .raw = json_is_true(json_object_get(file, "raw")),
                                   .sha256 = json_value_text_of(file, "sha256", a),
                                   .size = (double)json_integer_value(json_object_get(file, "size"))};
-        if (!f->kind || !f->sha256 || !is_own(own, name)) return false;
+        /* called NAME.something: a record that says otherwise leads nowhere */
+        if (!f->kind || !f->sha256 || !own || strchr(own, '/') || strncmp(own, base, n) != 0 || own[n] != '.' ||
+            !strcmp(own + n, ".json"))
+            return false;
         f->path = record_file_path(name, own, f->raw, a);
     }
     return json_is_array(list);

@@ -233,55 +233,37 @@ static bool is_otherwise(const struct planning *p, int i, struct look *l)
 
 /* ------------------------------------------------------------------ faults */
 
-/* Which fault it is. The first that has it keeps its texts. */
-static int note(struct planning *p, int i, struct trial *t)
-{
-    struct set_plan *o = p->out;
-    int k = 0;
-    o->worst = t->e.kind > o->worst ? t->e.kind : o->worst;
-    for (; k < o->n_faults && k < SET_FAULTS; k++)
-        if (!strcmp(o->faults[k].messages, t->messages) && (*t->messages || !strcmp(o->faults[k].err->text, t->e.text)))
-            break;
-    if (k == o->n_faults) {
-        o->faults = arena_more(p->arena, o->faults, o->n_faults, sizeof *o->faults);
-        o->faults[o->n_faults++] = (struct set_fault){t->arena, t->diag, t->messages, &t->e, name_of(p, i), 0};
-    } else
-        arena_close(t->arena);
-    return k;
-}
-
-static void warn(struct planning *p, int i, const char *text)
-{
-    struct set_plan *o = p->out;
-    int k = 0;
-    while (k < o->n_warnings && strcmp(o->warnings[k].text, text) != 0)
-        k++;
-    if (k == o->n_warnings && k < SET_FAULTS)
-        o->warnings[o->n_warnings++] = (struct set_warning){arena_text(p->arena, text), name_of(p, i)};
-}
-
 static void conclude(struct planning *p, int i, struct look *l)
 {
+    struct set_plan *o = p->out;
     struct trial *t = l->trial;
     l->trial = NULL;
-    for (int k = 0; t && !t->e.kind && t->warnings && t->warnings[k]; k++)
-        warn(p, i, t->warnings[k]);
-    if (t && t->e.kind)
-        l->fault = note(p, i, t) + 1;
-    else if (t)
+    for (int k = 0; t && !t->e.kind && t->warnings && t->warnings[k]; k++) {
+        int known = 0;
+        while (known < o->n_warnings && strcmp(o->warnings[known].text, t->warnings[k]) != 0)
+            known++;
+        if (known == o->n_warnings && known < SET_FAULTS)
+            o->warnings[o->n_warnings++] = (struct set_warning){arena_text(p->arena, t->warnings[k]), name_of(p, i)};
+    }
+    int k = 0; /* which fault it is: the first that has it keeps its texts */
+    bool bad = t && t->e.kind;
+    while (bad && k < o->n_faults && k < SET_FAULTS &&
+           (strcmp(o->faults[k].messages, t->messages) != 0 ||
+            (!*t->messages && strcmp(o->faults[k].err->text, t->e.text) != 0)))
+        k++;
+    if (bad) {
+        o->worst = t->e.kind > o->worst ? t->e.kind : o->worst;
+        l->fault = k + 1;
+    }
+    if (bad && k == o->n_faults) {
+        o->faults = arena_more(p->arena, o->faults, o->n_faults, sizeof *o->faults);
+        o->faults[o->n_faults++] = (struct set_fault){t->arena, t->diag, t->messages, &t->e, name_of(p, i), 0};
+    } else if (t)
         arena_close(t->arena);
-    if (l->fault) p->out->faults[l->fault - 1].n++;
+    if (l->fault) o->faults[l->fault - 1].n++;
 }
 
 /* ------------------------------------------------------------------ scenes */
-
-static bool has_last_endings(const struct planning *p, const struct outputs *o)
-{
-    bool same = p->last;
-    for (int k = 0; same && k < o->n; k++)
-        same = p->last[k] && !strcmp(o->paths[k], p->last[k]);
-    return same && !p->last[o->n];
-}
 
 /* The files that the scene of stimulus i reads, and the endings of those that it writes. */
 static void note_files(struct planning *p, int i, const struct scene *scene)
@@ -292,7 +274,10 @@ static void note_files(struct planning *p, int i, const struct scene *scene)
     const struct outputs o = outputs_make(scene, "", a);
     for (int k = 0; k < n; k++)
         folder_inputs_add(p->out->inputs, reads[k].file, reads[k].what, reads[k].device, reads[k].inode);
-    if (!has_last_endings(p, &o)) {
+    bool same = p->last; /* most share theirs with the one before */
+    for (int k = 0; same && k < o.n; k++)
+        same = p->last[k] && !strcmp(o.paths[k], p->last[k]);
+    if (!same || p->last[o.n]) {
         p->last = ARENA_TAKE(p->arena, const char *, o.n + 1);
         for (int k = 0; k < o.n; k++)
             p->last[k] = arena_text(p->arena, o.paths[k]);
@@ -362,12 +347,12 @@ static bool look_at_all(struct planning *p, struct err *e)
 
 static bool is_sound(const struct planning *p, int i) { return !recording_of(p, i) && p->looks[p->first[i]].sounds; }
 
-/* The form of the set is that of its first sound; recordings alone have that of the first of them, in 24 bits. */
-static void find_form(struct planning *p)
+/* Of recordings alone the form is that of the first of them, in 24 bits. */
+static void look_at_forms(struct planning *p)
 {
     struct set *s = p->set;
     p->first_sound = p->first_stated = -1;
-    for (int i = s->n - 1; i >= 0; i--) {
+    for (int i = s->n - 1; i >= 0; i--) { /* the form is that of the first sound */
         const struct look *l = &p->looks[p->first[i]];
         if (!is_sound(p, i)) continue;
         p->first_stated = l->quantity >= 0 ? i : p->first_stated;
@@ -377,12 +362,7 @@ static void find_form(struct planning *p)
         s->encoding = l->encoding;
         s->ramp = l->ramp;
     }
-}
-
-static void look_at_forms(struct planning *p)
-{
-    find_form(p);
-    for (int i = 0; i < p->set->n; i++) {
+    for (int i = 0; i < s->n; i++) {
         struct look *l = &p->looks[p->first[i]];
         if (is_sound(p, i) && (p->first[i] == i ? !l->fault && is_otherwise(p, i, l) : l->otherwise)) conclude(p, i, l);
     }
@@ -415,17 +395,6 @@ static double seconds_of(const struct set *s, const struct look *l)
     return isnan(s->length) ? l->seconds : s->length;
 }
 
-/* Of a common loudness one that is long enough is enough. */
-static bool may_be_short(const struct planning *p)
-{
-    struct set *s = p->set;
-    for (int i = 0; i < s->n && s->level_rule == DESIGN_LEVEL_COMMON; i++) {
-        const struct look *l = &p->looks[p->first[i]];
-        if (!recording_of(p, i) && l->sounds && !is_short(l, seconds_of(s, l))) return false;
-    }
-    return true;
-}
-
 /* Found out before anything is rendered, too: what keeps one of them from its level, which depends on the set's length.
  */
 static void look_at_levels(struct planning *p)
@@ -439,7 +408,12 @@ static void look_at_levels(struct planning *p)
         if (!recording_check_level(file, s, &l->trial->e)) design_scene_recording(s->design, i, &l->trial->e);
         conclude(p, i, l);
     }
-    for (int i = 0, some = may_be_short(p); some && i < s->n; i++) {
+    bool some = true; /* of a common loudness one that is long enough is enough */
+    for (int i = 0; i < s->n && s->level_rule == DESIGN_LEVEL_COMMON; i++) {
+        const struct look *l = &p->looks[p->first[i]];
+        some = some && (recording_of(p, i) || !l->sounds || is_short(l, seconds_of(s, l)));
+    }
+    for (int i = 0; some && i < s->n; i++) {
         struct look *l = &p->looks[p->first[i]];
         double seconds = seconds_of(s, l);
         if (recording_of(p, i) || (p->first[i] == i ? l->fault || !is_short(l, seconds) : !l->brief)) continue;

@@ -13,7 +13,6 @@
 #include "base/outfile.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
-#include "batch/measure.h"
 #include "batch/recording.h"
 #include "file/json_value.h"
 #include "num/real.h"
@@ -63,15 +62,6 @@ static bool read_scene(struct work *w, struct err *e)
     return true;
 }
 
-static bool read_recording(struct work *w, struct err *e)
-{
-    char hex[HASH_TEXT];
-    w->inputs = file_cache_watch(&w->file, 1, w->arena);
-    if (!hash_file(w->file, hex, e)) return design_scene_recording(w->k->set->design, w->i, e);
-    w->key = recording_key(w->k->set, hex, w->arena);
-    return true;
-}
-
 /* ------------------------------------------------------------------ is it there? */
 
 static bool is_later(const struct timespec *a, const struct timespec *b)
@@ -110,7 +100,13 @@ static bool begin(struct work *w, const struct stimulus_set *k, int i, struct ar
     const struct design_stimulus *x = &k->set->design->stimuli[i];
     *w = (struct work){.k = k, .i = i, .name = x->name, .arena = a, .file = x->recording};
     w->base = arena_format(a, "%s/%s", k->folder, x->name);
-    if (!(w->file ? read_recording(w, e) : read_scene(w, e))) return false;
+    if (w->file) {
+        char hex[HASH_TEXT];
+        w->inputs = file_cache_watch(&w->file, 1, a);
+        if (!hash_file(w->file, hex, e)) return design_scene_recording(k->set->design, i, e);
+        w->key = recording_key(k->set, hex, a);
+    } else if (!read_scene(w, e))
+        return false;
     struct record *r = ARENA_TAKE(a, struct record, 1);
     w->was = record_read(k->folder, w->name, a, r) ? r : NULL;
     w->state = !w->was                                           ? STIMULUS_NEW
@@ -181,38 +177,13 @@ static struct record begun(const struct work *w, enum record_status status, int 
     return r;
 }
 
-/* What lies there, and what is about to. */
-static struct record making(const struct work *w, const struct record *to)
-{
-    int n = w->was ? w->was->n_files : 0;
-    struct record r = begun(w, RECORD_MAKING, n + to->n_files);
-    for (int k = 0; k < n; k++)
-        r.files[r.n_files++] = w->was->files[k];
-    for (int k = 0; k < to->n_files; k++)
-        r.files[r.n_files++] = to->files[k];
-    return r;
-}
-
-/* Files of before that are not written any more, unless somebody changed them. */
-static void remove_old(const struct work *w, const struct record *to)
-{
-    for (int k = 0; w->was && k < w->was->n_files; k++) {
-        const struct record_file *f = &w->was->files[k];
-        char hex[HASH_TEXT];
-        const char *path = arena_format(w->arena, "%s/%s", w->k->folder, f->path);
-        bool listed = false;
-        for (int i = 0; i < to->n_files; i++)
-            listed = listed || !strcmp(to->files[i].path, f->path);
-        if (!listed && !folder_inputs_has(w->k->inputs, path) && hash_file(path, hex, &(struct err){0}) &&
-            !strcmp(hex, f->sha256))
-            unlink(path);
-    }
-}
-
 /* If all is complete (`whole`), gives the files their names between two records; then *w has the new one as its own. */
 static bool commit(struct work *w, const struct record *to, struct made *m, bool whole, struct err *e)
 {
-    const struct record before = making(w, to);
+    int n = w->was ? w->was->n_files : 0;
+    struct record before = begun(w, RECORD_MAKING, n + to->n_files); /* what lies there, and what is about to */
+    for (int k = 0; k < n + to->n_files; k++)
+        before.files[before.n_files++] = k < n ? w->was->files[k] : to->files[k - n];
     interrupt_hold();
     if (whole && !w->file)
         whole = inputs_still(&w->inputs, e) || scene_places_report(&w->scene, e);
@@ -221,7 +192,17 @@ static bool commit(struct work *w, const struct record *to, struct made *m, bool
     bool ok = whole && record_write(w->k->folder, w->name, &before, e);
     if (!ok) drop(m);
     ok = ok && give(m, e);
-    if (ok) remove_old(w, to);
+    for (int k = 0; ok && k < n; k++) { /* what is not written any more goes, unless somebody changed it */
+        const struct record_file *f = &w->was->files[k];
+        const char *path = arena_format(w->arena, "%s/%s", w->k->folder, f->path);
+        char hex[HASH_TEXT];
+        bool listed = false;
+        for (int i = 0; i < to->n_files; i++)
+            listed = listed || !strcmp(to->files[i].path, f->path);
+        if (!listed && !folder_inputs_has(w->k->inputs, path) && hash_file(path, hex, &(struct err){0}) &&
+            !strcmp(hex, f->sha256))
+            unlink(path);
+    }
     ok = ok && record_write(w->k->folder, w->name, to, e);
     interrupt_go();
     if (ok) {
@@ -248,7 +229,7 @@ static bool measure(struct record *r, const char *path, struct arena *a, struct 
 {
     struct measure m;
     char text[40];
-    if (!measure_cut(path, NULL, true, &m, e)) return false;
+    if (!recording_measure(path, NULL, true, &m, e)) return false;
     r->channels = m.channels;
     r->file_peak = m.peak, r->file_rms = m.rms, r->file_lufs = m.lufs;
     /* As far as it is the same everywhere: the meter's filter has its coefficients from libm. */
@@ -280,20 +261,6 @@ static struct record of_render(const struct work *w, const struct render_report 
     return r;
 }
 
-/* A raw sound is measured only as far as the level needs it: its peak and rms are known. */
-static bool measure_render(const struct work *w, struct record *r, const char *wav, struct err *e)
-{
-    bool waits = r->status == RECORD_WAITS;
-    if (!r->sounds || (waits && isnan(w->k->set->level.lufs))) return true;
-    if (!measure(r, wav, w->arena, e)) return false;
-    if (waits) {
-        r->lufs = r->file_lufs;
-        r->file_peak = r->file_rms = r->file_lufs = r->true_peak = NAN;
-        r->audio = NULL;
-    }
-    return true;
-}
-
 static bool list_render(const struct work *w, const struct render_report *report, struct record *r, struct err *e)
 {
     const char *wav = NULL;
@@ -305,7 +272,15 @@ static bool list_render(const struct work *w, const struct render_report *report
             return false;
         wav = !strcmp(f->kind, "wav") ? f->temporary : wav;
     }
-    return measure_render(w, r, wav, e);
+    bool waits = r->status == RECORD_WAITS; /* a raw sound is measured only as far as the level needs it */
+    if (!r->sounds || (waits && isnan(w->k->set->level.lufs))) return true;
+    if (!measure(r, wav, w->arena, e)) return false;
+    if (waits) {
+        r->lufs = r->file_lufs;
+        r->file_peak = r->file_rms = r->file_lufs = r->true_peak = NAN;
+        r->audio = NULL;
+    }
+    return true;
 }
 
 static bool render(struct work *w, struct stimulus *s, struct err *e)
@@ -377,16 +352,6 @@ static struct record copy_of(const struct record *r, struct arena *a)
     return c;
 }
 
-/* The design lies elsewhere by now: the files that the effective scene names are called otherwise. */
-static bool move(struct work *w, struct err *e)
-{
-    struct made m = {.scene = {.fd = -1}};
-    struct record r = copy_of(w->was, w->arena);
-    r.seen_from = w->k->seen_from;
-    if (!isnan(r.full_scale)) w->scene.output.level.full_scale = r.full_scale;
-    return commit(w, &r, &m, r.status == RECORD_WAITS || put_scene(&m.scene, w, &r, e), e);
-}
-
 bool stimulus_make(const struct stimulus_set *k, int i, enum stimulus_how how, struct arena *a, struct stimulus *s,
                    struct err *e)
 {
@@ -400,20 +365,20 @@ bool stimulus_make(const struct stimulus_set *k, int i, enum stimulus_how how, s
                  strcmp(w.was->seen_from ? w.was->seen_from : "", k->seen_from) != 0;
     if (s->made && w.file && !copy(&w, s, e))
         return e->kind == ERR_INPUT || e->kind == ERR_SCENE ? design_scene_recording(k->set->design, i, e) : false;
-    if ((s->made && !w.file && !render(&w, s, e)) || (moved && !move(&w, e))) return false;
+    if (s->made && !w.file && !render(&w, s, e)) return false;
+    if (moved) { /* the design lies elsewhere by now: the files that the effective scene names are called otherwise */
+        struct made m = {.scene = {.fd = -1}};
+        struct record r = copy_of(w.was, a);
+        r.seen_from = k->seen_from;
+        if (!isnan(r.full_scale)) w.scene.output.level.full_scale = r.full_scale;
+        if (!commit(&w, &r, &m, r.status == RECORD_WAITS || put_scene(&m.scene, &w, &r, e), e)) return false;
+    }
     s->state = s->made ? STIMULUS_THERE : s->state;
     if (s->state == STIMULUS_THERE) fill(s, &w, w.was);
     return true;
 }
 
 /* ------------------------------------------------------------------ the gain of the set */
-
-static const char *stem_of(const char *path, struct arena *a)
-{
-    for (int k = 0; k < STEMS; k++)
-        if (text_ends(path, arena_format(a, ".%s.wav", stems_names[k]))) return stems_names[k];
-    return NULL;
-}
 
 /* One raw WAV, f, into the file that it becomes. */
 static bool scale(const struct work *w, struct made *m, struct record_file *f, struct err *e)
@@ -424,27 +389,27 @@ static bool scale(const struct work *w, struct made *m, struct record_file *f, s
     double gain = force ? 1 : sound_known_gain(&w->scene);
     const char *raw = arena_format(w->arena, "%s/%s", w->k->folder, f->path),
                *path = record_file_path(w->name, basename(f->path), false, w->arena);
-    if (!measure_open(&in, raw, NULL, e)) return false;
+    if (!recording_open(&in, raw, NULL, e)) return false;
     struct track_format t = sound_format(&w->scene, in.frames);
     struct wav_format format = {
         .rate = t.rate, .channels = in.in.channels, .bits = force ? -32 : t.bits, .title = t.title};
     if (!force) sound_comment(&w->scene, gain, comment);
     struct wav_out *out = wav_create(arena_format(w->arena, "%s/%s", w->k->folder, path), &format, e);
     if (out) m->sounds[m->n++] = out;
-    bool ok = out && wav_comment(out, comment, e) && measure_copy(&in, out, gain, e) && wav_finish(out, e);
-    measure_close(&in);
+    bool ok = out && wav_comment(out, comment, e) && recording_copy(&in, out, gain, e) && wav_finish(out, e);
+    wav_stream_close(&in.in);
     if (!ok && e->kind == ERR_SCENE)
         err_at(e, "%s",
                !strcmp(f->kind, "wav") ? "level"
                                        : "output.stems: a part of the sound may be louder than the whole: use "
                                          "output.encoding: float32, or a lower level");
     if (!ok) return false;
+    const char *stem = NULL;
+    for (int k = 0; k < STEMS && !strcmp(f->kind, "stem") && !stem; k++)
+        stem = text_ends(path, arena_format(w->arena, ".%s.wav", stems_names[k])) ? stems_names[k] : NULL;
     m->written[m->n - 1] = wav_written(out);
-    m->files[m->n - 1] = (struct render_file){.kind = f->kind,
-                                              .path = path,
-                                              .stem = !strcmp(f->kind, "stem") ? stem_of(path, w->arena) : NULL,
-                                              .written = &m->written[m->n - 1],
-                                              .temporary = wav_temporary(out)};
+    m->files[m->n - 1] = (struct render_file){
+        .kind = f->kind, .path = path, .stem = stem, .written = &m->written[m->n - 1], .temporary = wav_temporary(out)};
     struct record one = {.files = f};
     return add_file(&one, f->kind, path, false, wav_temporary(out), w->arena, e);
 }
@@ -515,18 +480,6 @@ static bool make_levelled(const struct work *w, struct made *m, struct record *r
     return put_scene(&m->scene, w, r, e);
 }
 
-static bool lay_gain(struct work *w, double full_scale, struct err *e)
-{
-    struct made m = {.scene = {.fd = -1}};
-    struct record r = copy_of(w->was, w->arena);
-    w->scene.output.level.full_scale = full_scale;
-    w->scene.output.level.later = false;
-    r.status = RECORD_DONE;
-    r.full_scale = full_scale;
-    r.gain = sound_known_gain(&w->scene);
-    return commit(w, &r, &m, make_levelled(w, &m, &r, e), e);
-}
-
 bool stimulus_level(const struct stimulus_set *k, int i, double full_scale, bool may_render, struct arena *a,
                     struct stimulus *s, struct err *e)
 {
@@ -542,7 +495,14 @@ bool stimulus_level(const struct stimulus_set *k, int i, double full_scale, bool
         if (!render(&w, s, e)) return false;
         s->made = true;
     }
-    if (!lay_gain(&w, full_scale, e)) return false;
+    struct made m = {.scene = {.fd = -1}};
+    struct record r = copy_of(w.was, a);
+    w.scene.output.level.full_scale = full_scale;
+    w.scene.output.level.later = false;
+    r.status = RECORD_DONE;
+    r.full_scale = full_scale;
+    r.gain = sound_known_gain(&w.scene);
+    if (!commit(&w, &r, &m, make_levelled(&w, &m, &r, e), e)) return false;
     fill(s, &w, w.was);
     return true;
 }

@@ -98,8 +98,6 @@ static const struct record_file *main_file(const struct cell *c)
 
 static const struct design_stimulus *row_of(const struct cell *c) { return &c->set->design->stimuli[c->row]; }
 
-static const char *word_of(int encoding) { return keys_find("output.encoding")->choices[encoding].word; }
-
 static const char *file_name(const struct cell *c) { return main_file(c)->path; }
 static const char *stimulus_id(const struct cell *c) { return row_of(c)->name; }
 static const char *scene_file(const struct cell *c) { return file_of(c, "scene")->path; }
@@ -110,7 +108,10 @@ static const char *recording(const struct cell *c)
     return row_of(c)->recording ? basename(row_of(c)->recording) : NULL;
 }
 static const char *seed(const struct cell *c) { return row_of(c)->recording ? NULL : c->seed; }
-static const char *encoding(const struct cell *c) { return sound_of(c) ? word_of(sound_of(c)->encoding) : NULL; }
+static const char *encoding(const struct cell *c)
+{
+    return sound_of(c) ? keys_find("output.encoding")->choices[sound_of(c)->encoding].word : NULL;
+}
 static const char *level_mode(const struct cell *c) { return c->level; }
 static const char *unit(const struct cell *c) { return sound_of(c) ? sound_of(c)->unit : NULL; }
 static const char *audio(const struct cell *c) { return sound_of(c) ? sound_of(c)->audio : NULL; }

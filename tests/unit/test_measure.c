@@ -1,5 +1,5 @@
 /* What is in a WAV, cut or continued: against closed forms. */
-#include "batch/measure.h"
+#include "batch/recording.h"
 
 #include <unistd.h>
 
@@ -44,7 +44,7 @@ static struct measure of(double seconds, double ramp, bool loud)
 {
     struct err e = {0};
     struct measure m;
-    ck_assert_msg(measure_cut(file, &(struct measure_form){seconds, ramp}, loud, &m, &e), "%s", e.text);
+    ck_assert_msg(recording_measure(file, &(struct measure_form){seconds, ramp}, loud, &m, &e), "%s", e.text);
     return m;
 }
 
