@@ -101,48 +101,6 @@ static struct accuracy_row *row_add(struct accuracy_sweep *s, int knob, const ch
     return r;
 }
 
-static void add_presets(struct accuracy_sweep *s)
-{
-    bool met = false;
-    for (int i = 0; keys_presets[i]; i++) {
-        struct accuracy set = s->scene.accuracy;
-        accuracy_preset(&set, keys_presets[i]);
-        struct accuracy_row *r = row_add(s, -1, "preset", keys_presets[i]);
-        r->total = render_of(s, &set, true);
-        r->chosen = same(s, &set, &s->scene.accuracy);
-        met |= r->chosen;
-    }
-    if (met) return;
-    struct accuracy_row *r = row_add(s, -1, "scene", "");
-    r->total = render_of(s, &s->scene.accuracy, true);
-    r->chosen = true;
-}
-
-static void add_knob(struct accuracy_sweep *s, int knob, const struct accuracy_values *given)
-{
-    double x[PRESETS + ACCURACY_VALUES], sign = keys_knobs[knob].scale == KEY_STEPS ? 1.0 : -1.0;
-    int n = 0;
-    for (int i = 0; i < PRESETS + given->n; i++) { /* presets' values and those given, coarse to fine, each once */
-        double v = i < PRESETS ? keys_knobs[knob].preset[i] : given->x[i - PRESETS];
-        int at = 0;
-        while (at < n && sign * x[at] < sign * v)
-            at++;
-        if (at < n && x[at] == v) continue;
-        memmove(x + at + 1, x + at, (size_t)(n++ - at) * sizeof *x);
-        x[at] = v;
-    }
-    for (int i = 0; i < n; i++) {
-        struct accuracy alone = s->renders[s->reference].set, all = s->scene.accuracy;
-        struct accuracy_row *r = row_add(s, knob, keys_knobs[knob].name, arena_format(s->call->arena, "%.9g", x[i]));
-        accuracy_turn(&alone, (enum knob)knob, x[i]);
-        accuracy_turn(&all, (enum knob)knob, x[i]);
-        r->alone = render_of(s, &alone, false);
-        r->total = render_of(s, &all, true);
-        r->chosen = x[i] == accuracy_knob(&s->scene.accuracy, (enum knob)knob);
-        r->fine = sign * real_log(x[i]) / real_log(2.0);
-    }
-}
-
 static int preset_render(struct accuracy_sweep *s, const char *preset)
 {
     struct accuracy set = s->scene.accuracy;
@@ -159,9 +117,40 @@ void accuracy_rows(struct accuracy_sweep *s, const struct accuracy_values *own)
     s->renders = ARENA_TAKE(s->call->arena, struct accuracy_render, 2 * most + 2);
     s->reference = preset_render(s, "reference"); /* rendered first: the others are compared with it */
     s->high = preset_render(s, "high");           /* then this, which shows until when that means anything */
-    add_presets(s);
-    for (int k = 0; k < KNOBS && !s->presets; k++)
-        if (s->knobs & 1u << k) add_knob(s, k, &own[k]);
+    bool met = false;
+    for (int i = 0; keys_presets[i] || (i == PRESETS && !met); i++) { /* the presets, and the scene if it has none */
+        struct accuracy set = s->scene.accuracy;
+        if (i < PRESETS) accuracy_preset(&set, keys_presets[i]);
+        struct accuracy_row *r = row_add(s, -1, i < PRESETS ? "preset" : "scene", i < PRESETS ? keys_presets[i] : "");
+        r->total = render_of(s, &set, true);
+        r->chosen = same(s, &set, &s->scene.accuracy);
+        met |= r->chosen;
+        if (i == PRESETS) break;
+    }
+    for (int k = 0; k < KNOBS && !s->presets; k++) {
+        if (!(s->knobs & 1u << k)) continue;
+        double x[PRESETS + ACCURACY_VALUES], sign = keys_knobs[k].scale == KEY_STEPS ? 1.0 : -1.0;
+        int n = 0;
+        for (int i = 0; i < PRESETS + own[k].n; i++) { /* presets' values and those given, coarse to fine, each once */
+            double v = i < PRESETS ? keys_knobs[k].preset[i] : own[k].x[i - PRESETS];
+            int at = 0;
+            while (at < n && sign * x[at] < sign * v)
+                at++;
+            if (at < n && x[at] == v) continue;
+            memmove(x + at + 1, x + at, (size_t)(n++ - at) * sizeof *x);
+            x[at] = v;
+        }
+        for (int i = 0; i < n; i++) {
+            struct accuracy alone = s->renders[s->reference].set, all = s->scene.accuracy;
+            struct accuracy_row *r = row_add(s, k, keys_knobs[k].name, arena_format(s->call->arena, "%.9g", x[i]));
+            accuracy_turn(&alone, (enum knob)k, x[i]);
+            accuracy_turn(&all, (enum knob)k, x[i]);
+            r->alone = render_of(s, &alone, false);
+            r->total = render_of(s, &all, true);
+            r->chosen = x[i] == accuracy_knob(&s->scene.accuracy, (enum knob)k);
+            r->fine = sign * real_log(x[i]) / real_log(2.0);
+        }
+    }
 }
 
 const char *accuracy_rows_name(const struct accuracy_sweep *s, int render)
@@ -555,26 +544,6 @@ bool accuracy_silent(const struct scene *s)
     return true;
 }
 
-/* What is written must not be what is read; and can it be written? */
-static bool ask_files(const struct accuracy_sweep *s, struct err *e)
-{
-    const char *paths[] = {s->csv, s->plot};
-    for (int i = 0; i < 2; i++) {
-        enum output_kind kind = OUTPUT_TABLE;
-        struct outputs o = {.scene = &s->scene, .base = "", .paths = &paths[i], .kinds = &kind, .n = 1};
-        struct outfile probe;
-        if (!paths[i]) continue;
-        if (!outputs_check_overwrite(&o, 1, s->call->arena, &(struct err){0}))
-            return err_set(e, ERR_CREATE, "%s is a file that the scene reads: give --%s another name", paths[i],
-                           i ? "plot" : "csv");
-        bool force = args_given(&s->call->args, "force");
-        bool may = i ? mark_permits(paths[i], NULL, force, e) : mark_absent(paths[i], force, e);
-        if (!may || !outfile_open_fd(&probe, paths[i], e)) return false;
-        outfile_drop(&probe);
-    }
-    return true;
-}
-
 static bool ask_scene(struct accuracy_sweep *s, struct err *e)
 {
     struct accuracy_values own[KNOBS] = {{0}};
@@ -590,7 +559,20 @@ static bool ask_scene(struct accuracy_sweep *s, struct err *e)
     s->scene.contacts = asked.contacts; /* engines are chosen for each setting */
     s->force = accuracy_silent(&s->scene);
     if (s->force) s->scene.output.quantity = QUANTITY_FORCE;
-    if (!ask_files(s, e)) return false;
+    const char *paths[] = {s->csv, s->plot};
+    for (int i = 0; i < 2; i++) { /* what is written must not be what is read; and can it be written? */
+        enum output_kind kind = OUTPUT_TABLE;
+        struct outputs o = {.scene = &s->scene, .base = "", .paths = &paths[i], .kinds = &kind, .n = 1};
+        struct outfile probe;
+        if (!paths[i]) continue;
+        if (!outputs_check_overwrite(&o, 1, s->call->arena, &(struct err){0}))
+            return err_set(e, ERR_CREATE, "%s is a file that the scene reads: give --%s another name", paths[i],
+                           i ? "plot" : "csv");
+        bool force = args_given(&s->call->args, "force");
+        bool may = i ? mark_permits(paths[i], NULL, force, e) : mark_absent(paths[i], force, e);
+        if (!may || !outfile_open_fd(&probe, paths[i], e)) return false;
+        outfile_drop(&probe);
+    }
     if (!plan_scene_knobs(&s->scene, s->call->arena, &s->knobs, e)) return scene_places_report(&s->scene, e);
     accuracy_rows(s, own);
     return true;

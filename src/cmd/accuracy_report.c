@@ -97,28 +97,6 @@ static const char *error_text(const struct accuracy_sweep *s, const struct accur
                : "same bits";
 }
 
-/* What a render sounds like, and what it costs. */
-static void print_total(struct report *out, const struct accuracy_sweep *s, const struct accuracy_render *r)
-{
-    const struct accuracy_error *o = &r->error;
-    report_text(out, "  %10s ", error_text(s, r));
-    if (r->code != 0) return;
-    double snr = 1.0, cpu = 0.0; /* the most of all renders */
-    for (int i = 0; i < s->n_renders; i++) {
-        const struct accuracy_render *x = &s->renders[i];
-        if (x->code == 0 && isfinite(x->error.snr)) snr = fmax(snr, x->error.snr);
-        if (x->timed && isfinite(x->cpu)) cpu = fmax(cpu, x->cpu);
-    }
-    report_text(out, "%s  %7.3f %8.3f",
-                r == &s->renders[s->reference] ? bar(s, 1.0) : bar(s, isnan(o->snr) ? 0.0 : o->snr / snr), o->third,
-                o->spectral);
-    if (isfinite(s->until))
-        report_text(out, " %8.2f %6.3f s %8s", o->level, o->follows,
-                    isnan(r->contact_share) ? "" : arena_format(s->call->arena, "%.1f %%", 100.0 * r->contact_share));
-    report_text(out, "  %7.4f s %s %7.4g  %6.1f MB", r->cpu, bar(s, r->cpu / cpu), o->length / fmax(r->cpu, 1e-9),
-                r->peak / 1e6);
-}
-
 /* JSON has no infinities: null. */
 static void set_error(struct report *r, const char *key, const struct accuracy_render *x)
 {
@@ -148,7 +126,24 @@ static void report_setting(struct report *r, const struct accuracy_sweep *s, con
                 arena_format(a, "%c %s %s%s", w->chosen ? '=' : ' ', w->name, w->value, x->front ? " *" : ""));
     report_text(r, "  %10s %6s", w->alone >= 0 ? error_text(s, &s->renders[w->alone]) : "",
                 isnan(w->order) ? "" : arena_format(a, "%.2f", w->order));
-    print_total(r, s, x);
+    report_text(r, "  %10s ", error_text(s, x)); /* what it sounds like, and what it costs */
+    double snr = 1.0, cpu = 0.0;                 /* the most of all renders */
+    for (int i = 0; i < s->n_renders; i++) {
+        const struct accuracy_render *one = &s->renders[i];
+        if (one->code == 0 && isfinite(one->error.snr)) snr = fmax(snr, one->error.snr);
+        if (one->timed && isfinite(one->cpu)) cpu = fmax(cpu, one->cpu);
+    }
+    if (x->code == 0) {
+        const struct accuracy_error *o = &x->error;
+        report_text(r, "%s  %7.3f %8.3f",
+                    x == &s->renders[s->reference] ? bar(s, 1.0) : bar(s, isnan(o->snr) ? 0.0 : o->snr / snr), o->third,
+                    o->spectral);
+        if (isfinite(s->until))
+            report_text(r, " %8.2f %6.3f s %8s", o->level, o->follows,
+                        isnan(x->contact_share) ? "" : arena_format(a, "%.1f %%", 100.0 * x->contact_share));
+        report_text(r, "  %7.4f s %s %7.4g  %6.1f MB", x->cpu, bar(s, x->cpu / cpu), o->length / fmax(x->cpu, 1e-9),
+                    x->peak / 1e6);
+    }
     report_text(r, "%s\n", colour && x->front ? "\033[0m" : "");
 }
 

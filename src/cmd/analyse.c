@@ -171,22 +171,6 @@ static bool table_take(struct analyse_source *s, const struct analyse_given *g, 
 
 /* ------------------------------------------------------------------ all */
 
-static bool samples_take(struct analyse_source *s, const struct analyse_given *g, struct arena *a, struct err *e)
-{
-    struct arena *scratch = arena_open();
-    struct bytes b;
-    bool ok = bytes_read(s->file, scratch, &b, e);
-    if (ok) {
-        bool npy = npy_is(&b);
-        struct npy head;
-        s->kind = npy ? "NPY" : "WAV";
-        ok = !npy || npy_read(s->file, &b, scratch, &head, e);
-        ok = ok && (!npy ? wav_take(s, g, a, e) : head.n_fields ? table_take(s, g, a, e) : npy_take(s, &b, g, a, e));
-    }
-    arena_close(scratch);
-    return ok;
-}
-
 /* Powers of what is read are taken: none may leave a double's range. 0 is no fault. */
 static bool in_range(const struct analyse_source *s, const char *what, double x, const char *unit, struct err *e)
 {
@@ -199,7 +183,19 @@ bool analyse_read(const char *file, const struct analyse_given *g, struct arena 
                   struct err *e)
 {
     *s = (struct analyse_source){.file = file, .kind = "CSV", .has_force = true};
-    if (!(text_ends_in(file, ".csv") ? table_take(s, g, a, e) : samples_take(s, g, a, e))) return false;
+    if (text_ends_in(file, ".csv"))
+        table_take(s, g, a, e);
+    else {
+        struct arena *scratch = arena_open();
+        struct bytes b;
+        struct npy head = {0};
+        bool ok = bytes_read(file, scratch, &b, e), npy = ok && npy_is(&b);
+        s->kind = npy ? "NPY" : "WAV";
+        ok = ok && (!npy || npy_read(file, &b, scratch, &head, e));
+        ok = ok && (!npy ? wav_take(s, g, a, e) : head.n_fields ? table_take(s, g, a, e) : npy_take(s, &b, g, a, e));
+        arena_close(scratch);
+    }
+    if (e->kind) return false;
     if (s->has_force && !impact_find(&s->signal, &g->options, a, &s->found, e)) return err_at(e, "%s", file);
     const struct impact_events *v = &s->found.events;
     double amplitude = 0, least = HUGE_VAL, longest = 0;

@@ -131,32 +131,6 @@ static void judge_all(struct verdict *v)
                     (const char *[]){"dB", compare_sound_band(v)});
 }
 
-static bool measure(struct verdict *v, struct err *e)
-{
-    struct wav *a = &v->sound[0], *b = &v->sound[1];
-    for (int i = 0; i < 2; i++)
-        if (!wav_read(v->ask->files[i], v->ask->arena, &v->sound[i], e))
-            return false;
-        else
-            distance_hash(&v->sound[i], v->hash[i]);
-    if (!isnan(v->ask->lsb) && distance_step(a, b) == 0)
-        return err_set(
-            e, ERR_USAGE,
-            "--lsb: neither sound holds integers, so there is no step to count in; --snr is for such sounds");
-    v->alike = a->channels == b->channels;
-    v->paired = v->alike && a->rate == b->rate;
-    v->shape = v->paired && a->frames == b->frames;
-    v->d.snr_db = v->bands.worst_db = NAN;
-    if (v->paired) distance_samples(a, b, &v->d);
-    v->equal = v->shape && v->d.differing == 0;
-    if (v->equal)
-        v->bands.worst_db = 0;
-    else if (v->alike)
-        distance_bands(a, b, v->ask->within, v->ask->arena, &v->bands);
-    judge_all(v);
-    return true;
-}
-
 /* ------------------------------------------------------------------ the report on two sounds */
 
 static double decibels(double x) { return x > 0 ? 20 * real_log10(x) : -INFINITY; }
@@ -253,8 +227,28 @@ static bool report_sounds(const struct verdict *v, struct err *e)
 int compare_sound(const struct compare_ask *ask, struct err *e)
 {
     struct verdict *v = ARENA_TAKE(ask->arena, struct verdict, 1);
+    struct wav *a = &v->sound[0], *b = &v->sound[1];
     v->ask = ask;
-    if (!measure(v, e)) return (int)e->kind;
+    for (int i = 0; i < 2; i++) {
+        if (!wav_read(ask->files[i], ask->arena, &v->sound[i], e)) return (int)e->kind;
+        distance_hash(&v->sound[i], v->hash[i]);
+    }
+    if (!isnan(ask->lsb) && distance_step(a, b) == 0) {
+        err_set(e, ERR_USAGE,
+                "--lsb: neither sound holds integers, so there is no step to count in; --snr is for such sounds");
+        return (int)e->kind;
+    }
+    v->alike = a->channels == b->channels;
+    v->paired = v->alike && a->rate == b->rate;
+    v->shape = v->paired && a->frames == b->frames;
+    v->d.snr_db = v->bands.worst_db = NAN;
+    if (v->paired) distance_samples(a, b, &v->d);
+    v->equal = v->shape && v->d.differing == 0;
+    if (v->equal)
+        v->bands.worst_db = 0;
+    else if (v->alike)
+        distance_bands(a, b, ask->within, ask->arena, &v->bands);
+    judge_all(v);
     if (!(ask->quiet && v->met) && !report_sounds(v, e)) return (int)e->kind;
     return v->met ? 0 : ERR_DIFFERS;
 }
@@ -270,26 +264,6 @@ struct tables {
     bool hashed;     /* both are files, not pipes: their bytes can be read again */
     bool equal, met; /* not the least difference; every criterion met */
 };
-
-static bool table_measure(struct tables *t, struct err *e)
-{
-    const struct compare_ask *ask = t->ask;
-    const struct csv *both[2] = {&t->a, &t->b};
-    if (!csv_table_read(ask->files[0], ask->arena, &t->a, e) || !csv_table_read(ask->files[1], ask->arena, &t->b, e))
-        return false;
-    if (t->a.rows == 0) return err_set(e, ERR_SCENE, "%s: has no rows: nothing would be compared", ask->files[0]);
-    if (!table_distance(both, ask->tolerances, ask->arena, &t->d, e)) return false;
-    struct err none = {0};
-    t->hashed = hash_file(ask->files[0], t->hash[0], &none) && hash_file(ask->files[1], t->hash[1], &none);
-    t->met =
-        t->a.rows == t->b.rows && !t->d.n_missing && !t->d.n_extra && !t->d.reordered && !(ask->exact && t->d.comment);
-    t->equal = t->met && !t->d.comment;
-    for (size_t i = 0; i < t->d.n_columns; i++) {
-        t->met = t->met && t->d.columns[i].misses == 0;
-        t->equal = t->equal && t->d.columns[i].misses == 0 && t->d.columns[i].largest == 0;
-    }
-    return true;
-}
 
 static void report_names(struct report *r, const char *key, const char *what, const char *const *names, size_t n)
 {
@@ -357,8 +331,21 @@ static bool report_tables(const struct tables *t, struct err *e)
 int compare_table(const struct compare_ask *ask, struct err *e)
 {
     struct tables *t = ARENA_TAKE(ask->arena, struct tables, 1);
+    const struct csv *both[2] = {&t->a, &t->b};
     t->ask = ask;
-    if (!table_measure(t, e)) return (int)e->kind;
+    if (!csv_table_read(ask->files[0], ask->arena, &t->a, e) || !csv_table_read(ask->files[1], ask->arena, &t->b, e))
+        return (int)e->kind;
+    if (t->a.rows == 0) err_set(e, ERR_SCENE, "%s: has no rows: nothing would be compared", ask->files[0]);
+    if (e->kind || !table_distance(both, ask->tolerances, ask->arena, &t->d, e)) return (int)e->kind;
+    struct err none = {0};
+    t->hashed = hash_file(ask->files[0], t->hash[0], &none) && hash_file(ask->files[1], t->hash[1], &none);
+    t->met =
+        t->a.rows == t->b.rows && !t->d.n_missing && !t->d.n_extra && !t->d.reordered && !(ask->exact && t->d.comment);
+    t->equal = t->met && !t->d.comment;
+    for (size_t i = 0; i < t->d.n_columns; i++) {
+        t->met = t->met && t->d.columns[i].misses == 0;
+        t->equal = t->equal && t->d.columns[i].misses == 0 && t->d.columns[i].largest == 0;
+    }
     if (!(ask->quiet && t->met) && !report_tables(t, e)) return (int)e->kind;
     return t->met ? 0 : ERR_DIFFERS;
 }

@@ -360,29 +360,6 @@ static json_t *schema_design(struct arena *a)
 }
 /* ------------------------------------------------------------------ keys */
 
-static void report_key(struct report *r, const struct key *k)
-{
-    struct arena *a = arena_open();
-    bool range = keys_text_range(k, a);
-    report_set(r, ":{ path:s meaning:s type:s unit:e low:n high:n must_be_given:b default:e only:e words:0", k->path,
-               k->meaning, k->type == KEY_CHOICE ? "word" : keys_text_type(k), keys_text_unit(k->dimension),
-               range ? k->low : NAN, range ? k->high : NAN, !k->standard, k->standard, keys_text_applies(k, a));
-    if (k->choices) report_set(r, "words:[");
-    for (const struct choice *c = k->choices; c && c->word; c++)
-        report_set(r, ":{ word:s meaning:s }", c->word, c->meaning);
-    report_set(r, k->choices ? "] }" : "}");
-    arena_close(a);
-}
-
-static void report_knob(struct report *r, const struct key_knob *k, struct arena *a)
-{
-    report_set(r, ":{ path:s meaning:s type:s low:n high:n presets:{", arena_format(a, "accuracy.%s", k->name),
-               k->meaning, k->whole ? "whole number" : "number", k->low, k->high);
-    for (int i = 0; keys_presets[i]; i++)
-        report_set(r, "$:n", keys_presets[i], k->preset[i]);
-    report_set(r, "} }");
-}
-
 static bool is_scene_file(const char *word)
 {
     struct stat s;
@@ -494,10 +471,26 @@ static void explain_json(json_t *schema, const char *word, const char **names, s
     const struct key_knob *knob = find_knob(path);
     bool all = !n || !strcmp(path, "accuracy");
     struct report r = report_open_list(stdout, true);
-    for (const struct key *k = keys_table; k->path; k++)
-        if (!n || (!strncmp(k->path, path, n) && (!k->path[n] || k->path[n] == '.'))) report_key(&r, k);
-    for (const struct key_knob *k = keys_knobs; k->name; k++)
-        if (all || k == knob) report_knob(&r, k, a);
+    for (const struct key *k = keys_table; k->path; k++) {
+        if (n && (strncmp(k->path, path, n) != 0 || (k->path[n] && k->path[n] != '.'))) continue;
+        bool range = keys_text_range(k, a);
+        report_set(&r, ":{ path:s meaning:s type:s unit:e low:n high:n must_be_given:b default:e only:e words:0",
+                   k->path, k->meaning, k->type == KEY_CHOICE ? "word" : keys_text_type(k),
+                   keys_text_unit(k->dimension), range ? k->low : NAN, range ? k->high : NAN, !k->standard, k->standard,
+                   keys_text_applies(k, a));
+        if (k->choices) report_set(&r, "words:[");
+        for (const struct choice *c = k->choices; c && c->word; c++)
+            report_set(&r, ":{ word:s meaning:s }", c->word, c->meaning);
+        report_set(&r, k->choices ? "] }" : "}");
+    }
+    for (const struct key_knob *k = keys_knobs; k->name; k++) {
+        if (!all && k != knob) continue;
+        report_set(&r, ":{ path:s meaning:s type:s low:n high:n presets:{", arena_format(a, "accuracy.%s", k->name),
+                   k->meaning, k->whole ? "whole number" : "number", k->low, k->high);
+        for (int i = 0; keys_presets[i]; i++)
+            report_set(&r, "$:n", keys_presets[i], k->preset[i]);
+        report_set(&r, "} }");
+    }
     if (json_array_size(r.open.at[0]) > 0) {
         report_close(&r, 0, e);
         return;

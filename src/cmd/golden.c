@@ -303,34 +303,28 @@ static void put_lines(const char *text, const char *before)
     }
 }
 
-static void put_yaml(const struct golden *g, const struct golden_scene *s)
-{
-    fputs("  ---\n  scene: ", stdout);
-    put_quoted(g, s->file);
-    puts("  severity: fail\n  problems:");
-    for (int i = 0; i < s->n_problems; i++) {
-        const struct golden_problem *p = &s->problems[i];
-        if (*p->file) {
-            fputs("    - file: ", stdout);
-            put_quoted(g, p->file);
-        }
-        fputs(*p->file ? "      says: " : "    - says: ", stdout);
-        put_quoted(g, p->says);
-        if (p->report) {
-            puts("      report: |");
-            put_lines(p->report, "        ");
-        }
-    }
-    puts("  ...");
-}
-
 void golden_report_scene(const struct golden *g, const struct golden_scene *s, int number)
 {
     struct arena *a = g->call->arena;
     if (g->tap) {
         printf("%sok %d - %s", s->n_problems ? "not " : "", number, s->name);
         puts(s->note && !s->n_problems ? arena_format(g->call->arena, " (within its tolerances: %s)", s->note) : "");
-        if (s->n_problems) put_yaml(g, s);
+        fflush(stdout);
+        if (s->n_problems == 0) return;
+        fputs("  ---\n  scene: ", stdout);
+        put_quoted(g, s->file);
+        puts("  severity: fail\n  problems:");
+        for (const struct golden_problem *p = s->problems; p < s->problems + s->n_problems; p++) {
+            if (*p->file) {
+                fputs("    - file: ", stdout);
+                put_quoted(g, p->file);
+            }
+            fputs(*p->file ? "      says: " : "    - says: ", stdout);
+            put_quoted(g, p->says);
+            if (p->report) puts("      report: |");
+            if (p->report) put_lines(p->report, "        ");
+        }
+        puts("  ...");
     } else if (s->n_problems) {
         printf("FAILED  %s (%s)\n", s->name, text_shown(a, s->file));
         for (int i = 0; i < s->n_problems; i++) {

@@ -116,37 +116,29 @@ problem(struct golden_scene *s, const char *file, const char *report, const char
     s->problems[s->n_problems++] = (struct golden_problem){file, arena_text(s->arena, text), report};
 }
 
-/* Two files that have not the same bytes, as `rasp compare` sees them: 0, ERR_DIFFERS, or its error. */
-static int measure(struct golden_scene *s, const char *const files[2], const char **report, struct err *e)
+/* The first file is what it should be. `what`: "what is kept". */
+static void judge_bytes(struct golden_scene *s, const char *name, const char *const files[2], const char *what)
 {
+    struct err why = {0};
     char *text = NULL;
     size_t size;
     bool sound = false;
     struct arena *a = arena_open();
     FILE *out = open_memstream(&text, &size);
-    int code = ERR_MEMORY;
-    if (out && compare_is_sound(files[1], &sound, e)) {
+    int code = ERR_MEMORY; /* as `rasp compare` sees them: 0, ERR_DIFFERS, or its error */
+    if (out && compare_is_sound(files[1], &sound, &why)) {
         struct compare_ask ask = sound ? s->sounds : s->tables;
-        ask.files[0] = files[0];
-        ask.files[1] = files[1];
+        memcpy(ask.files, files, sizeof ask.files);
         ask.out = out;
         ask.arena = a;
-        code = sound ? compare_sound(&ask, e) : compare_table(&ask, e);
+        code = sound ? compare_sound(&ask, &why) : compare_table(&ask, &why);
     }
     if (out) fclose(out);
-    *report = arena_text(s->arena, text ? text : "");
+    const char *report = arena_text(s->arena, text ? text : "");
     free(text);
     arena_close(a);
-    return code;
-}
-
-/* The first file is what it should be. `what`: "what is kept". */
-static void judge_bytes(struct golden_scene *s, const char *name, const char *const files[2], const char *what)
-{
-    struct err why = {0};
-    const char *report;
-    int code = measure(s, files, &report, &why);
-    bool sound = text_ends(name, ".wav"), exact = sound ? s->sounds.exact : s->tables.exact;
+    sound = text_ends(name, ".wav");
+    bool exact = sound ? s->sounds.exact : s->tables.exact;
     if (why.kind)
         problem(s, name, NULL, "is not %s, and cannot be compared with it: %s", what, why.text);
     else if (code)

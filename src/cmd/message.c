@@ -241,25 +241,18 @@ static struct err_place place_in(const char *text)
     return (struct err_place){0};
 }
 
-/* The same of a text that begins with one of the command's operands, or "OPERAND: ". */
-static struct err_place operand_in(const struct cmd_call *c, const char *text)
-{
-    for (int i = 0; i < c->args.n_operands; i++) {
-        int n = (int)strlen(c->args.operands[i]);
-        if (!n || strncmp(text, c->args.operands[i], (size_t)n) != 0 || text[n] != ':') continue;
-        struct err_place p = place_in(text);
-        return p.file == n          ? p
-               : text[n + 1] == ' ' ? (struct err_place){.file = n, .message = n + 2}
-                                    : (struct err_place){0};
-    }
-    return (struct err_place){0};
-}
-
 void message_error(struct cmd_call *c, const char *command, const struct err *e)
 {
     struct messages *t = of(c);
     struct err placed = *e;
-    if (!e->place.file) placed.place = operand_in(c, e->text);
+    for (int i = 0; !placed.place.file && i < c->args.n_operands; i++) { /* one of the operands, or "OPERAND: " */
+        int n = (int)strlen(c->args.operands[i]);
+        if (!n || strncmp(e->text, c->args.operands[i], (size_t)n) != 0 || e->text[n] != ':') continue;
+        placed.place = place_in(e->text);
+        if (placed.place.file == n) break;
+        placed.place = e->text[n + 1] == ' ' ? (struct err_place){.file = n, .message = n + 2} : (struct err_place){0};
+        break;
+    }
     if ((t->json || t->collected) && !t->reported) put(c, of_err(&placed));
     t->reported = false;
     if (!t->json) cmd_complain(command, e);

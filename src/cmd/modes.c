@@ -405,31 +405,29 @@ static void count_modes(struct list *l, const struct modes *m, const struct mode
                              sqrt(p.re[i] * p.re[i] + p.im[i] * p.im[i]), where->x, where->y});
 }
 
-static bool from_object(struct list *l, const struct body *b, struct err *e)
-{
-    struct object o;
-    struct modes m;
-    struct modes_places places;
-    const double *origin = b->response->object.origin;
-    const char *note;
-    if (!body_object(l->c, b, &o, &note, e) || !body_places(l->c, b, &o, NULL, &places, e)) return false;
-    if (note) message_remark(l->c, "modes", note);
-    object_modes(&o, origin, NULL, o.n, l->c->arena, &m);
-    start(l, m.n, m.quantity);
-    l->places = places.n;
-    l->moves = places.n > 1;
-    for (int i = 0; i < places.n; i++)
-        count_modes(l, &m, &(struct modes_where){.x = places.xy[i][0] + origin[0], .y = places.xy[i][1] + origin[1]});
-    return true;
-}
-
 static bool gather(struct list *l, struct err *e)
 {
     const char *file = l->c->args.operands[0];
     struct body b;
     if (text_ends(file, ".csv")) return from_table(l, file, e);
     if (!body_read(l->c, file, &b, e)) return false;
-    if (b.response->object.given) return from_object(l, &b, e);
+    if (b.response->object.given) {
+        struct object o;
+        struct modes m;
+        struct modes_places places;
+        const double *origin = b.response->object.origin;
+        const char *note;
+        if (!body_object(l->c, &b, &o, &note, e) || !body_places(l->c, &b, &o, NULL, &places, e)) return false;
+        if (note) message_remark(l->c, "modes", note);
+        object_modes(&o, origin, NULL, o.n, l->c->arena, &m);
+        start(l, m.n, m.quantity);
+        l->places = places.n;
+        l->moves = places.n > 1;
+        for (int i = 0; i < places.n; i++)
+            count_modes(l, &m,
+                        &(struct modes_where){.x = places.xy[i][0] + origin[0], .y = places.xy[i][1] + origin[1]});
+        return true;
+    }
     if (b.response->space.given) {
         struct modes m;
         struct modes_ask ask = {.strongest = b.response->modes,

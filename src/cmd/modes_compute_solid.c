@@ -65,33 +65,25 @@ static bool check_solid(struct compute *k, struct err *e)
 
 /* ------------------------------------------------------------------ mesh */
 
-/* "mm" or "25.4 mm". */
-static bool read_unit(struct compute *k, double *unit, struct err *e)
-{
-    const char *text = args_value(&k->c->args, "unit");
-    struct units_fault fault = {NULL, NULL};
-    *unit = 1;
-    if (!text) return true;
-    const char *whole = text_number_length(text) > 0 ? text : arena_format(k->c->arena, "1 %s", text);
-    if (!units_read(whole, KEY_LENGTH, unit, k->c->arena, &fault))
-        return err_set(e, ERR_USAGE, "--unit: '%s' %s; write m, cm, mm or a length such as 25.4 mm", text, fault.text);
-    return (*unit >= 1e-9 && *unit <= 1e3) || err_set(e, ERR_USAGE, "--unit: %s is not from 1 nm to 1 km", text);
-}
-
 static bool read_mesh(struct compute *k, struct err *e)
 {
     const struct args *g = &k->c->args;
     const char *shape = args_value(g, "shape");
     struct arena *a = k->c->arena;
-    double unit;
+    double unit = 1;
     if (!shape == !g->n_operands)
         return err_set(e, ERR_USAGE,
                        shape ? "a mesh and --shape exclude each other"
                              : "rasp modes compute takes one MESH, or --shape");
     if (shape && args_given(g, "unit"))
         return err_set(e, ERR_USAGE, "--unit is that of a mesh file; the lengths of --shape have their own units");
-    if (!read_unit(k, &unit, e) ||
-        !(shape ? shapes_mesh(shape, a, &k->mesh, e)
+    const char *text = args_value(g, "unit"); /* "mm" or "25.4 mm" */
+    struct units_fault fault = {NULL, NULL};
+    if (text &&
+        !units_read(text_number_length(text) > 0 ? text : arena_format(a, "1 %s", text), KEY_LENGTH, &unit, a, &fault))
+        return err_set(e, ERR_USAGE, "--unit: '%s' %s; write m, cm, mm or a length such as 25.4 mm", text, fault.text);
+    if (!(unit >= 1e-9 && unit <= 1e3)) return err_set(e, ERR_USAGE, "--unit: %s is not from 1 nm to 1 km", text);
+    if (!(shape ? shapes_mesh(shape, a, &k->mesh, e)
                 : mesh_read(g->operands[0], unit, a, &k->mesh, e) && mesh_check(&k->mesh, a, e)))
         return false;
     topology_elevate(&k->mesh, a);
@@ -305,17 +297,6 @@ bool modes_compute_solid_solve(struct compute *k, struct err *e)
 
 enum { BEYOND = 12 }; /* modes more: a coarse mesh has them in another order */
 
-/* The faces that are held in the coarse mesh, by the same names. */
-static bool solve_coarse(struct compute *k, struct compute *c, struct err *e)
-{
-    struct solid_ask ask = {
-        .material = &k->material.elastic, .order = (int)c->order, .most = k->modes.n + BEYOND, .top = 3 * k->top};
-    if (c->mesh.at != k->mesh.at && !read_fixed(c, e)) return false;
-    ask.fixed = c->fixed;
-    ask.n_fixed = c->n_fixed;
-    return solid_modes(&c->mesh, &c->boundary, &ask, k->c->arena, &c->modes, e);
-}
-
 static bool coarser(struct compute *k, struct compute *c, struct err *e)
 {
     const char *shape = args_value(&k->c->args, "shape");
@@ -341,7 +322,13 @@ bool modes_compute_solid_estimate(struct compute *k, struct err *e)
 {
     struct compute c;
     if (!args_given(&k->c->args, "estimate")) return true;
-    if (!coarser(k, &c, e) || !solve_coarse(k, &c, e)) return false;
+    if (!coarser(k, &c, e)) return false;
+    struct solid_ask ask = {
+        .material = &k->material.elastic, .order = (int)c.order, .most = k->modes.n + BEYOND, .top = 3 * k->top};
+    if (c.mesh.at != k->mesh.at && !read_fixed(&c, e)) return false; /* the faces that are held, by the same names */
+    ask.fixed = c.fixed;
+    ask.n_fixed = c.n_fixed;
+    if (!solid_modes(&c.mesh, &c.boundary, &ask, k->c->arena, &c.modes, e)) return false;
     const struct solid_side fine = {&k->mesh, &k->boundary, &k->modes}, coarse = {&c.mesh, &c.boundary, &c.modes};
     solid_estimate(&fine, &coarse, k->c->arena, &k->estimate);
     k->estimated = true;

@@ -52,22 +52,6 @@ static void make_test(struct modes_fit *f, const struct modes_places *p)
     }
 }
 
-static double compare(const struct modes_fit *f, const struct modes *m, struct arena *a)
-{
-    struct modes_point at = modes_point_make(a, f->n);
-    double wrong = 0, whole = 0;
-    for (int q = 0; q < f->spots; q++) {
-        const double *re = f->test + 2 * (size_t)q * (size_t)f->n, *im = re + f->n;
-        if (modes_at(m, &(struct modes_where){.x = f->spot[q][0], .y = f->spot[q][1]}, &at) > 0) continue;
-        for (int i = 0; i < f->n; i++) {
-            double x = at.re[i] - re[i], y = at.im[i] - im[i];
-            wrong += x * x + y * y;
-            whole += re[i] * re[i] + im[i] * im[i];
-        }
-    }
-    return whole > 0 ? 10 * real_log10(fmax(wrong / whole, 1e-30)) : NAN;
-}
-
 double modes_places_error(struct modes_fit *f, const struct modes_places *p)
 {
     struct arena *a = arena_open();
@@ -81,8 +65,20 @@ double modes_places_error(struct modes_fit *f, const struct modes_places *p)
         f->at(f->self, p->xy[k][0], p->xy[k][1], &at[k]);
     }
     if (p->n > 1 &&
-        morph_points(&(struct morph_points_ask){f->n, p->n, (const double(*)[2])p->xy, at, f->shared}, a, &m, &e))
-        db = compare(f, &m, a);
+        morph_points(&(struct morph_points_ask){f->n, p->n, (const double(*)[2])p->xy, at, f->shared}, a, &m, &e)) {
+        struct modes_point there = modes_point_make(a, f->n);
+        double wrong = 0, whole = 0;
+        for (int q = 0; q < f->spots; q++) {
+            const double *re = f->test + 2 * (size_t)q * (size_t)f->n, *im = re + f->n;
+            if (modes_at(&m, &(struct modes_where){.x = f->spot[q][0], .y = f->spot[q][1]}, &there) > 0) continue;
+            for (int i = 0; i < f->n; i++) {
+                double x = there.re[i] - re[i], y = there.im[i] - im[i];
+                wrong += x * x + y * y;
+                whole += re[i] * re[i] + im[i] * im[i];
+            }
+        }
+        db = whole > 0 ? 10 * real_log10(fmax(wrong / whole, 1e-30)) : NAN;
+    }
     arena_close(a);
     return db;
 }
@@ -231,22 +227,6 @@ static void grid(struct modes_places *p, const struct modes_ground *g, const int
         }
 }
 
-static bool read_grid(struct cmd_call *c, int n[2], struct err *e)
-{
-    const char *text = args_value(&c->args, "grid");
-    if (!text) return true;
-    char *comma, *end;
-    long x = strtol(text, &comma, 10), y = *comma == ',' ? strtol(comma + 1, &end, 10) : 0;
-    if (y < 2 || x < 2 || x > 1000 || y > 1000 || x * y > PLACES || *end)
-        return err_set(
-            e, ERR_USAGE,
-            "--grid: '%s' is not of the form NX,NY, whole numbers from 2 to 1000, at most %d places in all, as in 17,9",
-            text, PLACES);
-    n[0] = (int)x;
-    n[1] = (int)y;
-    return true;
-}
-
 static bool all_on(const struct modes_ground *g, const struct modes_places *p, struct err *e)
 {
     for (int i = 0; i < p->n; i++) {
@@ -392,9 +372,19 @@ static bool read(struct cmd_call *c, double ends[4], long *places, int n[2], str
     static const long counts[2] = {2, PLACES};
     const struct args *g = &c->args;
     if (!modes_lengths(c, "line", "X0,Y0,X1,Y1", 4, ends, e) || !modes_lengths(c, "circle", "RADIUS", 1, ends, e) ||
-        !modes_lengths(c, "at", "X,Y", 2, ends, e) || !read_grid(c, n, e) ||
-        !args_whole(g, "places", counts, places, e))
+        !modes_lengths(c, "at", "X,Y", 2, ends, e))
         return false;
+    const char *text = args_value(g, "grid");
+    char *comma, *end;
+    long x = text ? strtol(text, &comma, 10) : 2, y = !text ? 2 : *comma == ',' ? strtol(comma + 1, &end, 10) : 0;
+    if (y < 2 || x < 2 || x > 1000 || y > 1000 || x * y > PLACES || (text && *end))
+        return err_set(
+            e, ERR_USAGE,
+            "--grid: '%s' is not of the form NX,NY, whole numbers from 2 to 1000, at most %d places in all, as in 17,9",
+            text, PLACES);
+    n[0] = (int)x;
+    n[1] = (int)y;
+    if (!args_whole(g, "places", counts, places, e)) return false;
     if (args_given(g, "line") + args_given(g, "circle") + args_given(g, "at") + args_given(g, "grid") > 1)
         return err_set(e, ERR_USAGE, "--line, --circle, --grid and --at exclude each other");
     return !args_given(g, "places") || args_given(g, "line") || args_given(g, "circle") ||

@@ -286,23 +286,6 @@ static void count(struct plot_mode *m, double frequency, double decay, double ga
     if (gain > m->gain) *m = (struct plot_mode){frequency, decay, gain};
 }
 
-static bool modes_of_table(struct plot_page *p, struct err *e)
-{
-    struct mode_table t;
-    if (!mode_table_read(p->file, p->arena, &t, e)) return false;
-    struct plot_body *b = p->bodies = ARENA_TAKE(p->arena, struct plot_body, 1);
-    *b = (struct plot_body){"", (int)t.modes, ARENA_TAKE(p->arena, struct plot_mode, t.modes)};
-    for (size_t k = 0; k < t.first[t.places]; k++)
-        for (int s = 0; s < t.entry[k].n; s++)
-            count(&b->modes[t.entry[k].mode], t.entry[k].frequency, t.entry[k].slope[s].decay,
-                  fabs(t.entry[k].slope[s].gain));
-    const char *title = csv_comment(&t.csv, "title");
-    p->title = p->title ? p->title : title ? title : p->file;
-    p->n_bodies = 1;
-    p->table_of_modes = true;
-    return true;
-}
-
 /* ------------------------------------------------------------------ a response */
 
 /* Nothing: a recording, or none. */
@@ -477,22 +460,6 @@ static const char *beside(const struct plot_page *p, const char *ending)
     return arena_format(p->arena, "%.*s%s", (int)n, p->file, ending);
 }
 
-/* Is the table of the render that the summary is of? Where that cannot be known it is taken to be, and this is said. */
-static bool table_belongs(const struct plot_page *p, const struct plot_summary *s, const char *path,
-                          const char *contact, struct err *e)
-{
-    const char *why;
-    if (!s->lists)
-        message_warning(p->call, path,
-                        arena_format(p->call->arena, "%s %s: that the table is of the same render is assumed", s->file,
-                                     s->there ? "does not say which files are of its render" : "is not there"));
-    if (!s->lists || summary_has(s, path, contact, &why, e)) return true;
-    if (e->kind == ERR_NONE)
-        message_warning(p->call, path,
-                        arena_format(p->call->arena, "left out, as it is of another render: %s %s", s->file, why));
-    return false;
-}
-
 /* The table of a contact ("": of the only one), as CSV or NPY, if it is there and of the same render. */
 static bool table_find(struct plot_page *p, const struct plot_summary *s, const char *contact, struct err *e)
 {
@@ -501,8 +468,17 @@ static bool table_find(struct plot_page *p, const struct plot_summary *s, const 
                    *path = beside(p, *contact ? arena_format(p->arena, ".%s.%s", contact, ending)
                                      : npy    ? ".npy"
                                               : ".csv");
-        if (access(path, F_OK) == 0 && table_belongs(p, s, path, contact, e)) return table_add(p, path, contact, e);
+        if (access(path, F_OK) != 0) continue;
+        const char *why;
+        if (!s->lists) /* where it cannot be known to be of the same render it is taken to be */
+            message_warning(p->call, path,
+                            arena_format(p->call->arena, "%s %s: that the table is of the same render is assumed",
+                                         s->file,
+                                         s->there ? "does not say which files are of its render" : "is not there"));
+        if (!s->lists || summary_has(s, path, contact, &why, e)) return table_add(p, path, contact, e);
         if (e->kind != ERR_NONE) return false;
+        message_warning(p->call, path,
+                        arena_format(p->call->arena, "left out, as it is of another render: %s %s", s->file, why));
     }
     return true;
 }
@@ -522,10 +498,23 @@ static bool table_alone(struct plot_page *p, struct err *e)
 {
     struct csv csv;
     if (!csv_table_read(p->file, p->arena, &csv, e)) return false;
-    if (csv_column(&csv, "frequency_hz") >= 0 && csv_column(&csv, "mode") >= 0)
-        return (isnan(p->from) && isnan(p->to)) ? modes_of_table(p, e)
-                                                : err_set(e, ERR_USAGE, "--%s: %s is a mode table, which has no time",
-                                                          isnan(p->from) ? "to" : "from", p->file);
+    if (csv_column(&csv, "frequency_hz") >= 0 && csv_column(&csv, "mode") >= 0) {
+        struct mode_table t;
+        if (!isnan(p->from) || !isnan(p->to))
+            return err_set(e, ERR_USAGE, "--%s: %s is a mode table, which has no time", isnan(p->from) ? "to" : "from",
+                           p->file);
+        if (!mode_table_read(p->file, p->arena, &t, e)) return false;
+        struct plot_body *b = p->bodies = ARENA_TAKE(p->arena, struct plot_body, 1);
+        *b = (struct plot_body){"", (int)t.modes, ARENA_TAKE(p->arena, struct plot_mode, t.modes)};
+        for (size_t k = 0; k < t.first[t.places]; k++)
+            for (int s = 0; s < t.entry[k].n; s++)
+                count(&b->modes[t.entry[k].mode], t.entry[k].frequency, t.entry[k].slope[s].decay,
+                      fabs(t.entry[k].slope[s].gain));
+        const char *title = csv_comment(&t.csv, "title");
+        p->title = p->title ? p->title : title ? title : p->file;
+        p->n_bodies = 1;
+        return p->table_of_modes = true;
+    }
     if (csv_column(&csv, "stimulus_id") >= 0)
         return err_set(e, ERR_USAGE,
                        "%s: is the manifest of a set: rasp plot --gallery %s makes a page of all its sounds", p->file,

@@ -77,26 +77,6 @@ static bool from_manifest(struct page *g, const char *file, struct err *e)
 
 static int is_sound(const struct dirent *entry) { return entry->d_name[0] != '.' && text_ends(entry->d_name, ".wav"); }
 
-static bool from_folder(struct page *g, struct err *e)
-{
-    struct dirent **entries;
-    int n = scandir(*g->folder ? g->folder : ".", &entries, is_sound, alphasort);
-    if (n < 0) return err_set(e, ERR_INPUT, "%s: %s", g->of->source, strerror(errno));
-    g->items = ARENA_TAKE(g->arena, struct item, n);
-    for (int i = 0; i < n; i++) {
-        const char *name = entries[i]->d_name;
-        g->items[g->n++] = (struct item){arena_format(g->arena, "%s%s", g->folder, name),
-                                         arena_format(g->arena, "%.*s", (int)strlen(name) - 4, name),
-                                         SOUND,
-                                         NULL,
-                                         NULL,
-                                         0};
-        free(entries[i]);
-    }
-    free(entries);
-    return g->n > 0 || err_set(e, ERR_SCENE, "%s: no sound (.wav) is in it", g->of->source);
-}
-
 /* The operand: a manifest, or a folder with or without one. */
 static bool gather(struct page *g, struct err *e)
 {
@@ -114,7 +94,20 @@ static bool gather(struct page *g, struct err *e)
                     ? ""
                     : arena_format(g->arena, "%s%s", source, text_ends(source, "/") || !strcmp(source, "/") ? "" : "/");
     const char *manifest = arena_format(g->arena, "%smanifest.csv", g->folder);
-    return access(manifest, F_OK) == 0 ? from_manifest(g, manifest, e) : from_folder(g, e);
+    if (access(manifest, F_OK) == 0) return from_manifest(g, manifest, e);
+    struct dirent **entries;
+    int n = scandir(*g->folder ? g->folder : ".", &entries, is_sound, alphasort);
+    if (n < 0) return err_set(e, ERR_INPUT, "%s: %s", source, strerror(errno));
+    g->items = ARENA_TAKE(g->arena, struct item, n);
+    for (int i = 0; i < n; i++) {
+        const char *name = entries[i]->d_name;
+        g->items[g->n++] = (struct item){.file = arena_format(g->arena, "%s%s", g->folder, name),
+                                         .name = arena_format(g->arena, "%.*s", (int)strlen(name) - 4, name),
+                                         .kind = SOUND};
+        free(entries[i]);
+    }
+    free(entries);
+    return g->n > 0 || err_set(e, ERR_SCENE, "%s: no sound (.wav) is in it", source);
 }
 
 /* ------------------------------------------------------------------ pictures */

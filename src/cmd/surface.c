@@ -287,25 +287,6 @@ static void report_surface(struct report *r, const struct surface_info *i)
 
 /* ------------------------------------------------------------------ the action */
 
-/* The steps show in the heights as they are stored: so levelling comes after. */
-static bool gather(struct surface_info *i, struct heightfile_options o, struct err *e)
-{
-    i->levelling = o.levelling;
-    o.levelling = HEIGHTFILE_LEVEL_NONE;
-    if (!heightfile_load(i->file, &o, i->arena, &i->h, e)) return false;
-    i->tilt = heightfile_level_fit(&i->h);
-    surface_heights_steps(&i->h, &i->steps);
-    i->h.levelled = heightfile_level(&i->h, (enum heightfile_levelling)i->levelling);
-    surface_heights(&i->h, &i->heights);
-    for (int down = 0; down < (i->h.rows > 1 ? 2 : 1); down++) {
-        surface_heights_band(&i->h, down, &i->band[down]);
-        surface_heights_ends(&i->h, down, &i->ends[down]);
-    }
-    surface_heights_period(&i->h, &i->period);
-    find_faults(i);
-    return true;
-}
-
 static int surface_info_run(struct cmd_call *c, struct err *e)
 {
     struct heightfile_options o;
@@ -317,8 +298,20 @@ static int surface_info_run(struct cmd_call *c, struct err *e)
         struct err mine = {0};
         struct arena *own = arena_open(); /* the maps of many files need not all stay */
         struct surface_info *i = ARENA_TAKE(own, struct surface_info, 1);
-        *i = (struct surface_info){.file = c->args.operands[k], .arena = own};
-        if (gather(i, o, &mine)) {
+        *i = (struct surface_info){.file = c->args.operands[k], .levelling = o.levelling, .arena = own};
+        struct heightfile_options stored = o; /* the steps show in the heights as they are stored: levelling is last */
+        stored.levelling = HEIGHTFILE_LEVEL_NONE;
+        if (heightfile_load(i->file, &stored, own, &i->h, &mine)) {
+            i->tilt = heightfile_level_fit(&i->h);
+            surface_heights_steps(&i->h, &i->steps);
+            i->h.levelled = heightfile_level(&i->h, (enum heightfile_levelling)i->levelling);
+            surface_heights(&i->h, &i->heights);
+            for (int down = 0; down < (i->h.rows > 1 ? 2 : 1); down++) {
+                surface_heights_band(&i->h, down, &i->band[down]);
+                surface_heights_ends(&i->h, down, &i->ends[down]);
+            }
+            surface_heights_period(&i->h, &i->period);
+            find_faults(i);
             report_surface(&r, i);
             n++;
         } else
@@ -574,22 +567,6 @@ static bool make(struct synth *s, struct err *e)
     return ok;
 }
 
-static void synth_report(const struct synth *s, const char *out)
-{
-    const struct heightfile *h = &s->h;
-    double mean = 0, square = 0, n = (double)(h->rows * h->columns);
-    for (size_t i = 0; i < h->rows * h->columns; i++)
-        mean += h->z[i] / n;
-    for (size_t i = 0; i < h->rows * h->columns; i++)
-        square += (h->z[i] - mean) * (h->z[i] - mean) / n;
-    printf("%s: ", out);
-    if (h->rows > 1)
-        printf("%zu x %zu", h->columns, h->rows);
-    else
-        printf("%zu", h->columns);
-    printf(" samples, pitch %.9g um, rms height %.4g um\n", s->pitch * 1e6, sqrt(square) * 1e6);
-}
-
 static int surface_synth_run(struct cmd_call *c, struct err *e)
 {
     struct synth s = {.c = c};
@@ -606,7 +583,15 @@ static int surface_synth_run(struct cmd_call *c, struct err *e)
     s.h.metric = true;
     s.h.title = s.scene.title;
     if (!heightfile_write(out, &s.h, format, &w, e)) return (int)e->kind;
-    if (!args_given(&c->args, "quiet")) synth_report(&s, out);
+    if (args_given(&c->args, "quiet")) return 0;
+    double mean = 0, square = 0;
+    size_t all = s.h.rows * s.h.columns;
+    for (size_t i = 0; i < all; i++)
+        mean += s.h.z[i] / (double)all;
+    for (size_t i = 0; i < all; i++)
+        square += (s.h.z[i] - mean) * (s.h.z[i] - mean) / (double)all;
+    printf("%s: %zu%s samples, pitch %.9g um, rms height %.4g um\n", out, s.h.columns,
+           s.h.rows > 1 ? arena_format(c->arena, " x %zu", s.h.rows) : "", s.pitch * 1e6, sqrt(square) * 1e6);
     return 0;
 }
 
