@@ -12,11 +12,6 @@
 
 static const char *const stems[] = {"force", "surface", "scraper", "ball", NULL};
 
-static bool in_pascals(const struct listen *l)
-{
-    return l->given && (l->radiator == RADIATOR_MONOPOLE || l->radiator == RADIATOR_PLATE);
-}
-
 static const char *radiator_word(const struct listen *l)
 {
     return keys_find("output.listen.radiator")->choices[l->radiator].word;
@@ -40,64 +35,20 @@ static void stem_words_check(const struct scene_part *top)
     }
 }
 
-static void channels_check(const struct scene_part *top, const struct output *o)
-{
-    const char *channels = "output.channels", *places = "output.listen.places";
-    if (o->channels > 1 && o->listen.n_places > 1)
-        diag_add(top->yaml->diag, scene_part_later(top, channels, places),
-                 "leave output.channels out: each place becomes a channel",
-                 "%s is %d and %s has %d places: a scene has either the same sound on all channels or a place for each",
-                 channels, o->channels, places, o->listen.n_places);
-}
-
-static void quantity_check(const struct scene_part *top, const struct output *o)
-{
-    const char *quantity = "output.quantity", *radiator = "output.listen.radiator",
-               *level = "output.level.dbfs_at_1_pa";
-    if (o->quantity != QUANTITY_AUTO && o->quantity != QUANTITY_FORCE && in_pascals(&o->listen) &&
-        scene_part_known(top, quantity))
-        diag_add(top->yaml->diag, scene_part_later(top, quantity, radiator),
-                 "leave output.quantity out, or set output.listen.radiator to contact or point",
-                 "%s must be auto where %s is %s: what is heard is a pressure", quantity, radiator,
-                 radiator_word(&o->listen));
-    if (!isnan(o->level.dbfs_at_1_pa) && !in_pascals(&o->listen))
-        diag_add(top->yaml->diag, yaml_find(top->map, level)->key->at,
-                 "add for instance: listen: {places: [[0, 0, 1 m]]}; or scale by level: {full_scale: ...}",
-                 "%s needs a sound in pascals: output.listen with a monopole or a plate", level);
-}
-
 /* A force is heard nowhere, and of what rings under it nothing is computed. */
 static void force_check(const struct scene_part *top, const struct output *o)
 {
     const char *quantity = "output.quantity", *radiator = "output.listen.radiator";
     const struct yaml_node *list = yaml_find(top->map, "output.stems");
-    if (o->quantity != QUANTITY_FORCE || !scene_part_known(top, quantity)) return;
     if (o->listen.given && o->listen.radiator != RADIATOR_CONTACT)
-        diag_add(top->yaml->diag, scene_part_later(top, quantity, radiator),
-                 "leave output.listen out, or output.quantity",
-                 "%s is force and %s is %s: a force is not radiated, and is the same at all places", quantity, radiator,
-                 radiator_word(&o->listen));
+        scene_part_refuse(top, quantity, radiator, "leave output.listen out, or output.quantity",
+                          " is force and %s is %s: a force is not radiated, and is the same at all places", radiator,
+                          radiator_word(&o->listen));
     for (const struct yaml_node *item = o->stems ? list->first : NULL; item; item = item->next)
         if (strcmp(item->text, "force") != 0)
             diag_add(top->yaml->diag, item->at, "leave the stem out, or set output.quantity to auto",
                      "output.stems: '%s' is a part of what rings, and nothing rings where %s is force",
                      diag_shown(top->yaml->diag, item->text), quantity);
-}
-
-/* The unit, where one is written, says of what the figure is meant to be. */
-static void full_scale_check(const struct scene_part *top, const struct output *o)
-{
-    const char *path = "output.level.full_scale", *quantity = "output.quantity";
-    const struct yaml_node *node = yaml_find(top->map, path);
-    if (isnan(o->level.full_scale) || !node || !scene_part_known(top, quantity)) return;
-    bool newtons = strchr(node->text, 'N') != NULL, unit = newtons || strpbrk(node->text, "mPs") != NULL,
-         force = o->quantity == QUANTITY_FORCE;
-    if (unit && newtons != force)
-        diag_add(top->yaml->diag, scene_part_later(top, path, quantity),
-                 force ? "write for instance: full_scale: 2 N"
-                       : "write for instance: full_scale: 1 mm/s; or set output.quantity to force",
-                 "%s is '%s', and the sound is %s", path, diag_shown(top->yaml->diag, node->text),
-                 force ? "a force, in N" : "no force");
 }
 
 /* A plate radiates to its front; an object's own places lie on it. */
@@ -119,23 +70,41 @@ static void heights_check(const struct scene_part *top, const struct listen *l)
 
 static void own_check(const struct scene_part *top)
 {
-    const struct scene *s = top->to;
+    const struct output *o = &((const struct scene *)top->to)->output;
+    const char *quantity = "output.quantity", *radiator = "output.listen.radiator", *places = "output.listen.places",
+               *at_1_pa = "output.level.dbfs_at_1_pa", *scale = "output.level.full_scale";
+    bool pascals = o->listen.given && (o->listen.radiator == RADIATOR_MONOPOLE || o->listen.radiator == RADIATOR_PLATE),
+         force = o->quantity == QUANTITY_FORCE, known = scene_part_known(top, quantity);
+    const struct yaml_node *node = yaml_find(top->map, scale);
     stem_words_check(top);
-    if (s->output.listen.given && !scene_part_known(top, "output.listen.radiator")) return;
-    channels_check(top, &s->output);
-    quantity_check(top, &s->output);
-    force_check(top, &s->output);
-    full_scale_check(top, &s->output);
-    if (s->output.listen.given) heights_check(top, &s->output.listen);
+    if (o->listen.given && !scene_part_known(top, radiator)) return;
+    if (o->channels > 1 && o->listen.n_places > 1)
+        scene_part_refuse(
+            top, "output.channels", places, "leave output.channels out: each place becomes a channel",
+            " is %d and %s has %d places: a scene has either the same sound on all channels or a place for each",
+            o->channels, places, o->listen.n_places);
+    if (o->quantity != QUANTITY_AUTO && !force && pascals && known)
+        scene_part_refuse(
+            top, quantity, radiator, "leave output.quantity out, or set output.listen.radiator to contact or point",
+            " must be auto where %s is %s: what is heard is a pressure", radiator, radiator_word(&o->listen));
+    if (!isnan(o->level.dbfs_at_1_pa) && !pascals)
+        diag_add(top->yaml->diag, yaml_find(top->map, at_1_pa)->key->at,
+                 "add for instance: listen: {places: [[0, 0, 1 m]]}; or scale by level: {full_scale: ...}",
+                 "%s needs a sound in pascals: output.listen with a monopole or a plate", at_1_pa);
+    if (force && known) force_check(top, o);
+    /* The unit, where one is written, says of what the figure is meant to be. */
+    bool newtons = node && !isnan(o->level.full_scale) && strchr(node->text, 'N'),
+         unit = newtons || (node && !isnan(o->level.full_scale) && strpbrk(node->text, "mPs"));
+    if (unit && newtons != force && known)
+        scene_part_refuse(top, scale, quantity,
+                          force ? "write for instance: full_scale: 2 N"
+                                : "write for instance: full_scale: 1 mm/s; or set output.quantity to force",
+                          " is '%s', and the sound is %s", diag_shown(top->yaml->diag, node->text),
+                          force ? "a force, in N" : "no force");
+    if (o->listen.given) heights_check(top, &o->listen);
 }
 
 /* ------------------------------------------------------------------ what the contacts have */
-
-static bool is_flat(const struct object_given *o)
-{
-    return o->shape == OBJECT_PLATE || o->shape == OBJECT_DISK || o->shape == OBJECT_MEMBRANE ||
-           o->shape == OBJECT_DRUM;
-}
 
 /* What the radiator needs of the surface's response; NULL: nothing that it lacks. */
 static const char *lacks(const struct listen *l, const struct response *r)
@@ -143,9 +112,10 @@ static const char *lacks(const struct listen *l, const struct response *r)
     if (l->radiator == RADIATOR_CONTACT || !response_given(r)) return NULL;
     if (l->radiator == RADIATOR_MONOPOLE) return response_is_recorded(r) ? "a response with modes" : NULL;
     if (!r->object.given) return "surface.object";
-    return l->radiator == RADIATOR_PLATE && !is_flat(&r->object)
-               ? "a surface.object that is flat: a plate, disk, membrane or drum"
-               : NULL;
+    int shape = r->object.shape;
+    bool flat = shape == OBJECT_PLATE || shape == OBJECT_DISK || shape == OBJECT_MEMBRANE || shape == OBJECT_DRUM;
+    return l->radiator == RADIATOR_PLATE && !flat ? "a surface.object that is flat: a plate, disk, membrane or drum"
+                                                  : NULL;
 }
 
 static void audible_check(const struct scene_part *p, struct yaml_node *root, const struct scene *s)
@@ -179,24 +149,22 @@ static bool is_there(const struct scene *s, const char *stem)
     return false;
 }
 
-static void stems_check(const struct scene_part *top)
+/* Of all contacts. */
+static void all_check(const struct scene_part *top)
 {
     const struct scene *s = top->to;
+    const char *path = "output.impacts";
     const struct yaml_node *list = yaml_find(top->map, "output.stems");
+    bool listed = s->output.impacts != LISTING_TABLE;
     for (const struct yaml_node *item = s->output.stems ? list->first : NULL; item; item = item->next)
         if (!is_there(s, item->text))
             diag_add(top->yaml->diag, item->at, "leave the stem out, or give what it is of",
                      "output.stems: nothing rings of which '%s' would be the stem", item->text);
-}
-
-static void impacts_check(const struct scene_part *top)
-{
-    const struct scene *s = top->to;
-    const char *path = "output.impacts";
     for (int i = 0; i < s->n_contacts; i++)
-        if (s->output.impacts != LISTING_TABLE || impact_rows_listed(&s->contacts[i], &s->output)) return;
-    diag_add(top->yaml->diag, scene_part_later(top, path, path), "leave it out, or set contact.model to impacts",
-             "%s is table, and no contact is of model impacts", path);
+        listed |= impact_rows_listed(&s->contacts[i], &s->output);
+    if (!listed)
+        scene_part_refuse(top, path, path, "leave it out, or set contact.model to impacts",
+                          " is table, and no contact is of model impacts");
 }
 
 /* ------------------------------------------------------------------ the table of diagnostics */
@@ -229,23 +197,18 @@ static const struct yaml_node *column_first(struct yaml_node *root)
     return list && list->kind == YAML_LIST ? list->first : NULL;
 }
 
-static const char *const *names_of(struct arena *a)
+static void names_check(struct yaml *y, struct yaml_node *root)
 {
     const struct params *whose;
     int n = 0;
     while (params_column(n, &whose))
         n++;
-    const char **names = ARENA_TAKE(a, const char *, n + 1);
+    const char **names = ARENA_TAKE(y->arena, const char *, n + 1);
     for (int k = 0; k < n; k++)
         names[k] = params_column(k, &whose)->name;
-    return names;
-}
-
-static void names_check(struct yaml *y, struct yaml_node *root)
-{
     for (const struct yaml_node *item = column_first(root); item; item = item->next) {
         if (item->kind != YAML_SCALAR || !*item->text || yaml_null(item) || column_find(item) >= 0) continue;
-        const char *near = text_nearest(item->text, names_of(y->arena));
+        const char *near = text_nearest(item->text, names);
         diag_add(y->diag, item->at,
                  near ? arena_format(y->arena, "did you mean '%s'?", near)
                       : "rasp explain output.diagnostics.columns lists them",
@@ -266,32 +229,16 @@ static void columns_check(const struct scene_part *p, struct yaml_node *root, co
     }
 }
 
-static void rate_check(const struct scene_part *top)
-{
-    static const char *const rates[2] = {"output.diagnostics.rate", "output.sample_rate"};
-    const struct scene *s = top->to;
-    if (s->output.diagnostics.given && s->output.diagnostics.rate > s->output.sample_rate)
-        diag_add(top->yaml->diag, scene_part_later(top, rates[0], rates[1]), "lower output.diagnostics.rate",
-                 "%s, %.9g Hz, is above %s, %.9g Hz: some rows would have no samples of the force", rates[0],
-                 s->output.diagnostics.rate, rates[1], s->output.sample_rate);
-}
 /* ------------------------------------------------------------------ all of it */
-
-static bool force_stem(const struct output *o)
-{
-    for (int i = 0; o->stems && o->stems[i]; i++)
-        if (strcmp(o->stems[i], "force") == 0) return true;
-    return false;
-}
 
 /* A contact that neither rings nor has a table or a stem. */
 static void asked_check(const struct scene_part *p, const struct scene *s)
 {
     const struct contact *c = p->to;
     const struct yaml_node *surface = yaml_get(p->map, "surface");
-    if (s->output.diagnostics.given || impact_rows_listed(c, &s->output) || response_audible(c, &s->output) ||
-        force_stem(&s->output))
-        return;
+    for (int i = 0; s->output.stems && s->output.stems[i]; i++)
+        if (strcmp(s->output.stems[i], "force") == 0) return;
+    if (s->output.diagnostics.given || impact_rows_listed(c, &s->output) || response_audible(c, &s->output)) return;
     diag_add(p->yaml->diag, scene_part_place(p, surface ? surface : p->map),
              arena_format(p->yaml->arena,
                           "give surface.response, surface.object or surface.space (or one of %s) for a sound, set "
@@ -303,14 +250,18 @@ static void asked_check(const struct scene_part *p, const struct scene *s)
 
 static void output_check(const struct scene_part *top, bool contacts)
 {
+    static const char *const rates[2] = {"output.diagnostics.rate", "output.sample_rate"};
+    const struct output *o = &((const struct scene *)top->to)->output;
     if (contacts) {
-        stems_check(top);
-        impacts_check(top);
+        all_check(top);
         return;
     }
     names_check(top->yaml, top->map);
     if (top->yaml->missing) return;
-    rate_check(top);
+    if (o->diagnostics.given && o->diagnostics.rate > o->sample_rate)
+        scene_part_refuse(top, rates[0], rates[1], "lower output.diagnostics.rate",
+                          ", %.9g Hz, is above %s, %.9g Hz: some rows would have no samples of the force",
+                          o->diagnostics.rate, rates[1], o->sample_rate);
     own_check(top);
 }
 

@@ -10,13 +10,14 @@
 
 struct body {
     const struct scene_part *part;
+    struct arena *arena;
     const struct response *response;
-    const char *name, *shape; /* shape: of its object */
+    const char *name;
 };
 
 static const char *path_of(const struct body *b, const char *key)
 {
-    return arena_format(b->part->yaml->arena, "%s.%s", b->name, key);
+    return arena_format(b->arena, "%s.%s", b->name, key);
 }
 
 static const char *label_of(const struct body *b, const char *key)
@@ -31,116 +32,53 @@ static const char *word(const struct body *b, const char *key, int value)
 
 static bool known(const struct body *b, const char *key) { return scene_part_known(b->part, path_of(b, key)); }
 
-static struct diag_place later(const struct body *b, const char *key, const char *other)
-{
-    return scene_part_later(b->part, path_of(b, key), path_of(b, other));
-}
-
 static const char *leave_out(const struct body *b, const char *key, const char *instead)
 {
-    return arena_format(b->part->yaml->arena, "leave %s out, or set it to %s", path_of(b, key), instead);
+    return arena_format(b->arena, "leave %s out, or set it to %s", path_of(b, key), instead);
 }
 
 /* ------------------------------------------------------------------ an object */
 
-static bool is_stretched(const struct object_given *o)
-{
-    return o->shape == OBJECT_STRING || o->shape == OBJECT_MEMBRANE || o->shape == OBJECT_DRUM;
-}
-
-static bool is_plate(const struct object_given *o)
-{
-    return o->shape == OBJECT_PLATE || o->shape == OBJECT_DISK || o->shape == OBJECT_SHELL;
-}
-
-/* ------------------------------------------------------------------ sizes */
-
-static void thickness_check(const struct body *b)
-{
-    const struct object_given *o = &b->response->object;
-    const char *thickness = path_of(b, "object.thickness");
-    bool hollow = o->shape == OBJECT_ROD || o->shape == OBJECT_SHELL;
-    if (o->shape != OBJECT_STRING && o->shape != OBJECT_ROD)
-        scene_part_missing(b->part, thickness, "5 mm", arena_format(b->part->yaml->arena, ": a %s has one", b->shape));
-    if (hollow && 2 * o->thickness >= o->diameter)
-        diag_add(b->part->yaml->diag, scene_part_later(b->part, thickness, path_of(b, "object.diameter")),
-                 o->shape == OBJECT_ROD ? "lower thickness; a rod without one is solid" : "lower thickness",
-                 "%s, %.4g m, must be less than half of %s, %.4g m", label_of(b, "object.thickness"), o->thickness,
-                 label_of(b, "object.diameter"), o->diameter);
-}
-
-static void edges_check(const struct body *b)
-{
-    const struct object_given *o = &b->response->object;
-    const char *edges = path_of(b, "object.edges");
-    if (o->edges == EDGES_CANTILEVER && (o->shape == OBJECT_PLATE || o->shape == OBJECT_DISK) &&
-        scene_part_known(b->part, edges))
-        diag_add(b->part->yaml->diag, scene_part_later(b->part, edges, path_of(b, "object.shape")),
-                 "edges here: free, supported, clamped",
-                 "%s must not be cantilever where %s is %s: only bars and rods have one end",
-                 label_of(b, "object.edges"), label_of(b, "object.shape"), b->shape);
-}
-
-/* ------------------------------------------------------------------ material */
-
 static void needs(const struct body *b, const char *key, const char *example)
 {
-    struct arena *a = b->part->yaml->arena;
-    const char *material = arena_format(a, "%s.material", b->name);
-    const char *value = arena_format(a, "%s; or name a material, such as %s: steel", example, material);
+    const char *material = path_of(b, "material");
+    const char *value = arena_format(b->arena, "%s; or name a material, such as %s: steel", example, material);
     scene_part_missing(b->part, path_of(b, key), value,
-                       arena_format(a, ": %s is custom", scene_part_label(b->part, material)));
+                       arena_format(b->arena, ": %s is custom", scene_part_label(b->part, material)));
 }
 
-static void material_check(const struct body *b)
+/* Sizes, edges and constants that its shape needs. */
+static void object_check(const struct body *b)
 {
     const struct object_given *o = &b->response->object;
-    if (o->material != MATERIAL_CUSTOM ||
-        !scene_part_known(b->part, arena_format(b->part->yaml->arena, "%s.material", b->name)))
-        return;
-    needs(b, "object.density", "650 kg/m^3");
-    if (!is_stretched(o)) needs(b, "object.youngs_modulus", "12 GPa");
-    if (is_plate(o)) needs(b, "object.poisson", "0.35");
-}
-
-/* nu_x nu_y = nu_x^2 E_y / E_x is below 1 in whatever does not fall apart. */
-static void orthotropic_check(const struct body *b)
-{
-    const struct object_given *o = &b->response->object;
+    if (!o->given || !known(b, "object.shape")) return;
+    const char *thickness = path_of(b, "object.thickness"), *edges = path_of(b, "object.edges"),
+               *shape = path_of(b, "object.shape"), *is = word(b, "object.shape", o->shape);
+    bool plate = o->shape == OBJECT_PLATE || o->shape == OBJECT_DISK, rod = o->shape == OBJECT_ROD,
+         stretched = o->shape == OBJECT_STRING || o->shape == OBJECT_MEMBRANE || o->shape == OBJECT_DRUM;
+    if (o->shape != OBJECT_STRING && !rod)
+        scene_part_missing(b->part, thickness, "5 mm", arena_format(b->arena, ": a %s has one", is));
+    if ((rod || o->shape == OBJECT_SHELL) && 2 * o->thickness >= o->diameter)
+        scene_part_refuse(b->part, thickness, path_of(b, "object.diameter"),
+                          rod ? "lower thickness; a rod without one is solid" : "lower thickness",
+                          ", %.4g m, must be less than half of %s, %.4g m", o->thickness,
+                          label_of(b, "object.diameter"), o->diameter);
+    if (o->edges == EDGES_CANTILEVER && plate && scene_part_known(b->part, edges))
+        scene_part_refuse(b->part, edges, shape, "edges here: free, supported, clamped",
+                          " must not be cantilever where %s is %s: only bars and rods have one end",
+                          label_of(b, "object.shape"), is);
+    if (o->material == MATERIAL_CUSTOM && known(b, "material")) {
+        needs(b, "object.density", "650 kg/m^3");
+        if (!stretched) needs(b, "object.youngs_modulus", "12 GPa");
+        if (plate || o->shape == OBJECT_SHELL) needs(b, "object.poisson", "0.35");
+    }
+    /* nu_x nu_y = nu_x^2 E_y / E_x is below 1 in whatever does not fall apart. */
     double coupling = o->poisson * o->poisson * o->youngs_modulus_across / o->youngs_modulus;
     if (coupling >= 1)
-        diag_add(b->part->yaml->diag,
-                 scene_part_later(b->part, path_of(b, "object.poisson"), path_of(b, "object.youngs_modulus_across")),
-                 "lower poisson or youngs_modulus_across",
-                 "%s: poisson^2 x youngs_modulus_across / youngs_modulus is %.4g, and is below 1 in every material",
-                 label_of(b, "object.poisson"), coupling);
-}
-
-static void object_check(struct body *b)
-{
-    if (!b->response->object.given || !known(b, "object.shape")) return;
-    b->shape = word(b, "object.shape", b->response->object.shape);
-    thickness_check(b);
-    edges_check(b);
-    material_check(b);
-    orthotropic_check(b);
-}
-
-/* ------------------------------------------------------------------ what has no modes */
-
-static void recorded_check(const struct body *b)
-{
-    const struct response *r = b->response;
-    struct diag *d = b->part->yaml->diag;
-    if (!response_is_recorded(r)) return;
-    if (r->convolution == ENGINE_RESONATORS)
-        diag_add(d, later(b, "convolution", "response"), leave_out(b, "convolution", "overlap_add"),
-                 "%s: %s need a mode table (.csv) as %s, not '%s'", label_of(b, "convolution"),
-                 word(b, "convolution", r->convolution), label_of(b, "response"), diag_shown(d, r->file));
-    if (r->moving != MOVING_AUTO && r->moving != MOVING_LAUNCH)
-        diag_add(d, later(b, "moving", "response"), leave_out(b, "moving", "launch"),
-                 "%s: %s needs modes, and '%s' is recorded", label_of(b, "moving"), word(b, "moving", r->moving),
-                 diag_shown(d, r->file));
+        scene_part_refuse(
+            b->part, path_of(b, "object.poisson"), path_of(b, "object.youngs_modulus_across"),
+            "lower poisson or youngs_modulus_across",
+            ": poisson^2 x youngs_modulus_across / youngs_modulus is %.4g, and is below 1 in every material", coupling);
 }
 
 /* ------------------------------------------------------------------ readings and engines */
@@ -151,80 +89,79 @@ static bool glides(const struct response *r)
     return r->moving == MOVING_GLIDE || (r->moving == MOVING_AUTO && response_travels(&r->space));
 }
 
+/* What has no modes. */
+static void recorded_check(const struct body *b)
+{
+    const struct response *r = b->response;
+    const char *engine = path_of(b, "convolution"), *moving = path_of(b, "moving"), *file = path_of(b, "response"),
+               *shown = diag_shown(b->part->yaml->diag, r->file);
+    if (r->convolution == ENGINE_RESONATORS)
+        scene_part_refuse(b->part, engine, file, leave_out(b, "convolution", "overlap_add"),
+                          ": %s need a mode table (.csv) as %s, not '%s'", word(b, "convolution", r->convolution),
+                          label_of(b, "response"), shown);
+    if (r->moving != MOVING_AUTO && r->moving != MOVING_LAUNCH)
+        scene_part_refuse(b->part, moving, file, leave_out(b, "moving", "launch"),
+                          ": %s needs modes, and '%s' is recorded", word(b, "moving", r->moving), shown);
+}
+
 static void reading_check(const struct body *b)
 {
     const struct response *r = b->response;
     int asked = r->convolution;
-    bool readout = r->moving == MOVING_READOUT,
-         clash = (glides(r) && asked == ENGINE_OVERLAP_ADD) || (readout && asked == ENGINE_RESONATORS);
+    const char *engine = path_of(b, "convolution"), *moving = path_of(b, "moving"),
+               *length = path_of(b, "response_length");
+    bool readout = r->moving == MOVING_READOUT, resonators = asked == ENGINE_RESONATORS,
+         clash = (glides(r) && asked == ENGINE_OVERLAP_ADD) || (readout && resonators);
     if (r->moving == MOVING_FIXED && response_travels(&r->space) && known(b, "moving"))
-        diag_add(b->part->yaml->diag, later(b, "moving", "space"),
-                 "leave surface.moving out, or set it to launch, glide or readout",
-                 "%s: fixed needs an object that stays what it is, and %s travels", label_of(b, "moving"),
-                 label_of(b, "space"));
+        scene_part_refuse(b->part, moving, path_of(b, "space"),
+                          "leave surface.moving out, or set it to launch, glide or readout",
+                          ": fixed needs an object that stays what it is, and %s travels", label_of(b, "space"));
     if (clash)
-        diag_add(b->part->yaml->diag, later(b, "convolution", "moving"),
-                 leave_out(b, "convolution", readout ? "overlap_add" : "resonators"), "%s: %s cannot do %s: %s%s",
-                 label_of(b, "convolution"), word(b, "convolution", asked), label_of(b, "moving"),
-                 glides(r) ? "glide" : "readout",
-                 r->moving == MOVING_AUTO ? ", which is auto where surface.space travels" : "");
-}
-
-static void length_check(const struct body *b)
-{
-    const struct response *r = b->response;
-    bool resonators = r->convolution == ENGINE_RESONATORS;
-    if (isnan(r->length) || response_is_recorded(r) || (!resonators && !glides(r))) return;
+        scene_part_refuse(b->part, engine, moving, leave_out(b, "convolution", readout ? "overlap_add" : "resonators"),
+                          ": %s cannot do %s: %s%s", word(b, "convolution", asked), label_of(b, "moving"),
+                          glides(r) ? "glide" : "readout",
+                          r->moving == MOVING_AUTO ? ", which is auto where surface.space travels" : "");
+    if (isnan(r->length) || response_is_recorded(r)) return;
     if (resonators)
-        diag_add(b->part->yaml->diag, later(b, "convolution", "response_length"),
-                 arena_format(b->part->yaml->arena, "leave %s out, or set %s to overlap_add",
-                              path_of(b, "response_length"), path_of(b, "convolution")),
-                 "%s: resonators ring on for ever, and %s cannot cut them", label_of(b, "convolution"),
-                 label_of(b, "response_length"));
-    else
-        diag_add(b->part->yaml->diag, later(b, "moving", "response_length"),
-                 arena_format(b->part->yaml->arena, "leave %s out, or set %s to launch", path_of(b, "response_length"),
-                              path_of(b, "moving")),
-                 "%s: what glides rings on for ever, and %s cannot cut it", label_of(b, "moving"),
-                 label_of(b, "response_length"));
+        scene_part_refuse(b->part, engine, length,
+                          arena_format(b->arena, "leave %s out, or set %s to overlap_add", length, engine),
+                          ": resonators ring on for ever, and %s cannot cut them", label_of(b, "response_length"));
+    else if (glides(r))
+        scene_part_refuse(b->part, moving, length,
+                          arena_format(b->arena, "leave %s out, or set %s to launch", length, moving),
+                          ": what glides rings on for ever, and %s cannot cut it", label_of(b, "response_length"));
 }
-
-/* ------------------------------------------------------------------ gammatones, and a force louder near the modes */
 
 static void gammatone_check(const struct body *b)
 {
     const struct response *r = b->response;
-    struct diag *d = b->part->yaml->diag;
-    struct arena *a = b->part->yaml->arena;
+    const char *path = path_of(b, "gammatone"), *file = path_of(b, "response"), *moving = path_of(b, "moving");
     if (r->gammatone < 2) /* 0: the model is not known, so it is not either */
         return;
     if (response_is_recorded(r))
-        diag_add(d, later(b, "gammatone", "response"), arena_format(a, "leave %s out", path_of(b, "gammatone")),
-                 "%s needs a mode table (.csv) as %s, not '%s'", label_of(b, "gammatone"), label_of(b, "response"),
-                 diag_shown(d, r->file));
+        scene_part_refuse(b->part, path, file, arena_format(b->arena, "leave %s out", path),
+                          " needs a mode table (.csv) as %s, not '%s'", label_of(b, "response"),
+                          diag_shown(b->part->yaml->diag, r->file));
     else if (!response_given(r))
-        diag_add(d, later(b, "gammatone", "gammatone"),
-                 arena_format(a, "give %s (a mode table) or %s, or leave %s out", path_of(b, "response"),
-                              path_of(b, "object"), path_of(b, "gammatone")),
-                 "%s is %d, and nothing rings", label_of(b, "gammatone"), r->gammatone);
+        scene_part_refuse(
+            b->part, path, path,
+            arena_format(b->arena, "give %s (a mode table) or %s, or leave %s out", file, path_of(b, "object"), path),
+            " is %d, and nothing rings", r->gammatone);
     else if (glides(r))
-        diag_add(d, later(b, "gammatone", "moving"),
-                 arena_format(a, "set %s to launch or readout, or leave %s out", path_of(b, "moving"),
-                              path_of(b, "gammatone")),
-                 "%s is %d, and what glides begins at once: %s is glide%s", label_of(b, "gammatone"), r->gammatone,
-                 label_of(b, "moving"), r->moving == MOVING_AUTO ? ", which is auto where surface.space travels" : "");
+        scene_part_refuse(b->part, path, moving,
+                          arena_format(b->arena, "set %s to launch or readout, or leave %s out", moving, path),
+                          " is %d, and what glides begins at once: %s is glide%s", r->gammatone, label_of(b, "moving"),
+                          r->moving == MOVING_AUTO ? ", which is auto where surface.space travels" : "");
 }
 
 static void body_check(const struct scene_part *p, const char *name, const struct response *r)
 {
-    struct body b = {p, r, name, ""};
+    const struct body b = {p, p->yaml->arena, r, name};
     object_check(&b);
-    if (!response_given(r)) gammatone_check(&b);
+    if (!response_given(r) || known(&b, "convolution")) gammatone_check(&b);
     if (!response_given(r) || !known(&b, "convolution")) return;
-    recorded_check(&b);
+    if (response_is_recorded(r)) recorded_check(&b);
     reading_check(&b);
-    length_check(&b);
-    gammatone_check(&b);
 }
 
 /* ------------------------------------------------------------------ the space of materials */
@@ -249,17 +186,12 @@ static bool sound_named(const struct scene_part *p, const struct contact *c)
     return false;
 }
 
-static bool lacks_sound(const struct contact *c)
-{
-    bool surface = response_given(&c->surface.response),
-         tool = response_given(&c->scraper.response) && c->scraper.weight != 0;
-    return (surface || tool) && !response_rings(c);
-}
-
 static void silence_check(const struct scene_part *p, const struct contact *c)
 {
     const char *path = "ablation.sound", *body = contact_mutes_surface(c) ? contact_tool(c) : "surface";
-    if (lacks_sound(c) && scene_part_known(p, path))
+    bool responds =
+        response_given(&c->surface.response) || (response_given(&c->scraper.response) && c->scraper.weight != 0);
+    if (responds && !response_rings(c) && scene_part_known(p, path))
         scene_part_refuse(p, path, path,
                           arena_format(p->yaml->arena, "give %s.response%s, or leave ablation.sound out", body,
                                        contact_mutes_surface(c) ? " and a weight above 0" : ""),

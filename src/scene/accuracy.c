@@ -33,13 +33,6 @@ static void preset_read(struct yaml *y, const struct yaml_node *node, struct acc
              "accuracy must be a preset or a map of knobs, not %s", scene_values_kind(y, node));
 }
 
-static const struct key_knob *knob_find(const char *name)
-{
-    for (const struct key_knob *k = keys_knobs; k->name; k++)
-        if (strcmp(k->name, name) == 0) return k;
-    return NULL;
-}
-
 static void knob_unknown(struct yaml *y, const struct yaml_node *key)
 {
     const char *names[32] = {"preset", "error"}, *all = "preset, error";
@@ -103,18 +96,6 @@ static void error_read(struct yaml *y, const struct yaml_node *node, struct accu
         accuracy->error = x;
 }
 
-static void entry_read(struct yaml *y, const struct yaml_node *item, struct accuracy *accuracy)
-{
-    const struct key_knob *k = knob_find(item->key->text);
-    if (strcmp(item->key->text, "preset") == 0) return;
-    if (strcmp(item->key->text, "error") == 0)
-        error_read(y, item, accuracy);
-    else if (k)
-        knob_read(y, k, item, accuracy);
-    else
-        knob_unknown(y, item->key);
-}
-
 void accuracy_read(struct yaml *y, const struct yaml_node *node, struct accuracy *accuracy)
 {
     accuracy_preset(accuracy, STANDARD);
@@ -127,6 +108,15 @@ void accuracy_read(struct yaml *y, const struct yaml_node *node, struct accuracy
     }
     const struct yaml_node *preset = yaml_get(node, "preset");
     if (preset) preset_read(y, preset, accuracy);
-    for (const struct yaml_node *item = node->first; item; item = item->next)
-        entry_read(y, item, accuracy);
+    for (const struct yaml_node *item = node->first; item; item = item->next) {
+        const struct key_knob *k = keys_knobs;
+        while (k->name && strcmp(k->name, item->key->text) != 0)
+            k++;
+        if (strcmp(item->key->text, "error") == 0)
+            error_read(y, item, accuracy);
+        else if (k->name)
+            knob_read(y, k, item, accuracy);
+        else if (strcmp(item->key->text, "preset") != 0)
+            knob_unknown(y, item->key);
+    }
 }

@@ -101,28 +101,23 @@ static struct key_section *sections_add(struct key_section *s, const char *map)
     return s;
 }
 
-static bool is_named(const struct key_alternative *t, const char *path)
-{
-    for (int k = 0; t->paths[k]; k++)
-        if (!strcmp(t->paths[k], path)) return true;
-    return false;
-}
-
 /* "*" stands for all parts of the surface that are not named. */
 static void rivals_add(struct key_alternative *t)
 {
     const struct key_alternative old = *t;
     const struct params *p;
     int n = 0;
-    for (int k = 0; old.paths[k]; k++)
-        if (strcmp(old.paths[k], "*") != 0)
-            t->paths[n++] = old.paths[k];
-        else
-            for (int i = 0; (p = stages_params(i)); i++)
-                if (p->ground && p->ground->span && !is_named(&old, p->section)) {
-                    assert(n < KEYS_RIVALS);
-                    t->paths[n++] = p->section;
-                }
+    for (int k = 0; old.paths[k]; k++) {
+        bool rest = !strcmp(old.paths[k], "*");
+        if (!rest) t->paths[n++] = old.paths[k];
+        for (int i = 0; rest && (p = stages_params(i)); i++) {
+            bool named = !p->ground || !p->ground->span;
+            for (int m = 0; old.paths[m]; m++)
+                named = named || !strcmp(old.paths[m], p->section);
+            assert(named || n < KEYS_RIVALS);
+            if (!named) t->paths[n++] = p->section;
+        }
+    }
     t->paths[n] = NULL;
     t->most = old.most == 1 ? 1 : n;
 }
@@ -197,9 +192,15 @@ const char *keys_former(const char *path, const char *word)
     static const struct {
         const char *path, *word, *instead;
     } former[] = {
-        {"accuracy.morph_error", "", ramp},       {"accuracy.overlap_hop", "", ramp},
-        {"accuracy.overlap_order", "", ramp},     {"surface.convolution", "nodes", engine},
-        {"scraper.convolution", "nodes", engine}, {"ball.convolution", "nodes", engine},
+        {"accuracy.morph_error", "", ramp},
+        {"accuracy.overlap_hop", "", ramp},
+        {"accuracy.overlap_order", "", ramp},
+        {"surface.convolution", "nodes", engine},
+        {"scraper.convolution", "nodes", engine},
+        {"ball.convolution", "nodes", engine},
+        {"contact.roll.static_depth", "",
+         "it is gone: the stiffness follows from both materials and the ground's roughness; remove it, or give "
+         "contact.roll.static_penetration, a length"},
     };
     for (size_t i = 0; i < sizeof former / sizeof *former; i++)
         if (strcmp(former[i].path, path) == 0 && strcmp(former[i].word, word) == 0) return former[i].instead;

@@ -41,14 +41,6 @@ static void print_comment(FILE *f, const char *text, int indent)
     text_wrap(f, text, indent + 2, margin);
 }
 
-static void print_header(FILE *f, const char *path, size_t length, int indent, bool off)
-{
-    size_t start = length;
-    while (start > 0 && path[start - 1] != '.')
-        start--;
-    fprintf(f, "%*s%s%.*s:\n", indent, "", off ? "#" : "", (int)(length - start), path + start);
-}
-
 /* Headers of the maps that `path` is in and `last` is not; returns the indent of the key itself. */
 static int open_maps(FILE *f, const struct keys_line *lines, int n, int i, const struct keys_style *style)
 {
@@ -60,18 +52,15 @@ static int open_maps(FILE *f, const struct keys_line *lines, int n, int i, const
         if (!under(last, path, length)) {
             if (style->comments && indent == style->indent) fputc('\n', f);
             if (meaning) print_comment(f, meaning, indent);
-            print_header(f, path, length, indent, all_off(lines, n, path, length));
+            size_t start = length;
+            while (start > 0 && path[start - 1] != '.')
+                start--;
+            fprintf(f, "%*s%s%.*s:\n", indent, "", all_off(lines, n, path, length) ? "#" : "", (int)(length - start),
+                    path + start);
         }
         indent += 2;
     }
     return indent;
-}
-
-static void print_key(FILE *f, const struct keys_line *l, int indent)
-{
-    const char *dot = strrchr(l->path, '.');
-    if (l->comment) print_comment(f, l->comment, indent);
-    fprintf(f, "%*s%s%s: %s\n", indent, "", l->off ? "#" : "", dot ? dot + 1 : l->path, l->value);
 }
 
 /* Writes to memory and puts "- " over the last two columns before the first key. */
@@ -97,7 +86,10 @@ void keys_yaml_print(FILE *f, const struct keys_line *lines, int n, const struct
     }
     for (int i = 0; i < n; i++) {
         if (style->comments && !strchr(lines[i].path, '.') && i > 0 && strchr(lines[i - 1].path, '.')) fputc('\n', f);
-        print_key(f, &lines[i], open_maps(f, lines, n, i, style));
+        const char *dot = strrchr(lines[i].path, '.');
+        int indent = open_maps(f, lines, n, i, style);
+        if (lines[i].comment) print_comment(f, lines[i].comment, indent);
+        fprintf(f, "%*s%s%s: %s\n", indent, "", lines[i].off ? "#" : "", dot ? dot + 1 : lines[i].path, lines[i].value);
     }
 }
 
@@ -110,14 +102,6 @@ static bool plain(uint32_t c)
            (c >= 0xA0 && c != 0x2028 && c != 0x2029 && c != 0xFEFF && c != 0xFFFE && c != 0xFFFF);
 }
 
-static void put_escaped(FILE *f, uint32_t c)
-{
-    if (c <= 0xFF)
-        fprintf(f, "\\x%02" PRIX32, c);
-    else
-        fprintf(f, "\\u%04" PRIX32, c);
-}
-
 const char *keys_yaml_quoted(const char *text, struct arena *a)
 {
     char *memory = NULL;
@@ -127,9 +111,9 @@ const char *keys_yaml_quoted(const char *text, struct arena *a)
     for (const char *s = text; *s;) {
         uint32_t code = 0;
         int n = text_utf8(s, strlen(s), &code);
-        if (n && !plain(code)) {
-            put_escaped(f, code);
-        } else {
+        if (n && !plain(code))
+            fprintf(f, code <= 0xFF ? "\\x%02" PRIX32 : "\\u%04" PRIX32, code);
+        else {
             if (*s == '"' || *s == '\\') fputc('\\', f);
             fwrite(s, 1, (size_t)(n ? n : 1), f);
         }

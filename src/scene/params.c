@@ -128,20 +128,15 @@ double params_finest(const struct contact *c)
     return finest;
 }
 
-double params_span(const struct contact *c)
+static double span(const struct contact *c, bool kinked)
 {
-    double span = 0;
+    double sum = 0;
     int i = 0;
     for (const struct params *p; (p = ground_next(c, &i));)
-        if (p->ground->span) span += p->ground->span(params_of(c, p));
-    return span;
+        if (p->ground->span && (p->ground->kinked || !kinked)) sum += p->ground->span(params_of(c, p));
+    return sum;
 }
 
-double params_kinked_span(const struct contact *c)
-{
-    double span = 0;
-    int i = 0;
-    for (const struct params *p; (p = ground_next(c, &i));)
-        if (p->ground->kinked) span += p->ground->span(params_of(c, p));
-    return span;
-}
+double params_span(const struct contact *c) { return span(c, false); }
+
+double params_kinked_span(const struct contact *c) { return span(c, true); }

@@ -191,25 +191,6 @@ struct yaml_node *scene_merge_text(struct yaml *y, const struct diag_source *sou
 
 /* ------------------------------------------------------------------ what the command line sets */
 
-struct assignment {
-    struct yaml *y;
-    struct diag_source *source;
-    size_t from, to; /* of the part of the path that is looked at */
-};
-
-static struct diag_place part_place(const struct assignment *s)
-{
-    const char *text = s->source->text;
-    int column = (int)text_utf8_count(text, s->from) + 1, width = (int)text_utf8_count(text + s->from, s->to - s->from);
-    return (struct diag_place){s->source, 1, column, width > 0 ? width : 1};
-}
-
-static struct yaml_node *part_key(const struct assignment *s)
-{
-    const char *word = arena_format(s->y->arena, "%.*s", (int)(s->to - s->from), s->source->text + s->from);
-    return yaml_make(s->y, YAML_SCALAR, part_place(s), word);
-}
-
 /* The entry of a list: by number from 0, or by its name. */
 static struct yaml_node *list_entry(struct yaml *y, struct yaml_node *list, const struct yaml_node *key)
 {
@@ -261,47 +242,50 @@ static void path_put(struct yaml *y, struct yaml_node *root, struct yaml_node *c
     }
 }
 
-static bool part_next(struct assignment *s, size_t end)
+/* A dotted path into its parts, each with its place; NULL: one of them is empty, which has been reported. */
+static struct yaml_node **path_split(struct yaml *y, const struct yaml_node *key, bool option)
 {
-    s->to = s->from + strcspn(s->source->text + s->from, ".");
-    if (s->to > end) s->to = end;
-    if (s->to > s->from) return true;
-    diag_add(s->y->diag, part_place(s), "write for instance: --set \"motion.rate=3 Hz\"",
-             "a part of the path is empty");
-    return false;
-}
-
-/* The parts of the path; NULL: one of them is empty. */
-static struct yaml_node **path_of(struct assignment *s, size_t equals)
-{
-    struct yaml_node **path = ARENA_TAKE(s->y->arena, struct yaml_node *, equals + 2);
-    for (int n = 0; part_next(s, equals); s->from = s->to + 1) {
-        path[n++] = part_key(s);
-        if (s->to == equals) return path;
+    int most = 2, n = 0;
+    for (const char *s = key->text; *s; s++)
+        most += *s == '.';
+    struct yaml_node **parts = ARENA_TAKE(y->arena, struct yaml_node *, most);
+    for (const char *s = key->text;; s++) {
+        size_t size = strcspn(s, ".");
+        struct diag_place at = key->at;
+        if (key->plain) { /* of a key without quotes the place of the part alone */
+            at.column += (int)text_utf8_count(key->text, (size_t)(s - key->text));
+            at.width = size > 0 ? (int)text_utf8_count(s, size) : 1;
+        }
+        if (size == 0 && option)
+            diag_add(y->diag, at, "write for instance: --set \"motion.rate=3 Hz\"", "a part of the path is empty");
+        else if (size == 0)
+            diag_add(y->diag, key->at, "write for instance: motion.rate", "a part of the path '%s' is empty",
+                     diag_shown(y->diag, key->text));
+        if (size == 0) return NULL;
+        parts[n++] = yaml_make(y, YAML_SCALAR, at, arena_format(y->arena, "%.*s", (int)size, s));
+        s += size;
+        if (!*s) return parts;
     }
-    return NULL;
-}
-
-static void assign(struct assignment *s, struct yaml_node *root, size_t equals)
-{
-    struct yaml_node *value = yaml_parse_value(s->y, s->source, equals + 1), **path = value ? path_of(s, equals) : NULL;
-    if (path) path_put(s->y, root, path, value);
 }
 
 void scene_merge_set(struct yaml *y, struct yaml_node *root, const char *text)
 {
     size_t equals = strcspn(text, "=");
     const char *name = arena_format(y->arena, "--set %.*s", (int)equals, text);
-    struct assignment s = {.y = y, .source = yaml_source(y, name, text, strlen(text))};
-    s.source->option = true;
+    struct diag_source *source = yaml_source(y, name, text, strlen(text));
+    const struct diag_place at = {source, 1, 1, 0};
+    source->option = true;
     if (!text[equals])
-        diag_add(y->diag, (struct diag_place){s.source, 1, 1, 0}, "write for instance: --set \"motion.rate=3 Hz\"",
-                 "has no '=VALUE'");
+        diag_add(y->diag, at, "write for instance: --set \"motion.rate=3 Hz\"", "has no '=VALUE'");
     else if (strncmp(text, "include", equals) == 0 && equals == strlen("include"))
-        diag_add(y->diag, (struct diag_place){s.source, 1, 1, 0}, "write include: into a scene file",
-                 "include cannot be set here");
-    else
-        assign(&s, root, equals);
+        diag_add(y->diag, at, "write include: into a scene file", "include cannot be set here");
+    else {
+        struct yaml_node *value = yaml_parse_value(y, source, equals + 1),
+                         *key = yaml_make(y, YAML_SCALAR, at, arena_format(y->arena, "%.*s", (int)equals, text));
+        key->plain = true;
+        struct yaml_node **path = value ? path_split(y, key, true) : NULL;
+        if (path) path_put(y, root, path, value);
+    }
 }
 
 void scene_merge_seed(struct yaml *y, struct yaml_node *root, const char *number)
@@ -334,32 +318,7 @@ void scene_merge_layer(struct yaml *y, struct yaml_node *root, const struct scen
             path_put(y, root, layer->keys[i].path, copied(y, layer->keys[i].value));
 }
 
-/* Of a key without quotes the place of the part alone. */
-static struct diag_place layer_place(const struct yaml_node *key, size_t from, size_t n)
-{
-    struct diag_place at = key->at;
-    if (!key->plain) return at;
-    at.column += (int)text_utf8_count(key->text, from);
-    at.width = (int)text_utf8_count(key->text + from, n);
-    return at;
-}
-
 struct yaml_node **scene_merge_layer_path(struct yaml *y, const struct yaml_node *key)
 {
-    int most = 2, n = 0;
-    for (const char *s = key->text; *s; s++)
-        most += *s == '.';
-    struct yaml_node **parts = ARENA_TAKE(y->arena, struct yaml_node *, most);
-    for (const char *s = key->text;; s++) {
-        size_t size = strcspn(s, ".");
-        if (size == 0) {
-            diag_add(y->diag, key->at, "write for instance: motion.rate", "a part of the path '%s' is empty",
-                     diag_shown(y->diag, key->text));
-            return NULL;
-        }
-        parts[n++] = yaml_make(y, YAML_SCALAR, layer_place(key, (size_t)(s - key->text), size),
-                               arena_format(y->arena, "%.*s", (int)size, s));
-        s += size;
-        if (!*s) return parts;
-    }
+    return path_split(y, key, false);
 }

@@ -111,13 +111,6 @@ static enum role role_of(const char *path, const struct key **found)
     return ROLE_NONE;
 }
 
-static bool is_top_name(const struct walk *w, const char *path)
-{
-    for (int i = 0; top_names[i]; i++)
-        if (w->where != SCENE_PART_ENTRY && strcmp(top_names[i], path) == 0) return true;
-    return false;
-}
-
 static bool has(const char *const *names, const char *word)
 {
     for (; *names; names++)
@@ -163,22 +156,10 @@ static const char *elsewhere(const struct walk *w, const char *word)
     return n ? joined(w->y->arena, paths, " or ") : NULL;
 }
 
-/* Keys that scenes once had, and what took their place. */
-static const char *former(const char *section, const char *word)
-{
-    static const struct {
-        const char *section, *word, *cure;
-    } all[] = {{"contact.roll", "static_depth",
-                "it is gone: the stiffness follows from both materials and the ground's roughness; remove it, or give "
-                "contact.roll.static_penetration, a length"}};
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        if (strcmp(section, all[i].section) == 0 && strcmp(word, all[i].word) == 0) return all[i].cure;
-    return NULL;
-}
-
 static const char *unknown_cure(const struct walk *w, const char *word, const char *section)
 {
-    if (former(section, word)) return former(section, word);
+    const char *former = keys_former(arena_format(w->y->arena, "%s.%s", section, word), "");
+    if (former) return former;
     const char *const *names = names_in(w, section);
     const char *near = text_nearest(word, names), *other = elsewhere(w, word);
     struct arena *a = w->y->arena;
@@ -224,7 +205,7 @@ static void walk_map(const struct walk *w, const struct yaml_node *map, const ch
         int n = snprintf(path, sizeof path, "%s%s%s", section, *section ? "." : "", item->key->text);
         enum role role =
             n < DEEP_MAX && *item->key->text && !strchr(item->key->text, '.') ? role_of(path, &k) : ROLE_NONE;
-        if (!*section && is_top_name(w, item->key->text)) continue;
+        if (!*section && w->where != SCENE_PART_ENTRY && has(top_names, item->key->text)) continue;
         if (role == ROLE_NONE)
             unknown(w, item->key, section);
         else if (!allowed(w, k))
@@ -399,12 +380,6 @@ static enum key_struct owner_of(const char *path)
     return k ? k->of : KEY_CONTACT;
 }
 
-static enum applies path_applies(const struct scene_part *p, const char *path)
-{
-    const struct key *k = keys_find(path);
-    return k ? applies(p, k) : APPLIES_YES;
-}
-
 static void both_given(const struct scene_part *p, const struct yaml_node *const nodes[2], const char *const names[2])
 {
     bool swap = scene_part_before(&nodes[1]->key->at, &nodes[0]->key->at);
@@ -450,7 +425,8 @@ static void alternative_check(const struct scene_part *p, const struct key_alter
     if (applies(p, &condition) != APPLIES_YES) return;
     for (int i = 0; alternative->paths[i]; i++) {
         const char *path = alternative->paths[i];
-        enum applies a = path_applies(p, path);
+        const struct key *k = keys_find(path);
+        enum applies a = k ? applies(p, k) : APPLIES_YES;
         const struct yaml_node *node = yaml_find(p->map, path);
         if (a == APPLIES_UNKNOWN) return;
         if (a == APPLIES_YES) candidates[n++] = path;

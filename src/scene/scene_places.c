@@ -50,11 +50,6 @@ static void add(struct list *l, const char *key, const char *file, const struct 
     l->end = &p->next;
 }
 
-static const char *file_of(const struct scene_part *p, const struct key *k)
-{
-    return k->type == KEY_FILE ? *(const char **)keys_field(k, p->to) : NULL;
-}
-
 static bool in_same_map(const struct key *k, const char *path, size_t n)
 {
     return k && strncmp(k->path, path, n) == 0 && k->path[n] == '.';
@@ -82,7 +77,8 @@ void scene_places_note(const struct scene_part *p, const char *contact, struct s
         if (k->of != p->of) continue;
         const struct yaml_node *node = yaml_find(p->map, k->path);
         note_maps(p, &l, before, k);
-        if (node && node->at.source) add(&l, k->path, file_of(p, k), &node->at);
+        if (node && node->at.source)
+            add(&l, k->path, k->type == KEY_FILE ? *(const char **)keys_field(k, p->to) : NULL, &node->at);
         before = k;
     }
 }
@@ -187,11 +183,6 @@ static const struct contact *contact_of(const struct scene *s, const char *text,
     return NULL;
 }
 
-static bool has_key(const struct key *k, const char *path)
-{
-    return strcmp(k->path, path) == 0 || in_same_map(k, path, strlen(path));
-}
-
 /* The key, or section, with whose name the text begins, into path; "": there is none. Of whom it is, is what is
    returned. A word without a dot may be any word ("contact 'rod', ..."), unless a colon follows. */
 static enum key_struct leading_key(const char *text, char path[KEY_MAX])
@@ -200,7 +191,7 @@ static enum key_struct leading_key(const char *text, char path[KEY_MAX])
     bool may_be = n < KEY_MAX && (text[n] == ':' || memchr(text, '.', n));
     snprintf(path, KEY_MAX, "%.*s", may_be ? (int)n : 0, text);
     for (const struct key *k = keys_table; k->path && *path; k++)
-        if (has_key(k, path)) return k->of;
+        if (strcmp(k->path, path) == 0 || in_same_map(k, path, strlen(path))) return k->of;
     *path = '\0';
     return KEY_SCENE;
 }

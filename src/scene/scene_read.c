@@ -29,38 +29,30 @@
 
 static const char RECIPE[] = "a recipe holds what stands under surface: write for instance: roughness: {rms: 4 um}";
 
-static bool is_remark(const struct yaml_node *item)
-{
-    return strcmp(item->key->text, "title") == 0 || strcmp(item->key->text, "source") == 0;
-}
-
-/* May the item stand in a recipe? Whether it is a key of a surface is asked of the merged scene. */
-static bool item_good(struct yaml *y, const struct yaml_node *item)
-{
-    const char *name = item->key->text;
-    if (strcmp(name, "recipe") == 0)
-        return diag_add(y->diag, item->key->at, "put both recipes' keys into one file",
-                        "a recipe must not name a recipe itself");
-    if (is_remark(item) && item->kind != YAML_SCALAR)
-        return diag_add(y->diag, item->at, "write for instance: title: sandpaper, grit 120",
-                        "%s must be a text, not %s", name, scene_values_kind(y, item));
-    return true;
-}
-
-/* The recipe's keys of the surface. */
+/* The recipe's keys of the surface. Whether they are keys of a surface is asked of the merged scene. */
 static struct yaml_node *keys_of(struct yaml *y, struct yaml_node *recipe)
 {
     struct yaml_node *keys = yaml_make(y, YAML_MAP, recipe->at, NULL);
     for (struct yaml_node *item = recipe->first, *next; item; item = next) {
+        const char *name = item->key->text;
+        bool remark = strcmp(name, "title") == 0 || strcmp(name, "source") == 0;
         next = item->next;
-        if (item_good(y, item) && !is_remark(item)) yaml_append(keys, item->key, item);
+        if (strcmp(name, "recipe") == 0)
+            diag_add(y->diag, item->key->at, "put both recipes' keys into one file",
+                     "a recipe must not name a recipe itself");
+        else if (!remark)
+            yaml_append(keys, item->key, item);
+        else if (item->kind != YAML_SCALAR)
+            diag_add(y->diag, item->at, "write for instance: title: sandpaper, grit 120", "%s must be a text, not %s",
+                     name, scene_values_kind(y, item));
     }
     return keys;
 }
 
-static bool surface_merge(struct yaml *y, struct yaml_node *surface)
+static bool recipe_merge(struct yaml *y, struct yaml_node *map)
 {
-    const struct yaml_node *name = yaml_get(surface, "recipe");
+    struct yaml_node *surface = yaml_get(map, "surface");
+    const struct yaml_node *name = surface ? yaml_get(surface, "recipe") : NULL;
     if (!name || name->kind != YAML_SCALAR || !*name->text || yaml_null(name)) return true;
     const struct diag_source *source = yaml_bytes_read(y, scene_merge_path(y, name->at.source, name->text), name->at);
     struct yaml_node *recipe = source ? yaml_parse(y, source) : NULL;
@@ -71,12 +63,6 @@ static bool surface_merge(struct yaml *y, struct yaml_node *surface)
         return diag_add(y->diag, yaml_get(recipe, "surface")->key->at, RECIPE, "unknown key 'surface' in a recipe");
     if (recipe) scene_merge_under(y, surface, keys_of(y, recipe));
     return recipe || !source;
-}
-
-static bool recipe_merge(struct yaml *y, struct yaml_node *map)
-{
-    struct yaml_node *surface = yaml_get(map, "surface");
-    return !surface || surface_merge(y, surface);
 }
 
 static bool recipes_merge(struct yaml *y, struct yaml_node *root)
@@ -92,53 +78,41 @@ static bool recipes_merge(struct yaml *y, struct yaml_node *root)
 
 static const char INPUTS[] = "write: - {file: modes.csv, sha256: 64 hexadecimal digits}";
 
-static bool is_sha256(const char *s) { return strlen(s) == 64 && s[strspn(s, "0123456789abcdef")] == '\0'; }
-
-static void file_read(struct yaml *y, const struct yaml_node *item, struct scene *s, struct input *input)
-{
-    input->file = scene_merge_path(y, item->at.source, item->text);
-    scene_places_input(y, input->file, &item->at, s);
-}
-
 static void item_read(struct yaml *y, const struct yaml_node *item, struct scene *s, struct input *input)
 {
-    bool text = item->kind == YAML_SCALAR && *item->text;
-    if (strcmp(item->key->text, "file") == 0 && text)
-        file_read(y, item, s, input);
-    else if (strcmp(item->key->text, "file") == 0)
+    bool text = item->kind == YAML_SCALAR && *item->text, file = strcmp(item->key->text, "file") == 0;
+    if (file && text) {
+        input->file = scene_merge_path(y, item->at.source, item->text);
+        scene_places_input(y, input->file, &item->at, s);
+    } else if (file)
         diag_add(y->diag, item->at, INPUTS, "file must be a file name, not %s", scene_values_kind(y, item));
     else if (strcmp(item->key->text, "sha256") != 0)
         diag_add(y->diag, item->key->at, "keys here: file, sha256", "unknown key '%s' in inputs",
                  diag_shown(y->diag, item->key->text));
-    else if (text && is_sha256(item->text))
+    else if (text && strlen(item->text) == 64 && !item->text[strspn(item->text, "0123456789abcdef")])
         input->sha256 = item->text;
     else
         diag_add(y->diag, item->at, INPUTS, "sha256 must be 64 hexadecimal digits in lower case, not %s",
                  scene_values_kind(y, item));
 }
 
-static void input_read(struct yaml *y, const struct yaml_node *entry, struct scene *s, struct input *input)
-{
-    if (entry->kind != YAML_MAP) {
-        diag_add(y->diag, entry->at, INPUTS, "an entry of inputs must be a map of keys, not %s",
-                 scene_values_kind(y, entry));
-        return;
-    }
-    for (const struct yaml_node *item = entry->first; item; item = item->next)
-        item_read(y, item, s, input);
-    if (!yaml_get(entry, "file")) diag_add(y->diag, entry->at, INPUTS, "an entry of inputs has no file");
-}
-
 static void inputs_read(struct yaml *y, const struct yaml_node *list, struct scene *s)
 {
-    if (!list) return;
-    if (list->kind != YAML_LIST) {
+    if (list && list->kind != YAML_LIST)
         diag_add(y->diag, list->at, INPUTS, "inputs must be a list, not %s", scene_values_kind(y, list));
-        return;
-    }
+    if (!list || list->kind != YAML_LIST) return;
     s->inputs = ARENA_TAKE(y->arena, struct input, list->n);
-    for (const struct yaml_node *entry = list->first; entry; entry = entry->next)
-        input_read(y, entry, s, &s->inputs[s->n_inputs++]);
+    for (const struct yaml_node *entry = list->first; entry; entry = entry->next) {
+        struct input *input = &s->inputs[s->n_inputs++];
+        if (entry->kind != YAML_MAP) {
+            diag_add(y->diag, entry->at, INPUTS, "an entry of inputs must be a map of keys, not %s",
+                     scene_values_kind(y, entry));
+            continue;
+        }
+        for (const struct yaml_node *item = entry->first; item; item = item->next)
+            item_read(y, item, s, input);
+        if (!yaml_get(entry, "file")) diag_add(y->diag, entry->at, INPUTS, "an entry of inputs has no file");
+    }
 }
 
 /* ------------------------------------------------------------------ contacts */
@@ -161,22 +135,17 @@ static const char *name_of(const struct yaml_node *map)
     return name && name->kind == YAML_SCALAR ? name->text : NULL;
 }
 
-static void name_check(struct yaml *y, const struct yaml_node *map)
-{
-    const char *name = name_of(map);
-    if (name && *name && !is_name(name))
-        diag_add(y->diag, yaml_get(map, "name")->at, "write for instance: name: left_hand",
-                 "a contact's name must be of letters, digits and _, and must not start with a digit, not '%s'",
-                 diag_shown(y->diag, name));
-}
-
 /* errors: how many had been told before this contact; -1: the scene's own keys are in error, so that nothing is known
  * to be missing. */
 static void contact_read(const struct tree *t, struct yaml_node *map, const char *prefix, int errors, struct contact *c)
 {
     struct scene_part part = {t->yaml, map, prefix, KEY_CONTACT, c};
     const struct params *own;
-    name_check(t->yaml, map);
+    const char *name = name_of(map);
+    if (name && *name && !is_name(name))
+        diag_add(t->yaml->diag, yaml_get(map, "name")->at, "write for instance: name: left_hand",
+                 "a contact's name must be of letters, digits and _, and must not start with a digit, not '%s'",
+                 diag_shown(t->yaml->diag, name));
     scene_part_fill(&part);
     scene_places_note(&part, c->name, t->scene);
     for (int i = 0; (own = stages_params(i)); i++)
@@ -187,13 +156,6 @@ static void contact_read(const struct tree *t, struct yaml_node *map, const char
     bool good = t->yaml->diag->n == errors;
     for (int i = 0; (own = stages_params(i)); i++)
         if (own->check_asked) own->check_asked(&part, t->root, t->scene, good);
-}
-
-static const char *prefix_of(struct yaml *y, const struct yaml_node *map, int index)
-{
-    const char *name = name_of(map);
-    return name && is_name(name) ? arena_format(y->arena, "contacts.%s.", name)
-                                 : arena_format(y->arena, "contacts.%d.", index);
 }
 
 /* Told at a contact whose name an earlier one has; a contact without a name is called "contact". */
@@ -217,7 +179,8 @@ static void entry_read(const struct tree *t, const struct yaml_node *list, struc
     int index = 0, errors = sound ? y->diag->n : -1;
     for (const struct yaml_node *other = list->first; other != map; other = other->next)
         index++;
-    const char *prefix = prefix_of(y, map, index);
+    const char *name = name_of(map), *prefix = name && is_name(name) ? arena_format(y->arena, "contacts.%s.", name)
+                                                                     : arena_format(y->arena, "contacts.%d.", index);
     if (map->kind != YAML_MAP) {
         diag_add(y->diag, map->at, "write for instance: - name: left_hand",
                  "an entry of contacts must be a map of keys, not %s", scene_values_kind(y, map));
@@ -228,33 +191,23 @@ static void entry_read(const struct tree *t, const struct yaml_node *list, struc
     contact_read(t, map, prefix, errors, c);
 }
 
-static void list_read(const struct tree *t, struct yaml_node *list, struct scene *s)
-{
-    struct yaml *y = t->yaml;
-    bool sound = y->diag->n == 0;
-    if (list->kind != YAML_LIST || list->n == 0 || list->n > 1000) {
-        diag_add(y->diag, list->at, "write each contact as an entry: - name: left_hand",
-                 "contacts must be a list of 1 to 1000 contacts, not %s",
-                 list->kind == YAML_LIST ? arena_format(y->arena, "of %d", list->n) : scene_values_kind(y, list));
-        return;
-    }
-    s->contacts = params_contacts(y->arena, list->n);
-    for (struct yaml_node *map = list->first; map; map = map->next)
-        entry_read(t, list, map, sound, &s->contacts[s->n_contacts++]);
-}
-
 static void contacts_read(struct yaml *y, struct yaml_node *root, struct scene *s)
 {
     struct yaml_node *list = yaml_get(root, "contacts");
     const struct tree tree = {y, root, s};
     scene_part_names(y, root, list ? SCENE_PART_TOP : SCENE_PART_SINGLE, "");
-    if (list) {
-        list_read(&tree, list, s);
+    bool sound = y->diag->n == 0;
+    if (list && (list->kind != YAML_LIST || list->n == 0 || list->n > 1000)) {
+        diag_add(y->diag, list->at, "write each contact as an entry: - name: left_hand",
+                 "contacts must be a list of 1 to 1000 contacts, not %s",
+                 list->kind == YAML_LIST ? arena_format(y->arena, "of %d", list->n) : scene_values_kind(y, list));
         return;
     }
-    s->contacts = params_contacts(y->arena, 1);
-    s->n_contacts = 1;
-    contact_read(&tree, root, "", 0, s->contacts);
+    s->contacts = params_contacts(y->arena, list ? list->n : 1);
+    s->n_contacts = !list;
+    if (!list) contact_read(&tree, root, "", 0, s->contacts);
+    for (struct yaml_node *map = list ? list->first : NULL; map; map = map->next)
+        entry_read(&tree, list, map, sound, &s->contacts[s->n_contacts++]);
 }
 
 /* ------------------------------------------------------------------ the scene */
@@ -297,32 +250,24 @@ static struct yaml *open_over(const struct scene_overrides *over, struct arena *
     return y;
 }
 
-/* A design, which a scene was asked for. */
-static bool a_design(struct yaml *y, const struct yaml_node *root)
+/* A design, where a scene was asked for, or a scene of another version: what else looks wrong in it need not be, so
+ * that this is the only error reported. */
+static bool is_other(struct yaml *y, const struct yaml_node *root)
 {
-    const struct yaml_node *node = yaml_get(root, "rasp-design");
-    if (!node) return false;
-    y->diag->n = 0;
-    y->missing = false;
-    diag_add(y->diag, node->key->at, "rasp batch renders it, rasp check checks it",
-             "this is a design of many scenes, not a scene");
-    return true;
-}
-
-/* A scene of another version: what else looks wrong in it need not be, so that this is the only error told. */
-static bool another_version(struct yaml *y, const struct yaml_node *root)
-{
-    const struct yaml_node *node = yaml_get(root, "rasp");
+    const struct yaml_node *design = yaml_get(root, "rasp-design"), *rasp = yaml_get(root, "rasp");
     struct units_fault fault;
-    double version;
-    if (!node || node->kind != YAML_SCALAR || !units_read(node->text, KEY_NONE, &version, y->arena, &fault) ||
-        version == 1)
-        return false;
+    double version = 1;
+    bool read = rasp && rasp->kind == YAML_SCALAR && units_read(rasp->text, KEY_NONE, &version, y->arena, &fault);
+    if (!design && (!read || version == 1)) return false;
     y->diag->n = 0;
     y->missing = false;
-    diag_add(y->diag, node->at,
-             "this program reads scenes of version 1, written rasp: 1; a newer one may read this scene",
-             "rasp must be 1, not %s", scene_values_kind(y, node));
+    if (design)
+        diag_add(y->diag, design->key->at, "rasp batch renders it, rasp check checks it",
+                 "this is a design of many scenes, not a scene");
+    else
+        diag_add(y->diag, rasp->at,
+                 "this program reads scenes of version 1, written rasp: 1; a newer one may read this scene",
+                 "rasp must be 1, not %s", scene_values_kind(y, rasp));
     return true;
 }
 
@@ -338,7 +283,7 @@ static void source_read(struct yaml *y, const struct diag_source *source, const 
                                0) /* they may stand in a file that is not there */
             scene_merge_set(y, root, over->set[i]);
     if (over && over->seed) scene_merge_seed(y, root, over->seed);
-    if (a_design(y, root) || another_version(y, root)) return;
+    if (is_other(y, root)) return;
     bool readable = recipes_merge(y, root);
     scene_merge_drop_nulls(root);
     if (readable) tree_read(y, root, s);

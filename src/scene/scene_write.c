@@ -65,13 +65,6 @@ static void add_keys(struct list *l, bool only)
         }
 }
 
-static const char *pinned(const struct scene *s, const char *file)
-{
-    for (int i = 0; i < s->n_inputs; i++)
-        if (s->inputs[i].sha256 && !strcmp(s->inputs[i].file, file)) return s->inputs[i].sha256;
-    return NULL;
-}
-
 const char **scene_write_inputs(const struct scene *s, int *n, struct arena *a)
 {
     struct list l = {s, a, NULL, 0, 0};
@@ -86,25 +79,22 @@ const char **scene_write_inputs(const struct scene *s, int *n, struct arena *a)
 }
 
 /* A file that cannot be read keeps the hash it was pinned to; without one it is listed unpinned, with a remark. */
-static void write_input(FILE *f, const struct scene *s, const char *file, const char *beside, struct arena *a)
-{
-    struct err unreadable = {0};
-    const char *now = s->inputs_known ? NULL : file_cache_sha256(s->file_cache, file, a, &unreadable),
-               *sha256 = now ? now : pinned(s, file);
-    fprintf(f, "  - file: %s\n", keys_yaml_quoted(relpath_make(file, beside, a), a));
-    if (sha256)
-        fprintf(f, "    sha256: \"%s\"\n", sha256);
-    else
-        fputs("    # could not be read when this was written\n", f);
-}
-
 static void inputs_write(FILE *f, const struct scene *s, const char *beside, struct arena *a)
 {
     int n;
     const char **files = scene_write_inputs(s, &n, a);
     if (n) fputs("inputs:\n", f);
-    for (int i = 0; i < n; i++)
-        write_input(f, s, files[i], beside, a);
+    for (int i = 0; i < n; i++) {
+        struct err unreadable = {0};
+        const char *sha256 = s->inputs_known ? NULL : file_cache_sha256(s->file_cache, files[i], a, &unreadable);
+        for (int k = 0; k < s->n_inputs && !sha256; k++)
+            if (s->inputs[k].sha256 && !strcmp(s->inputs[k].file, files[i])) sha256 = s->inputs[k].sha256;
+        fprintf(f, "  - file: %s\n", keys_yaml_quoted(relpath_make(files[i], beside, a), a));
+        if (sha256)
+            fprintf(f, "    sha256: \"%s\"\n", sha256);
+        else
+            fputs("    # could not be read when this was written\n", f);
+    }
 }
 
 /* ------------------------------------------------------------------ keys */
@@ -136,8 +126,6 @@ static const char *numbers_value(const double *x, int n, struct arena *a)
     return arena_format(a, "[%s]", all);
 }
 
-static const char *pair_value(const double *x, struct arena *a) { return isnan(x[0]) ? NULL : numbers_value(x, 2, a); }
-
 static const char *points_value(const void *field, int width, struct arena *a)
 {
     const double *at = *(const double *const *)field;
@@ -163,13 +151,6 @@ static const char *list_value(const char *const *items, struct arena *a)
     return arena_format(a, "[%s]", all);
 }
 
-static const char *text_value(const struct key *k, const void *owner, struct writer *w)
-{
-    const char *s = text(k, owner);
-    if (!s) return NULL;
-    return keys_yaml_quoted(k->type == KEY_FILE ? relpath_make(s, w->beside, w->a) : s, w->a);
-}
-
 /* Is the key or section of that path given? */
 static bool given(const char *path, const void *owner)
 {
@@ -179,19 +160,17 @@ static bool given(const char *path, const void *owner)
     return k && (k->type == KEY_FILE ? text(k, owner) != NULL : !isnan(number(k, owner)));
 }
 
-static bool is_among(const struct key *k, const struct key_alternative *all)
-{
-    for (int i = 0; all->paths[i]; i++)
-        if (!strcmp(all->paths[i], k->path)) return true;
-    return false;
-}
-
 /* Is one of those given of which the key is an alternative? They have the same owner. */
 static bool alternative_given(const struct key *k, const void *owner)
 {
-    for (const struct key_alternative *all = keys_alternatives; all->paths[0]; all++)
-        for (int i = 0; is_among(k, all) && all->paths[i]; i++)
-            if (given(all->paths[i], owner)) return true;
+    for (const struct key_alternative *all = keys_alternatives; all->paths[0]; all++) {
+        bool among = false, some = false;
+        for (int i = 0; all->paths[i]; i++)
+            among = among || !strcmp(all->paths[i], k->path);
+        for (int i = 0; among && all->paths[i]; i++)
+            some = some || given(all->paths[i], owner);
+        if (some) return true;
+    }
     return false;
 }
 
@@ -208,19 +187,15 @@ static double instead(const struct key *k, const void *owner)
     return NAN;
 }
 
-static const char *number_value(const struct key *k, const void *owner, struct writer *w)
-{
-    double x = isnan(number(k, owner)) ? instead(k, owner) : number(k, owner);
-    return isnan(x) ? NULL : keys_yaml_number(x, w->a);
-}
-
 /* YAML text of the key's value; NULL: not given. */
 static const char *value(const struct key *k, const void *owner, struct writer *w)
 {
     switch (k->type) {
     case KEY_NUMBER:
-    case KEY_WHOLE:
-        return number_value(k, owner, w);
+    case KEY_WHOLE: {
+        double x = isnan(number(k, owner)) ? instead(k, owner) : number(k, owner);
+        return isnan(x) ? NULL : keys_yaml_number(x, w->a);
+    }
     case KEY_TIME_OR_AUTO:
         return isnan(number(k, owner)) ? "auto" : keys_yaml_number(number(k, owner), w->a);
     case KEY_COUNT:
@@ -228,11 +203,13 @@ static const char *value(const struct key *k, const void *owner, struct writer *
     case KEY_SEED:
         return arena_format(w->a, "%" PRIu64, *(const uint64_t *)field(k, owner));
     case KEY_TEXT:
-    case KEY_FILE:
-        return text_value(k, owner, w);
+    case KEY_FILE: {
+        const char *s = text(k, owner);
+        return s ? keys_yaml_quoted(k->type == KEY_FILE ? relpath_make(s, w->beside, w->a) : s, w->a) : NULL;
+    }
     case KEY_POINT:
     case KEY_RANGE:
-        return pair_value(field(k, owner), w->a);
+        return isnan(number(k, owner)) ? NULL : numbers_value(field(k, owner), 2, w->a);
     case KEY_POINTS:
     case KEY_PLACES:
         return points_value(field(k, owner), keys_points_width(k), w->a);

@@ -186,8 +186,6 @@ static const char *unit_cure(const char *number, const char *unit, enum key_dime
     return arena_format(a, "units: %s; write for instance: %s", all, units_example(d));
 }
 
-static const char *without_article(enum key_dimension d) { return strchr(units_name(d), ' ') + 1; }
-
 static bool unit_fault(struct units_fault *f, const char *number, const char *unit, enum key_dimension d,
                        struct arena *a)
 {
@@ -199,7 +197,8 @@ static bool unit_fault(struct units_fault *f, const char *number, const char *un
                          arena_format(a, "write: %s", number));
     if (other)
         return fault_set(
-            f, arena_format(a, "needs %s; %s is a unit of %s", needs, unit, without_article(other->dimension)),
+            f,
+            arena_format(a, "needs %s; %s is a unit of %s", needs, unit, strchr(units_name(other->dimension), ' ') + 1),
             example_cure(d, a));
     if (strcmp(unit, "%") == 0)
         return fault_set(f, arena_format(a, "needs %s, not a percentage", needs),

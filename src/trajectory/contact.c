@@ -69,17 +69,6 @@ double contact_stiffness(const struct contact *c)
     return !isnan(r->stiffness) ? r->stiffness : r->kappa * c->scraper.mass;
 }
 
-/* Of a rolling contact: what touches the surface, from the ball's keys. */
-static void ball_apply(struct contact *c)
-{
-    const struct ball *b = &c->ball;
-    c->motion.gravity = c->contact.gravity;
-    c->motion.inertia = ball_inertia(c);
-    if (!contact_rolls(c)) return;
-    c->scraper = (struct scraper){
-        .mass = ball_mass(b), .weight = b->weight, .radius = b->radius, .patch = b->patch, .response = b->response};
-}
-
 /* ------------------------------------------------------------------ what is left out */
 
 /* Without a non-linearity: no limiter, and of `omitted` no smoothing, which the paper has in the same section, against
@@ -120,26 +109,16 @@ const char *contact_ablation(const struct contact *c, struct arena *a)
 
 void contact_settle(struct contact *c)
 {
-    ball_apply(c);
+    const struct ball *b = &c->ball;
+    c->motion.gravity = c->contact.gravity;
+    c->motion.inertia = ball_inertia(c);
+    if (contact_rolls(c))
+        c->scraper = (struct scraper){
+            .mass = ball_mass(b), .weight = b->weight, .radius = b->radius, .patch = b->patch, .response = b->response};
     ablation_apply(c);
 }
 
 /* ------------------------------------------------------------------ sizes and mass of a ball */
-
-static void below_radius(const struct scene_part *p, const char *path, double size, double radius)
-{
-    if (size >= radius)
-        scene_part_contradiction(p, path, "ball.radius", "must be less than",
-                                 arena_format(p->yaml->arena, "lower %s, or raise ball.radius", path));
-}
-
-static void sizes_check(const struct scene_part *p, const struct ball *b)
-{
-    below_radius(p, "ball.offset", b->offset, b->radius);
-    below_radius(p, "ball.wall", b->wall, b->radius);
-    below_radius(p, "ball.patch", b->patch, b->radius);
-    below_radius(p, "ball.lobe_height", b->lobe_height, b->radius);
-}
 
 /* What the mass lacks, with an example of the cure; NULL: it is not the mass. */
 static const char *mass_lacks(const struct scene_part *p, const struct ball *b)
@@ -153,10 +132,21 @@ static const char *mass_lacks(const struct scene_part *p, const struct ball *b)
                        : ": it is not known what the ball is made of; ball.material, such as glass, would do as well";
 }
 
-static void mass_check(const struct scene_part *p, const struct contact *c)
+static void ball_check(const struct scene_part *p, const struct ball *b)
 {
-    const char *lacks = mass_lacks(p, &c->ball);
-    if (isnan(c->scraper.mass) && lacks && scene_part_known(p, "ball.body") && scene_part_known(p, "ball.material"))
+    const struct {
+        const char *path;
+        double size;
+    } below[] = {{"ball.offset", b->offset},
+                 {"ball.wall", b->wall},
+                 {"ball.patch", b->patch},
+                 {"ball.lobe_height", b->lobe_height}};
+    const char *lacks = mass_lacks(p, b);
+    for (size_t i = 0; i < sizeof below / sizeof *below; i++)
+        if (below[i].size >= b->radius)
+            scene_part_contradiction(p, below[i].path, "ball.radius", "must be less than",
+                                     arena_format(p->yaml->arena, "lower %s, or raise ball.radius", below[i].path));
+    if (isnan(ball_mass(b)) && lacks && scene_part_known(p, "ball.body") && scene_part_known(p, "ball.material"))
         scene_part_missing(p, "ball.mass", "11 g", lacks);
 }
 
@@ -199,27 +189,17 @@ static void idle_check(const struct scene_part *p, const struct contact *c)
         if (own->ground) idle_refuse(p, c, own->section, false);
 }
 
-/* ------------------------------------------------------------------ what can be left out */
-
-static void force_check(const struct scene_part *p, const struct contact *c)
-{
-    const char *path = "ablation.normal_force";
-    if (contact_steady(c) && c->load.recorded)
-        scene_part_refuse(p, path, "load.recorded",
-                          "give load.constant in place of load.recorded (load: {recorded: null, constant: 1 N})",
-                          " is constant, and a recorded force has no mean that is known before its file is read");
-}
-
 static void contact_check(const struct scene_part *p, const struct contact *c, const void *own)
 {
     (void)own;
-    force_check(p, c);
+    if (contact_steady(c) && c->load.recorded)
+        scene_part_refuse(p, "ablation.normal_force", "load.recorded",
+                          "give load.constant in place of load.recorded (load: {recorded: null, constant: 1 N})",
+                          " is constant, and a recorded force has no mean that is known before its file is read");
     if (!scene_part_known(p, "contact.model")) return;
     still_check(p, c);
     if (c->contact.model != CONTACT_SCRAPE) idle_check(p, c);
-    if (!contact_rolls(c)) return;
-    sizes_check(p, &c->ball);
-    mass_check(p, c);
+    if (contact_rolls(c)) ball_check(p, &c->ball);
 }
 
 const struct params contact_params = {.section = "contact", .settle = contact_settle, .check = contact_check};

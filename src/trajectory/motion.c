@@ -138,11 +138,11 @@ bool motion_incline_can(const struct incline *i, const struct motion *m, struct 
 
 /* ------------------------------------------------------------------ what the scene tells */
 
-static double incline_speed(const struct motion *m)
+/* m: from end to end. */
+static double chord(const struct motion *m)
 {
-    struct incline i = motion_incline(m);
-    double lasts = motion_incline_lasts(&i, m), speed = motion_incline_distance(&i, lasts) / lasts;
-    return isfinite(speed) ? speed : 0.2;
+    double x = m->to[0] - m->from[0], y = m->to[1] - m->from[1];
+    return sqrt(x * x + y * y);
 }
 
 /* m: from point to point. */
@@ -158,9 +158,13 @@ static double chords(const struct motion *m)
 
 double motion_speed(const struct motion *m)
 {
-    double dx = m->to[0] - m->from[0], dy = m->to[1] - m->from[1], length = sqrt(dx * dx + dy * dy);
+    double length = chord(m);
     if (m->path == PATH_STILL) return 0;
-    if (m->path == PATH_INCLINE) return incline_speed(m);
+    if (m->path == PATH_INCLINE) {
+        struct incline i = motion_incline(m);
+        double lasts = motion_incline_lasts(&i, m), speed = motion_incline_distance(&i, lasts) / lasts;
+        return isfinite(speed) ? speed : 0.2;
+    }
     if (!isnan(m->speed)) return m->speed;
     if (m->path == PATH_BACK_AND_FORTH && !isnan(m->rate)) return 2 * m->rate * length;
     if (m->path == PATH_CIRCLE && !isnan(m->duration)) return 2 * REAL_PI * m->radius * fabs(m->turns) / m->duration;
@@ -194,28 +198,24 @@ bool motion_law_fits(const struct motion *m, int law)
     return law != SPEED_GIVEN || !rests;
 }
 
-static bool incline_rests(const struct motion *m, bool at_end)
-{
-    struct incline i = motion_incline(m);
-    return at_end ? i.over == INCLINE_RESTS && !(motion_incline_lasts(&i, m) < i.end) : m->start_speed == 0;
-}
-
 bool motion_rests(const struct motion *m, bool at_end)
 {
     int law = motion_law(m);
     double strokes = 2 * m->rate * m->duration;
-    if (m->path == PATH_INCLINE) return incline_rests(m, at_end);
+    if (m->path == PATH_INCLINE) {
+        struct incline i = motion_incline(m);
+        return at_end ? i.over == INCLINE_RESTS && !(motion_incline_lasts(&i, m) < i.end) : m->start_speed == 0;
+    }
     if (law != SPEED_HARMONIC && law != SPEED_MINIMUM_JERK) return m->path == PATH_STILL;
     return !at_end || m->path != PATH_BACK_AND_FORTH || fabs(strokes - rint(strokes)) < 1e-9;
 }
 
 double motion_lasts(const struct motion *m)
 {
-    double x = m->to[0] - m->from[0], y = m->to[1] - m->from[1];
     if (!isnan(m->duration)) return m->duration;
     if (m->path == PATH_CIRCLE) return 2 * M_PI * m->radius * fabs(m->turns) / m->speed;
     if (m->path == PATH_INCLINE) return motion_incline(m).end;
-    return motion_straight(m) ? sqrt(x * x + y * y) / m->speed : NAN;
+    return motion_straight(m) ? chord(m) / m->speed : NAN;
 }
 
 #define SHORTEST_PATH 1e-9 /* m */
@@ -229,33 +229,14 @@ static struct diag_place motion_place(const struct scene_part *p)
     return scene_part_place(p, map ? map : p->map);
 }
 
-/* ------------------------------------------------------------------ the way */
-
-static void stroke_check(const struct scene_part *p, const struct motion *m)
-{
-    double x = m->to[0] - m->from[0], y = m->to[1] - m->from[1];
-    if (m->path != PATH_STILL && motion_straight(m) && sqrt(x * x + y * y) < SHORTEST_PATH)
-        scene_part_contradiction(p, "motion.to", "motion.from", "must differ from",
-                                 "the ends are to be at least 1 nm apart: write for instance: to: [3 cm, 0]");
-}
-
-static void turns_check(const struct scene_part *p, const struct motion *m)
-{
-    const char *path = "motion.turns";
-    if (m->path == PATH_CIRCLE && 2 * M_PI * m->radius * fabs(m->turns) < SHORTEST_PATH)
-        scene_part_refuse(p, path, path, "write for instance: turns: 1, or -1 for clockwise", " must not be 0");
-}
-
 /* ------------------------------------------------------------------ how long it takes */
-
-static bool given(const struct scene_part *p, const char *path) { return yaml_find(p->map, path) != NULL; }
 
 /* A speed profile says all of it. (A scribble's rate is its shape's.) */
 static void profile_check(const struct scene_part *p, const struct motion *m)
 {
     static const char *const times[] = {"motion.speed", "motion.duration", "motion.rate"};
     for (int i = 0; i < (m->path == PATH_BACK_AND_FORTH ? 3 : 2); i++)
-        if (given(p, times[i]))
+        if (scene_part_given(p, times[i]))
             diag_add(p->yaml->diag, yaml_find(p->map, times[i])->key->at,
                      arena_format(p->yaml->arena, "remove it, or set %smotion.law to another law", p->prefix),
                      "%s must not be given where %s is given: motion.profile says how fast and how long it goes",
@@ -276,7 +257,8 @@ static void time_check(const struct scene_part *p, const struct motion *m)
         scene_part_missing(p, duration, example,
                            arena_format(p->yaml->arena, ": under the law %s a recording gives the path only",
                                         word("motion.law", m->law)));
-    else if (m->path != PATH_RECORDED && m->path != PATH_INCLINE && !given(p, duration) && !given(p, "motion.speed"))
+    else if (m->path != PATH_RECORDED && m->path != PATH_INCLINE && !scene_part_given(p, duration) &&
+             !scene_part_given(p, "motion.speed"))
         diag_add(p->yaml->diag, motion_place(p), "add for instance: speed: 10 cm/s", "%s or %s must be given",
                  scene_part_label(p, "motion.speed"), scene_part_label(p, duration));
 }
@@ -324,22 +306,18 @@ static bool free_grip(const struct scene_part *p)
     return true;
 }
 
-static void free_stuck(const struct scene_part *p, const struct motion *m)
-{
-    const char *cure, *why = stuck(m, &cure), *speed = "motion.start_speed", *slope = "motion.incline";
-    diag_add(p->yaml->diag, given(p, speed) || given(p, slope) ? scene_part_later(p, speed, slope) : motion_place(p),
-             cure, "%s: %s", scene_part_label(p, "motion"), why);
-}
-
 static void free_check(const struct scene_part *p, const struct motion *m)
 {
     struct incline i = motion_incline(m);
-    const char *duration = "motion.duration";
+    const char *duration = "motion.duration", *speed = "motion.start_speed", *slope = "motion.incline";
     double lasts = motion_incline_lasts(&i, m);
     double known = m->start_speed + m->incline + m->rolling_friction + m->gravity;
     if (m->path != PATH_INCLINE || free_grip(p) || isnan(known) || !(i.length >= SHORTEST_PATH)) return;
-    if (i.over == INCLINE_STUCK)
-        free_stuck(p, m);
+    const char *cure, *why = i.over == INCLINE_STUCK ? stuck(m, &cure) : NULL;
+    bool said = scene_part_given(p, speed) || scene_part_given(p, slope);
+    if (why)
+        diag_add(p->yaml->diag, said ? scene_part_later(p, speed, slope) : motion_place(p), cure, "%s: %s",
+                 scene_part_label(p, "motion"), why);
     else if (exits(&i, lasts))
         scene_part_refuse(p, duration, duration,
                           "lower it, or leave it out: the motion ends there by itself; or make the way longer",
@@ -355,8 +333,12 @@ static void motion_check(const struct scene_part *p, const struct contact *c, co
     const struct motion *m = &c->motion;
     (void)own;
     if (!scene_part_known(p, "motion.path")) return;
-    stroke_check(p, m);
-    turns_check(p, m);
+    if (m->path != PATH_STILL && motion_straight(m) && chord(m) < SHORTEST_PATH)
+        scene_part_contradiction(p, "motion.to", "motion.from", "must differ from",
+                                 "the ends are to be at least 1 nm apart: write for instance: to: [3 cm, 0]");
+    if (m->path == PATH_CIRCLE && 2 * M_PI * m->radius * fabs(m->turns) < SHORTEST_PATH)
+        scene_part_refuse(p, "motion.turns", "motion.turns", "write for instance: turns: 1, or -1 for clockwise",
+                          " must not be 0");
     if (!scene_part_known(p, "motion.law")) return;
     time_check(p, m);
     law_check(p, m);
