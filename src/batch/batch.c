@@ -190,18 +190,6 @@ static bool level_all(struct batch *b, struct err *e)
 
 /* ------------------------------------------------------------------ before */
 
-static bool has_room(const struct batch *b, struct err *e)
-{
-    const char *folder = b->ask->folder;
-    double share = (double)b->report->n_mine / b->report->set.n, free = folder_free(folder),
-           raw = share * b->report->plan.raw_bytes;
-    if (raw < free || access(arena_format(b->arena, "%s/.rasp/raw", folder), F_OK) == 0) return true;
-    return err_set(e, ERR_CREATE,
-                   "%s: %.3g GB are free, and the sounds take %.3g GB until the common level is known: give the level "
-                   "as full_scale, or make room",
-                   folder, free / 1e9, raw / 1e9);
-}
-
 /* ------------------------------------------------------------------ only looking */
 
 /* What of the set is there, and why the rest would be made. A gain is known when all are. */
@@ -319,7 +307,14 @@ static bool end(struct batch *b, struct err *e)
 
 static bool run_in_folder(struct batch *b, struct err *e)
 {
-    if (!has_room(b, e)) return false;
+    const char *folder = b->ask->folder;
+    double share = (double)b->report->n_mine / b->report->set.n, free = folder_free(folder),
+           raw = share * b->report->plan.raw_bytes;
+    if (!(raw < free) && access(arena_format(b->arena, "%s/.rasp/raw", folder), F_OK) != 0)
+        return err_set(e, ERR_CREATE,
+                       "%s: %.3g GB are free, and the sounds take %.3g GB until the common level is known: give the "
+                       "level as full_scale, or make room",
+                       folder, free / 1e9, raw / 1e9);
     b->report->rendering = true;
     b->k.unfinished = !tables_are_there(b->ask->folder, b->arena);
     tables_remove(b->ask->folder, b->arena);

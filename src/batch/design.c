@@ -126,27 +126,6 @@ static void seed_read(const struct design_reading *r, const struct yaml_node *no
                             "write for instance: seed: 7");
 }
 
-static void version_read(const struct design_reading *r)
-{
-    const struct yaml_node *node = yaml_get(r->root, "rasp-design");
-    if (!node)
-        diag_add(r->yaml->diag, (struct diag_place){r->root->at.source, 1, 1, 0},
-                 "begin with: rasp-design: 1 (rasp new design writes one)",
-                 "rasp-design is missing: is this a design?");
-    else if (!is_text(node, "1"))
-        design_reading_must(r, node, "rasp-design", "1",
-                            "this program reads designs of version 1; a newer one may read this");
-}
-
-static void replicates_read(const struct design_reading *r)
-{
-    const struct yaml_node *node = design_reading_value(r, "replicates");
-    r->design->replicates = 1;
-    if (node && (node->kind != YAML_SCALAR || !text_int(node->text, 1, DESIGN_READING_CELLS, &r->design->replicates)))
-        design_reading_must(r, node, "replicates", "a whole number from 1 to 1000000",
-                            "write for instance: replicates: 4");
-}
-
 /* ------------------------------------------------------------------ order */
 
 static void order_read(const struct design_reading *r)
@@ -239,13 +218,25 @@ static void design_rules_read(struct design_reading *r)
     const struct yaml_node *title = design_reading_value(r, "title"), *seed = design_reading_value(r, "seed");
     r->texts->seed = place_of(r, seed);
     r->design->seed = 1;
-    version_read(r);
+    const struct yaml_node *version = yaml_get(r->root, "rasp-design"),
+                           *replicates = design_reading_value(r, "replicates");
+    if (!version)
+        diag_add(r->yaml->diag, (struct diag_place){r->root->at.source, 1, 1, 0},
+                 "begin with: rasp-design: 1 (rasp new design writes one)",
+                 "rasp-design is missing: is this a design?");
+    else if (!is_text(version, "1"))
+        design_reading_must(r, version, "rasp-design", "1",
+                            "this program reads designs of version 1; a newer one may read this");
     if (title && title->kind != YAML_SCALAR)
         design_reading_must(r, title, "title", "a text", "write for instance: title: three materials by two rates");
     else if (title)
         r->design->title = title->text;
     if (seed) seed_read(r, seed, "seed", &r->design->seed);
-    replicates_read(r);
+    r->design->replicates = 1;
+    if (replicates && (replicates->kind != YAML_SCALAR ||
+                       !text_int(replicates->text, 1, DESIGN_READING_CELLS, &r->design->replicates)))
+        design_reading_must(r, replicates, "replicates", "a whole number from 1 to 1000000",
+                            "write for instance: replicates: 4");
     order_read(r);
     level_read(r);
     r->texts->level = place_of(r, design_reading_value(r, "level"));
@@ -566,24 +557,18 @@ const char *design_value(const struct design *d, int i, int factor)
     return level < 0 ? "n/a" : d->factors[factor].levels[level].value;
 }
 
-/* A line's beginning, after { in flow style ({rasp-design: 1, ...}), is the key, quoted perhaps. */
-static bool names_design(const char *line, bool flow)
-{
-    static const char key[] = "rasp-design";
-    const char *at = line + (flow ? strspn(line, "{ \t") : 0), *s = at + (*at == '"' || *at == '\'');
-    size_t n = strlen(key);
-    return !strncmp(s, key, n) && (s[n] == ':' || s[n] == ' ' || (s != at && s[n] == *at));
-}
-
 bool design_is(const char *file)
 {
+    static const char key[] = "rasp-design";
     struct arena *a = arena_open();
-    size_t size;
+    size_t size, n = strlen(key);
     const char *text = yaml_bytes_text(file, a, &size), *end = text ? text + size : NULL;
     bool found = false, flow = false;
     for (const char *line = text; line && line < end && !found;) {
+        /* a line's beginning, after { in flow style ({rasp-design: 1, ...}), is the key, quoted perhaps */
         flow = flow || *line == '{';
-        found = names_design(line, flow);
+        const char *at = line + (flow ? strspn(line, "{ \t") : 0), *s = at + (*at == '"' || *at == '\'');
+        found = !strncmp(s, key, n) && (s[n] == ':' || s[n] == ' ' || (s != at && s[n] == *at));
         line = memchr(line, '\n', (size_t)(end - line));
         line = line ? line + 1 : NULL;
     }

@@ -86,23 +86,20 @@ static bool reserved(const struct design_reading *r, const struct yaml_node *key
 
 /* ------------------------------------------------------------------ values */
 
-static bool value_good(const struct design_reading *r, const char *path, const struct yaml_node *value)
-{
-    const struct key *k = design_changes_key(path);
-    if (!k || yaml_null(value)) return true;
-    struct arena *own = arena_open(); /* some kilobytes, for each of perhaps thousands of levels */
-    void *to = k->of == KEY_CONTACT ? (void *)params_contacts(own, 1) : ARENA_TAKE(own, struct scene, 1);
-    const char *prefix = arena_format(own, "%.*s", (int)(keys_text_plain(path) - path), path); /* "contacts.rod." */
-    struct scene_part part = {r->yaml, r->root, prefix, k->of, to};
-    bool good = scene_values_read(&part, k, value);
-    arena_close(own);
-    return good;
-}
-
 static bool leaf_add(const struct design_reading *r, struct design_change *c, const struct yaml_node *key,
                      const struct yaml_node *value)
 {
-    if (reserved(r, key) || !design_changes_known(r, key) || !value_good(r, key->text, value)) return false;
+    if (reserved(r, key) || !design_changes_known(r, key)) return false;
+    const struct key *k = design_changes_key(key->text);
+    if (k && !yaml_null(value)) {
+        struct arena *own = arena_open(); /* some kilobytes, for each of perhaps thousands of levels */
+        void *to = k->of == KEY_CONTACT ? (void *)params_contacts(own, 1) : ARENA_TAKE(own, struct scene, 1);
+        int n = (int)(keys_text_plain(key->text) - key->text); /* "contacts.rod." */
+        struct scene_part part = {r->yaml, r->root, arena_format(own, "%.*s", n, key->text), k->of, to};
+        bool good = scene_values_read(&part, k, value);
+        arena_close(own);
+        if (!good) return false;
+    }
     struct yaml_node **path = scene_merge_layer_path(r->yaml, key);
     if (!path) return false;
     c->keys = arena_more(r->arena, c->keys, c->n, sizeof *c->keys);
@@ -370,19 +367,6 @@ static void column_check(const struct design_reading *r, int f)
                  "the manifest's column of %s would be called %s, as is %s", r->design->factors[f].name, column, of);
 }
 
-static void design_columns_make(struct design_reading *r)
-{
-    for (int f = 0; f < r->design->n_factors; f++) {
-        struct design_factor *factor = &r->design->factors[f];
-        const struct key *k = design_changes_key(factor->name);
-        values_make(r, factor);
-        find_twice(r, f, true, same_value);
-        factor->column = column_of(factor, r->arena);
-        factor->meaning = k ? k->meaning : NULL;
-        column_check(r, f);
-    }
-}
-
 /* ------------------------------------------------------------------ factors */
 
 static const char map_cure[] = "write for instance: - {label: wood, set: {surface.response: wood.csv}}";
@@ -454,19 +438,6 @@ static void scalar_read(const struct reading_level *l, const struct yaml_node *i
     design_changes_add(l->r, change_of(l), l->name, item);
 }
 
-/* A level of recordings has no scene to change. */
-static void of_read(const struct reading_level *l, const struct yaml_node *map, const struct yaml_node *of)
-{
-    static const char cure[] = "write for instance: - {label: recorded, of: recordings}";
-    if (of->kind != YAML_SCALAR || strcmp(of->text, "recordings") != 0)
-        design_reading_must(l->r, of, "of", "the word recordings", cure);
-    level_of(l)->recorded = true;
-    for (const char *const *other = (const char *const[]){"set", "base", "value", NULL}; *other; other++)
-        if (yaml_get(map, *other))
-            diag_add(l->r->yaml->diag, yaml_get(map, *other)->key->at, cure,
-                     "a level that only recordings have has no %s", *other);
-}
-
 static void map_read(const struct reading_level *l, const struct yaml_node *map)
 {
     static const char *const names[] = {"label", "text", "set", "base", "value", "of", NULL};
@@ -495,7 +466,16 @@ static void map_read(const struct reading_level *l, const struct yaml_node *map)
         change_of(l)->base = base;
         level_of(l)->base = scene_merge_path(l->r->yaml, base->at.source, base->text);
     }
-    if (yaml_get(map, "of")) of_read(l, map, yaml_get(map, "of"));
+    const struct yaml_node *of = yaml_get(map, "of");
+    static const char cure[] = "write for instance: - {label: recorded, of: recordings}";
+    if (!of) return;
+    if (of->kind != YAML_SCALAR || strcmp(of->text, "recordings") != 0)
+        design_reading_must(l->r, of, "of", "the word recordings", cure);
+    level_of(l)->recorded = true; /* a level of recordings has no scene to change */
+    for (const char *const *other = (const char *const[]){"set", "base", "value", NULL}; *other; other++)
+        if (yaml_get(map, *other))
+            diag_add(l->r->yaml->diag, yaml_get(map, *other)->key->at, cure,
+                     "a level that only recordings have has no %s", *other);
 }
 
 static void level_read(const struct reading_level *l, const struct yaml_node *item)
@@ -626,5 +606,13 @@ void design_factors_read(struct design_reading *r)
     r->design->set = design_changes_texts(&r->texts->set, r->arena);
     factors_read(r, design_reading_value(r, "factors"));
     bases_check(r);
-    design_columns_make(r);
+    for (int f = 0; f < r->design->n_factors; f++) {
+        struct design_factor *factor = &r->design->factors[f];
+        const struct key *k = design_changes_key(factor->name);
+        values_make(r, factor);
+        find_twice(r, f, true, same_value);
+        factor->column = column_of(factor, r->arena);
+        factor->meaning = k ? k->meaning : NULL;
+        column_check(r, f);
+    }
 }

@@ -171,19 +171,6 @@ static void clashes(const struct design_reading *r)
     }
 }
 
-static void design_names_check(const struct design_reading *r)
-{
-    for (int i = 0; i < r->design->n_stimuli; i++) {
-        const struct design_stimulus *s = &r->design->stimuli[i];
-        const char *cure, *fault = name_fault(s->name, &cure);
-        if (!fault) continue;
-        diag_add(r->yaml->diag, place_of(r, s), cure, "the name '%s' of %s %s", diag_shown(r->yaml->diag, s->name),
-                 called(r, s), fault);
-        return;
-    }
-    clashes(r);
-}
-
 /* ------------------------------------------------------------------ names */
 
 enum { NAME_MAX_BYTES = 1000 };
@@ -367,5 +354,12 @@ void design_names_make(struct design_reading *r)
         d->stimuli[i].name = cell->recording && !node ? label_name(relpath_stem(cell->recording, r->arena), r->arena)
                                                       : expanded(&x, &own, i);
     }
-    if (r->yaml->diag->n == errors) design_names_check(r);
+    for (int i = 0; i < d->n_stimuli && r->yaml->diag->n == errors; i++) {
+        const struct design_stimulus *s = &d->stimuli[i];
+        const char *cure, *fault = name_fault(s->name, &cure);
+        if (fault)
+            diag_add(r->yaml->diag, place_of(r, s), cure, "the name '%s' of %s %s", diag_shown(r->yaml->diag, s->name),
+                     called(r, s), fault);
+    }
+    if (r->yaml->diag->n == errors) clashes(r);
 }

@@ -30,18 +30,6 @@ struct crossing { /* a factor's levels but for those of recordings */
     int *level, n;
 };
 
-static struct crossing *crossings(const struct design_reading *r)
-{
-    const struct design *d = r->design;
-    struct crossing *all = ARENA_TAKE(r->arena, struct crossing, d->n_factors + 1);
-    for (int f = 0; f < d->n_factors; f++) {
-        all[f].level = ARENA_TAKE(r->arena, int, d->factors[f].n_levels + 1);
-        for (int i = 0; i < d->factors[f].n_levels; i++)
-            if (!d->factors[f].levels[i].recorded) all[f].level[all[f].n++] = i;
-    }
-    return all;
-}
-
 static double crossed(const struct design *d, const struct crossing *all)
 {
     double n = 1;
@@ -89,17 +77,6 @@ static void cells_cross(struct design_reading *r, const struct crossing *factors
 
 /* ------------------------------------------------------------------ listing */
 
-static void crossed_only(const struct design_reading *r, const int *level, const struct yaml_node *entry)
-{
-    for (int f = 0; f < r->design->n_factors; f++)
-        if (level[f] >= 0 && r->design->factors[f].levels[level[f]].recorded)
-            diag_add(r->yaml->diag, yaml_get(entry, r->design->factors[f].name)->at,
-                     "list a recording under recordings:, or leave of: out of the level",
-                     "'%s' of %s is a level that only recordings have",
-                     diag_shown(r->yaml->diag, r->design->factors[f].levels[level[f]].label),
-                     r->design->factors[f].name);
-}
-
 /* The levels that a map of factor: label says, -1 where it says none; keys of `own` (NULL-terminated) are not factors.
  */
 static int *entry_levels(const struct design_reading *r, const struct yaml_node *map, const char *const *own)
@@ -135,11 +112,17 @@ static void cells_list(struct design_reading *r, const struct yaml_node *list, s
     for (const struct yaml_node *entry = list->first; entry; entry = entry->next) {
         if (entry->kind != YAML_MAP) continue;
         int *level = entry_levels(r, entry, own);
-        for (int f = 0; f < r->design->n_factors; f++)
-            if (!yaml_get(entry, r->design->factors[f].name))
+        for (int f = 0; f < r->design->n_factors; f++) {
+            const struct design_factor *factor = &r->design->factors[f];
+            const struct yaml_node *said = yaml_get(entry, factor->name);
+            if (!said)
                 diag_add(r->yaml->diag, entry->at, "name a level of every factor", "this cell says nothing of %s",
-                         r->design->factors[f].name);
-        crossed_only(r, level, entry);
+                         factor->name);
+            else if (level[f] >= 0 && factor->levels[level[f]].recorded)
+                diag_add(r->yaml->diag, said->at, "list a recording under recordings:, or leave of: out of the level",
+                         "'%s' of %s is a level that only recordings have",
+                         diag_shown(r->yaml->diag, factor->levels[level[f]].label), factor->name);
+        }
         if (r->yaml->diag->n == errors && !excluded(r->design, level, all, n))
             *cell_add(r) = (struct design_cell){.level = level, .entry = entry};
     }
@@ -235,7 +218,13 @@ void design_rows_cells(struct design_reading *r)
                            *recordings = design_reading_value(r, "recordings");
     int n, errors = r->yaml->diag->n;
     struct exclusion *all = exclusions_read(r, &n);
-    struct crossing *levels = crossings(r);
+    struct crossing *levels = ARENA_TAKE(r->arena, struct crossing, r->design->n_factors + 1);
+    for (int f = 0; f < r->design->n_factors; f++) {
+        const struct design_factor *factor = &r->design->factors[f];
+        levels[f].level = ARENA_TAKE(r->arena, int, factor->n_levels + 1);
+        for (int i = 0; i < factor->n_levels; i++)
+            if (!factor->levels[i].recorded) levels[f].level[levels[f].n++] = i;
+    }
     const struct yaml_node *at = cells ? cells : design_reading_value(r, "factors");
     double stimuli = (cells ? cells->n : crossed(r->design, levels)) * r->design->replicates;
     if (stimuli > DESIGN_READING_CELLS) {

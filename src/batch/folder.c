@@ -439,19 +439,6 @@ static void take_stale(struct walk *x, const char *name, const struct record *r)
         }
 }
 
-/* A record "NAME.json". */
-static void look_at_record(struct walk *x, const char *path)
-{
-    const struct folder_wanted *w = x->wanted;
-    const char *name = arena_format(x->arena, "%.*s", (int)strlen(path) - 5, path);
-    int i = stimulus_named(w, name);
-    struct record r;
-    if ((i >= 0 && !w->keys[i]) || !record_read(w->folder, name, x->arena, &r) ||
-        (i >= 0 && (r.status != RECORD_DONE || !strcmp(w->keys[i], r.key))))
-        return;
-    take_stale(x, name, &r);
-}
-
 static bool is_folder(const char *path, const struct dirent *entry)
 {
     struct stat s;
@@ -467,10 +454,16 @@ static void walk(struct walk *x, const char *below)
                    *whole = arena_format(x->arena, "%s/%s", x->wanted->folder, path);
         if (is_left(name))
             unlink(whole);
-        else if (!is_folder(whole, entry) && text_ends(name, ".json"))
-            look_at_record(x, path);
-        else if (strcmp(name, ".") != 0 && strcmp(name, "..") != 0 && is_folder(whole, entry) &&
-                 (!strcmp(name, ".rasp") || !folder_is_recorded(whole, x->arena)))
+        else if (!is_folder(whole, entry) && text_ends(name, ".json")) {
+            const char *stimulus = arena_format(x->arena, "%.*s", (int)strlen(path) - 5, path);
+            int i = stimulus_named(x->wanted, stimulus);
+            const char *key = i >= 0 ? x->wanted->keys[i] : NULL; /* NULL of the set's: its record is right */
+            struct record r;
+            if ((i < 0 || key) && record_read(x->wanted->folder, stimulus, x->arena, &r) &&
+                (i < 0 || (r.status == RECORD_DONE && strcmp(key, r.key) != 0)))
+                take_stale(x, stimulus, &r);
+        } else if (strcmp(name, ".") != 0 && strcmp(name, "..") != 0 && is_folder(whole, entry) &&
+                   (!strcmp(name, ".rasp") || !folder_is_recorded(whole, x->arena)))
             walk(x, arena_format(x->arena, "%s/", path));
     }
     if (d) closedir(d);

@@ -60,19 +60,6 @@ static json_t *file_json(const json_t *listed, const struct record_file *f)
     return j;
 }
 
-static json_t *measured_json(const struct record *r)
-{
-    json_t *j = json_pack("{s:o, s:I}", "rate_hz", json_value_number(r->rate), "frames", (json_int_t)r->frames);
-    if (!r->sounds) return j;
-    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
-        json_object_set_new(j, numbers[k].name, json_value_number(*number(r, k)));
-    json_object_set_new(j, "channels", json_integer(r->channels));
-    json_object_set_new(j, "encoding", json_integer(r->encoding));
-    json_object_set_new(j, "unit", json_value_text(r->unit));
-    json_object_set_new(j, "audio_sha256", json_value_text(r->audio));
-    return j;
-}
-
 static json_t *whole_json(const struct record *r)
 {
     json_t *render = r->render ? json_loads(r->render, 0, NULL) : NULL, *files = json_array(), *warnings = json_array();
@@ -80,10 +67,16 @@ static json_t *whole_json(const struct record *r)
         json_array_append_new(files, file_json(json_object_get(render, "files"), &r->files[i]));
     for (int i = 0; r->warnings && r->warnings[i]; i++)
         json_array_append_new(warnings, json_value_shown(r->warnings[i]));
+    json_t *measured = json_value_object("rate_hz:n frames:l", r->rate, r->frames);
+    for (size_t k = 0; r->sounds && k < sizeof numbers / sizeof *numbers; k++)
+        json_object_set_new(measured, numbers[k].name, json_value_number(*number(r, k)));
+    if (r->sounds)
+        json_value_set(measured, "channels:i encoding:i unit:s audio_sha256:s", r->channels, r->encoding, r->unit,
+                       r->audio);
     json_t *j =
         json_pack("{s:i, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o}", "set", 2, "status", statuses[r->status], "key",
                   r->key, "program", r->program, "seen_from", json_value_text(r->seen_from), "full_scale",
-                  json_value_number(r->full_scale), "measured", measured_json(r), "warnings", warnings, "files", files);
+                  json_value_number(r->full_scale), "measured", measured, "warnings", warnings, "files", files);
     if (render) json_object_update_missing(j, render);
     json_object_del(j, "record");
     json_decref(render);
@@ -141,19 +134,6 @@ static bool parse_files(const json_t *list, const char *name, struct arena *a, s
     return json_is_array(list);
 }
 
-static void parse_measured(const json_t *j, struct arena *a, struct record *r)
-{
-    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
-        *number(r, k) = json_value_number_of(j, numbers[k].name);
-    r->rate = json_value_number_of(j, "rate_hz");
-    r->frames = (long)json_integer_value(json_object_get(j, "frames"));
-    r->channels = (int)json_integer_value(json_object_get(j, "channels"));
-    r->encoding = (int)json_integer_value(json_object_get(j, "encoding"));
-    r->sounds = r->channels > 0;
-    r->unit = json_value_text_of(j, "unit", a);
-    r->audio = json_value_text_of(j, "audio_sha256", a);
-}
-
 bool record_parse(const char *text, size_t n, const char *name, struct arena *a, struct record *r)
 {
     json_t *j = json_loadb(text, n, 0, NULL);
@@ -167,7 +147,16 @@ bool record_parse(const char *text, size_t n, const char *name, struct arena *a,
     for (r->status = RECORD_DONE; ok && r->status > RECORD_MAKING && strcmp(status, statuses[r->status]) != 0;
          r->status--)
         ;
-    parse_measured(json_object_get(j, "measured"), a, r);
+    const json_t *measured = json_object_get(j, "measured");
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+        *number(r, k) = json_value_number_of(measured, numbers[k].name);
+    r->rate = json_value_number_of(measured, "rate_hz");
+    r->frames = (long)json_integer_value(json_object_get(measured, "frames"));
+    r->channels = (int)json_integer_value(json_object_get(measured, "channels"));
+    r->encoding = (int)json_integer_value(json_object_get(measured, "encoding"));
+    r->sounds = r->channels > 0;
+    r->unit = json_value_text_of(measured, "unit", a);
+    r->audio = json_value_text_of(measured, "audio_sha256", a);
     const json_t *warnings = json_object_get(j, "warnings");
     r->warnings = ARENA_TAKE(a, const char *, json_array_size(warnings) + 1);
     for (size_t i = 0; i < json_array_size(warnings); i++) {
@@ -180,21 +169,13 @@ bool record_parse(const char *text, size_t n, const char *name, struct arena *a,
     return ok;
 }
 
-static bool is_whole(const char *text, size_t n)
-{
-    char hex[HASH_TEXT];
-    const char *tail = text + n - TAIL;
-    if (n < TAIL || memcmp(tail, before_hash, sizeof before_hash - 1) != 0 ||
-        memcmp(text + n - (sizeof after_hash - 1), after_hash, sizeof after_hash - 1) != 0)
-        return false;
-    hash_bytes(text, n - TAIL, hex);
-    return memcmp(tail + sizeof before_hash - 1, hex, HASH_TEXT - 1) == 0;
-}
-
 bool record_read(const char *folder, const char *name, struct arena *a, struct record *r)
 {
-    struct err unreadable = {0};
+    char hex[HASH_TEXT];
     struct bytes b;
-    return bytes_read(record_path(folder, name, a), a, &b, &unreadable) && is_whole(b.at, b.n) &&
-           record_parse(b.at, b.n, name, a, r);
+    if (!bytes_read(record_path(folder, name, a), a, &b, &(struct err){0}) || b.n < TAIL) return false;
+    const char *tail = b.at + b.n - TAIL, *end = b.at + b.n - (sizeof after_hash - 1);
+    hash_bytes(b.at, b.n - TAIL, hex);
+    return !memcmp(tail, before_hash, sizeof before_hash - 1) && !memcmp(end, after_hash, sizeof after_hash - 1) &&
+           !memcmp(tail + sizeof before_hash - 1, hex, HASH_TEXT - 1) && record_parse(b.at, b.n, name, a, r);
 }

@@ -69,28 +69,23 @@ static bool is_later(const struct timespec *a, const struct timespec *b)
     return a->tv_sec != b->tv_sec ? a->tv_sec > b->tv_sec : a->tv_nsec > b->tv_nsec;
 }
 
-/* By its hash, if its times say nothing (*hashed). */
-static bool has_file(const struct work *w, const struct record_file *f, const struct stat *record, bool *hashed)
-{
-    char hex[HASH_TEXT];
-    struct err unreadable = {0};
-    struct stat s;
-    const char *path = arena_format(w->arena, "%s/%s", w->k->folder, f->path);
-    if (stat(path, &s) != 0 || !S_ISREG(s.st_mode) || (double)s.st_size != f->size) return false;
-    if (!w->k->unfinished && !is_later(&s.st_mtim, &record->st_ctim) && !is_later(&s.st_ctim, &record->st_ctim))
-        return true;
-    *hashed = true;
-    return hash_file(path, hex, &unreadable) && !strcmp(hex, f->sha256);
-}
-
-/* What was copied has the times of the copy: once its files have been hashed the record is younger than they are. */
+/* Each by its hash, if its times say nothing. What was copied has the times of the copy: once its files have been
+   hashed the record is younger than they are. */
 static bool has_files(const struct work *w)
 {
-    struct stat record;
+    struct stat record, s;
     const char *path = record_path(w->k->folder, w->name, w->arena);
     bool hashed = false, there = stat(path, &record) == 0;
-    for (int k = 0; k < w->was->n_files && there; k++)
-        there = has_file(w, &w->was->files[k], &record, &hashed);
+    for (int k = 0; k < w->was->n_files && there; k++) {
+        const struct record_file *f = &w->was->files[k];
+        const char *file = arena_format(w->arena, "%s/%s", w->k->folder, f->path);
+        char hex[HASH_TEXT];
+        there = stat(file, &s) == 0 && S_ISREG(s.st_mode) && (double)s.st_size == f->size;
+        bool doubt = w->k->unfinished || is_later(&s.st_mtim, &record.st_ctim) || is_later(&s.st_ctim, &record.st_ctim);
+        if (!there || !doubt) continue;
+        hashed = true;
+        there = hash_file(file, hex, &(struct err){0}) && !strcmp(hex, f->sha256);
+    }
     if (there && hashed && !w->k->read_only) utimensat(AT_FDCWD, path, NULL, 0);
     return there;
 }
