@@ -137,16 +137,6 @@ static bool csv_row(struct csv_reader *r, struct csv *t)
     return true;
 }
 
-/* Room by the most there can be: a cell ends at a comma or a line end. */
-static void csv_room(const struct csv_reader *r, struct csv *t)
-{
-    size_t lines = csv_count(r->at, r->end, '\n') + 1, cells = csv_count(r->at, r->end, ',') + lines;
-    t->comments = ARENA_TAKE(r->arena, struct csv_pair, lines);
-    t->names = ARENA_TAKE(r->arena, const char *, cells);
-    t->cells = ARENA_TAKE(r->arena, const char *, cells);
-    t->lines = ARENA_TAKE(r->arena, int, lines);
-}
-
 static bool read_bytes(const char *path, struct bytes b, struct arena *a, struct csv *t, struct err *e)
 {
     *t = (struct csv){.file = arena_text(a, path)};
@@ -157,7 +147,12 @@ static bool read_bytes(const char *path, struct bytes b, struct arena *a, struct
     struct csv_reader r = {t->file, a, b.at, b.at + b.n, 1, e};
     if (b.n >= 3 && !memcmp(b.at, "\xef\xbb\xbf", 3)) /* the byte order mark of spreadsheet programs */
         r.at += 3;
-    csv_room(&r, t);
+    /* room by the most there can be: a cell ends at a comma or a line end */
+    size_t lines = csv_count(r.at, r.end, '\n') + 1, cells = csv_count(r.at, r.end, ',') + lines;
+    t->comments = ARENA_TAKE(a, struct csv_pair, lines);
+    t->names = ARENA_TAKE(a, const char *, cells);
+    t->cells = ARENA_TAKE(a, const char *, cells);
+    t->lines = ARENA_TAKE(a, int, lines);
     if (!csv_comments(&r, t) || !csv_header(&r, t)) return false;
     while (r.at + strspn(r.at, "\r\n") != r.end) /* only blank lines are left */
         if (!csv_row(&r, t)) return false;

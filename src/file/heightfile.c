@@ -411,21 +411,6 @@ static bool take_holes(const struct load *l)
                    l->names->fill);
 }
 
-static bool check_heights(const struct load *l)
-{
-    static const double likely[2] = {2e-8, 2e-3};
-    const struct heightfile *h = l->h;
-    double low, high;
-    char hint[120];
-    extremes(h, &low, &high);
-    double range = high - low;
-    if (range == 0 || (range >= 1e-9 && range <= 10e-3)) return true;
-    slip(hint, range, likely);
-    return err_set(l->e, ERR_SCENE,
-                   "%s: heights span %g m, which is not a surface profile's (1 nm to 10 mm); check its unit and %s%s",
-                   l->path, range, h->white > 0 ? l->names->height_range : l->names->height_scale, hint);
-}
-
 bool heightfile_load(const char *path, const struct heightfile_options *o, struct arena *a, struct heightfile *h,
                      struct err *e)
 {
@@ -439,8 +424,20 @@ bool heightfile_load(const char *path, const struct heightfile_options *o, struc
                        "%s: %zu x %zu samples are too few for a map (at least 4 x 4); a profile is one row", path,
                        h->columns, h->rows);
     if (!take_pitch(&l, &h->pitch_x) || (h->rows > 1 && !take_pitch(&l, &h->pitch_y)) || !take_scale(&l) ||
-        !take_holes(&l) || !check_heights(&l))
+        !take_holes(&l))
         return false;
+    static const double likely[2] = {2e-8, 2e-3};
+    double low, high;
+    char hint[120];
+    extremes(h, &low, &high);
+    double range = high - low;
+    if (range != 0 && !(range >= 1e-9 && range <= 10e-3)) {
+        slip(hint, range, likely);
+        return err_set(e, ERR_SCENE,
+                       "%s: heights span %g m, which is not a surface profile's (1 nm to 10 mm); check its unit and "
+                       "%s%s",
+                       path, range, h->white > 0 ? l.names->height_range : l.names->height_scale, hint);
+    }
     h->levelled = heightfile_level(h, o->levelling);
     return true;
 }
@@ -460,34 +457,27 @@ const char *heightfile_length_text(double x, struct arena *a)
     return x == 0 ? "0" : arena_format(a, "%.4g %s", x * units[k].factor, units[k].name);
 }
 
-/* Root mean square about the mean, and of the slope along rows; holes (NaN) are left out. */
-static void figures(const struct heightfile *h, double *rms, double *slope)
-{
-    double n = 0, sum = 0, square = 0, steps = 0, rise = 0, low, high;
-    extremes(h, &low, &high);
-    for (size_t i = 0; i < h->rows * h->columns; i++)
-        if (!isnan(h->z[i])) {
-            n++;
-            sum += h->z[i];
-        }
-    for (size_t j = 0; j < h->rows; j++)
-        for (size_t i = 0; i < h->columns; i++) {
-            const double *z = h->z + j * h->columns + i, d = *z - sum / n, step = i > 0 ? z[0] - z[-1] : NAN;
-            square += isnan(d) ? 0 : d * d;
-            steps += !isnan(step);
-            rise += isnan(step) ? 0 : step * step;
-        }
-    *rms = high > low ? sqrt(square / n) : 0; /* without the rounding of the sum */
-    *slope = steps > 0 ? sqrt(rise / steps) / h->pitch_x : 0;
-}
-
 int heightfile_warnings(const struct heightfile *h, const struct heightfile_names *names, struct arena *a,
                         const char *texts[HEIGHTFILE_WARNINGS])
 {
     const char *key = (names ? names : &scene_names)->height_scale;
-    double rms, slope;
+    double number = 0, sum = 0, square = 0, steps = 0, rise = 0, low, high;
     int n = 0;
-    figures(h, &rms, &slope);
+    extremes(h, &low, &high);
+    for (size_t i = 0; i < h->rows * h->columns; i++)
+        if (!isnan(h->z[i])) {
+            number++;
+            sum += h->z[i];
+        }
+    for (size_t j = 0; j < h->rows; j++)
+        for (size_t i = 0; i < h->columns; i++) {
+            const double *z = h->z + j * h->columns + i, d = *z - sum / number, step = i > 0 ? z[0] - z[-1] : NAN;
+            square += isnan(d) ? 0 : d * d;
+            steps += !isnan(step);
+            rise += isnan(step) ? 0 : step * step;
+        }
+    /* root mean square about the mean, without the rounding of the sum, and of the slope along rows */
+    double rms = high > low ? sqrt(square / number) : 0, slope = steps > 0 ? sqrt(rise / steps) / h->pitch_x : 0;
     if (rms > 0 && rms < 1e-9)
         texts[n++] =
             arena_format(a,
@@ -515,26 +505,6 @@ bool heightfile_write_format(const char *path, enum heightfile_format *format, s
         }
     return err_set(e, ERR_USAGE,
                    "%s: the name's ending says the format, and must be .gsf, .gwy, .sdf, .npy, .png or .csv", path);
-}
-
-/* A failed write shows in the stream, which the commit looks at. */
-static void write_gsf(FILE *f, const struct heightfile *h)
-{
-    static const char nul[4];
-    char number[32];
-    fprintf(f, "Gwyddion Simple Field 1.0\nXRes = %zu\nYRes = %zu\n", h->columns, h->rows);
-    if (!isnan(h->pitch_x))
-        fprintf(f, "XReal = %s\n", heightfile_formats_number(number, h->pitch_x * (double)h->columns));
-    if (!isnan(h->pitch_y)) fprintf(f, "YReal = %s\n", heightfile_formats_number(number, h->pitch_y * (double)h->rows));
-    fprintf(f, "XYUnits = m\nZUnits = m\n");
-    if (h->title) fprintf(f, "Title = %s\n", h->title);
-    fwrite(nul, 1, (size_t)(4 - ftello(f) % 4), f);
-    for (size_t i = 0; i < h->rows * h->columns; i++) {
-        float v = (float)h->z[i];
-        uint32_t w;
-        memcpy(&w, &v, 4);
-        bytes_put(f, w, 4);
-    }
 }
 
 static bool check_fits(const char *path, const struct heightfile *h, enum heightfile_format format, struct err *e)
@@ -567,15 +537,31 @@ bool heightfile_write(const char *path, const struct heightfile *h, enum heightf
 {
     struct outfile o;
     double low, high;
+    size_t n = h->rows * h->columns;
     bool ok = true;
     extremes(h, &low, &high);
     *w = (struct heightfile_written){low, high - low, format == HEIGHTFILE_PNG ? (high - low) / 65535 : 0};
     if (!check_fits(path, h, format, e) || !outfile_open(&o, path, e)) return false;
+    /* a failed write shows in the stream, which the commit looks at */
     if (format == HEIGHTFILE_PNG)
         ok = heightfile_formats_png_write(o.stream, h, w->low, w->range, e);
-    else if (format == HEIGHTFILE_GSF)
-        write_gsf(o.stream, h);
-    else if (format == HEIGHTFILE_GWY)
+    else if (format == HEIGHTFILE_GSF) {
+        char number[32];
+        fprintf(o.stream, "Gwyddion Simple Field 1.0\nXRes = %zu\nYRes = %zu\n", h->columns, h->rows);
+        if (!isnan(h->pitch_x))
+            fprintf(o.stream, "XReal = %s\n", heightfile_formats_number(number, h->pitch_x * (double)h->columns));
+        if (!isnan(h->pitch_y))
+            fprintf(o.stream, "YReal = %s\n", heightfile_formats_number(number, h->pitch_y * (double)h->rows));
+        fprintf(o.stream, "XYUnits = m\nZUnits = m\n");
+        if (h->title) fprintf(o.stream, "Title = %s\n", h->title);
+        fwrite("\0\0\0\0", 1, (size_t)(4 - ftello(o.stream) % 4), o.stream);
+        for (size_t i = 0; i < n; i++) {
+            float v = (float)h->z[i];
+            uint32_t bits;
+            memcpy(&bits, &v, 4);
+            bytes_put(o.stream, bits, 4);
+        }
+    } else if (format == HEIGHTFILE_GWY)
         heightfile_gwy_write(o.stream, h);
     else if (format == HEIGHTFILE_CSV)
         heightfile_formats_csv_write(o.stream, h);
@@ -583,7 +569,7 @@ bool heightfile_write(const char *path, const struct heightfile *h, enum heightf
         heightfile_sdf_write(o.stream, h, format == HEIGHTFILE_SDF);
     else
         npy_write_array(o.stream, h->rows, h->columns);
-    for (size_t i = 0; format == HEIGHTFILE_NPY && i < h->rows * h->columns; i++)
+    for (size_t i = 0; format == HEIGHTFILE_NPY && i < n; i++)
         bytes_put_f64(o.stream, h->z[i]);
     if (ok) return outfile_commit(&o, e);
     outfile_drop(&o);

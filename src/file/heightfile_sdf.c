@@ -174,30 +174,21 @@ static const char *sdf_lines(struct sdf *s, const char *p)
     return NULL;
 }
 
-/* One number, NaN or BAD; NULL: none. */
-static const char *sdf_number(const char *p, double *v)
-{
-    size_t n = text_number_length(p);
-    bool bad = n == 0 && (!strncasecmp(p, "bad", 3) || !strncasecmp(p, "nan", 3));
-    *v = bad ? NAN : n ? strtod(p, NULL) : 0;
-    p += bad ? 3 : n;
-    return (bad || n) && (!*p || strchr(" \t\r\n*", *p)) ? p : NULL;
-}
-
 static bool sdf_numbers(const struct sdf *s, const char *p, struct heightfile *h)
 {
     size_t n = h->columns * h->rows;
     for (size_t i = 0; i < n; i++) {
         const char *at = sdf_skip(p);
-        double v;
         if (!*at || *at == '*')
             return err_set(s->e, ERR_SCENE, "%s: %zu x %zu heights should stand between the asterisks, and %zu do",
                            s->path, h->columns, h->rows, i);
-        p = sdf_number(at, &v);
-        if (!p)
+        size_t size = text_number_length(at);
+        bool missing = size == 0 && (!strncasecmp(at, "bad", 3) || !strncasecmp(at, "nan", 3));
+        p = at + (missing ? 3 : size);
+        if (p == at || (*p && !strchr(" \t\r\n*", *p)))
             return err_set(s->e, ERR_SCENE, "%s: height %zu (counted from 0) is '%.*s': neither a number, NaN nor BAD",
                            s->path, i, (int)strcspn(at, " \t\r\n"), at);
-        h->z[i] = sdf_metres(s, v);
+        h->z[i] = sdf_metres(s, missing ? NAN : strtod(at, NULL));
     }
     p = sdf_skip(p);
     return !*p || *p == '*' ||

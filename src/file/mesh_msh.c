@@ -346,18 +346,6 @@ static bool read_format(struct mesh_msh *g, double *version)
     return true;
 }
 
-/* The text between two quotes. */
-static bool read_name(struct mesh_source *s, struct arena *a, const char **name)
-{
-    mesh_source_on_line(s);
-    const char *stop = s->at < s->end && *s->at == '"' ? memchr(s->at + 1, '"', (size_t)(s->end - s->at - 1)) : NULL;
-    if (!stop || memchr(s->at, '\n', (size_t)(stop - s->at)) || memchr(s->at, '\0', (size_t)(stop - s->at)))
-        return mesh_source_bad(s, "the name of a physical group should stand here in double quotes");
-    *name = arena_format(a, "%.*s", (int)(stop - s->at - 1), s->at + 1);
-    s->at = stop + 1;
-    return true;
-}
-
 static int by_number(const void *p, const void *q)
 {
     const struct mesh_msh_name *a = p, *b = q;
@@ -374,9 +362,16 @@ static bool read_names(struct mesh_msh *g)
         int64_t dimension;
         struct mesh_msh_name *to = &g->name[g->names];
         ok = mesh_source_whole(s, 4, &dimension, "the dimension of a physical group") &&
-             mesh_source_whole(s, 4, &to->number, "the number of a physical group") &&
-             read_name(s, g->raw.arena, &to->text);
-        g->names += ok && dimension == 2;
+             mesh_source_whole(s, 4, &to->number, "the number of a physical group");
+        if (!ok) break;
+        mesh_source_on_line(s); /* the text between two quotes */
+        const char *from = s->at + 1,
+                   *stop = s->at < s->end && *s->at == '"' ? memchr(from, '"', (size_t)(s->end - from)) : NULL;
+        if (!stop || memchr(from, '\n', (size_t)(stop - from)) || memchr(from, '\0', (size_t)(stop - from)))
+            return mesh_source_bad(s, "the name of a physical group should stand here in double quotes");
+        to->text = arena_format(g->raw.arena, "%.*s", (int)(stop - from), from);
+        s->at = stop + 1;
+        g->names += dimension == 2;
     }
     if (!ok) return false;
     qsort(g->name, g->names, sizeof *g->name, by_number);

@@ -49,26 +49,6 @@ static double missing_bytes(FILE *f)
     return 0;
 }
 
-/* A sound file before libsndfile has it: it shortens a truncated RIFF file without a word, so the data chunk's length
- * is held against the file's length here. */
-
-/* ERR_INPUT: missing, unreadable, or not a file; ERR_SCENE: truncated. Whether it is a sound file at all is not looked
- * at. */
-static bool check_file(const char *path, struct err *e)
-{
-    struct stat s;
-    if (stat(path, &s) == 0 && !S_ISREG(s.st_mode)) /* to open a pipe is to wait for who writes into it */
-        return err_set(e, ERR_INPUT, "%s: is not a file", path);
-    FILE *f = memory_fopen(path, "rb");
-    if (!f) return err_set(e, err_system(ERR_INPUT), "%s: %s", path, strerror(errno));
-    double missing = missing_bytes(f);
-    fclose(f);
-    if (missing > 0)
-        return err_set(e, ERR_SCENE, "%s: is truncated: its last %.0f bytes are missing: copy or export it again", path,
-                       missing);
-    return true;
-}
-
 /* libsndfile scales integers so that 2^(bits-1) is 1, which is exact in double. */
 
 static const struct {
@@ -90,7 +70,22 @@ static bool check_info(const char *path, const SF_INFO *i, struct err *e)
 
 static SNDFILE *sound_read(const char *path, SF_INFO *i, struct err *e)
 {
-    if (!check_file(path, e)) return NULL;
+    /* libsndfile shortens a truncated RIFF file without a word: the data chunk's length is held against the file's */
+    struct stat s;
+    bool special = stat(path, &s) == 0 && !S_ISREG(s.st_mode); /* to open a pipe is to wait for who writes into it */
+    FILE *raw = special ? NULL : memory_fopen(path, "rb");
+    if (!raw) {
+        err_set(e, special ? ERR_INPUT : err_system(ERR_INPUT), "%s: %s", path,
+                special ? "is not a file" : strerror(errno));
+        return NULL;
+    }
+    double missing = missing_bytes(raw);
+    fclose(raw);
+    if (missing > 0) {
+        err_set(e, ERR_SCENE, "%s: is truncated: its last %.0f bytes are missing: copy or export it again", path,
+                missing);
+        return NULL;
+    }
     memory_available(1 << 16); /* libsndfile 1.2 writes through a null pointer where it cannot note a WAV's chunks */
     errno = 0;
     SNDFILE *f = sf_open(path, SFM_READ, i);
@@ -411,19 +406,6 @@ bool wav_written_audible(const struct wav_written *w)
     return false;
 }
 
-/* Puts the time stamp of an RF64 file's PEAK chunk to zero. Layout: "RF64", size, "WAVE", then chunks: name, size,
- * content. */
-static bool clear_peak_time(struct wav_out *w, struct err *e)
-{
-    unsigned char head[8], zero[4] = {0};
-    for (off_t at = 12; pread(w->out.fd, head, 8, at) == 8 && memcmp(head, "data", 4) != 0;) {
-        off_t size = head[4] + 256 * head[5] + 65536 * head[6];
-        if (!memcmp(head, "PEAK", 4) && pwrite(w->out.fd, zero, 4, at + 12) != 4) return write_failed(w, e);
-        at += 8 + size + size % 2;
-    }
-    return true;
-}
-
 bool wav_finish(struct wav_out *w, struct err *e)
 {
     if (!w->sound) return true;
@@ -431,7 +413,15 @@ bool wav_finish(struct wav_out *w, struct err *e)
     bool ok = sf_error(w->sound) == 0 || write_failed(w, e);
     if (sf_close(w->sound) != 0) ok = err_set(e, ERR_IO, "%s: cannot be written", w->path);
     w->sound = NULL;
-    return ok && (!w->long_file || clear_peak_time(w, e)) && outfile_finalise(&w->out, e);
+    /* the time stamp of an RF64 file's PEAK chunk becomes zero: behind "RF64", size, "WAVE" come chunks of name, size,
+       content */
+    unsigned char head[8], zero[4] = {0};
+    for (off_t at = 12; ok && w->long_file && pread(w->out.fd, head, 8, at) == 8 && memcmp(head, "data", 4) != 0;) {
+        off_t size = (off_t)bytes_word(head + 4, 4);
+        if (!memcmp(head, "PEAK", 4) && pwrite(w->out.fd, zero, 4, at + 12) != 4) ok = write_failed(w, e);
+        at += 8 + size + size % 2;
+    }
+    return ok && outfile_finalise(&w->out, e);
 }
 
 const char *wav_temporary(const struct wav_out *w) { return w->out.temporary; }

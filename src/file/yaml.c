@@ -76,20 +76,6 @@ struct yaml_node *yaml_find(struct yaml_node *map, const char *path)
 
 enum { SIZE_MAX_BYTES = 4 << 20 };
 
-static bool unreadable(struct yaml *y, const char *file, struct diag_place named)
-{
-    bool pipe = errno == ENXIO;
-    const char *why = pipe ? "it is a pipe" : strerror(errno);
-    y->missing = true;
-    if (!named.source)
-        return diag_add(y->diag, (struct diag_place){yaml_source(y, file, "", 0), 0, 0, 0}, NULL, "cannot be read: %s",
-                        why);
-    return diag_add(y->diag, named,
-                    pipe ? "only what the command line names may be one: save it as a file"
-                         : "a path in a file is relative to that file's folder",
-                    "cannot read '%s': %s", file, why);
-}
-
 const char *yaml_bytes_text(const char *file, struct arena *a, size_t *size)
 {
     struct bytes b;
@@ -110,11 +96,17 @@ struct diag_source *yaml_bytes_read(struct yaml *y, const char *file, struct dia
     bool waits = named.source && !named.source->made && stat(file, &s) == 0 &&
                  S_ISFIFO(s.st_mode); /* until somebody writes into it */
     const char *text = waits ? NULL : yaml_bytes_text(file, y->arena, &size);
-    if (!text) {
-        errno = waits ? ENXIO : errno;
-        unreadable(y, file, named);
-        return NULL;
-    }
+    bool pipe = waits || (!text && errno == ENXIO);
+    const char *why = pipe ? "it is a pipe" : text ? "" : strerror(errno);
+    y->missing = y->missing || !text;
+    if (!text && named.source)
+        diag_add(y->diag, named,
+                 pipe ? "only what the command line names may be one: save it as a file"
+                      : "a path in a file is relative to that file's folder",
+                 "cannot read '%s': %s", file, why);
+    else if (!text)
+        diag_add(y->diag, (struct diag_place){yaml_source(y, file, "", 0), 0, 0, 0}, NULL, "cannot be read: %s", why);
+    if (!text) return NULL;
     const char *name = arena_text(y->arena, file);
     struct yaml_file *f = ARENA_TAKE(y->arena, struct yaml_file, 1);
     f->name = name;
