@@ -110,18 +110,6 @@ static void show_caret(FILE *out, struct span line, int column, int width)
     fputc('\n', out);
 }
 
-/* What cannot be shown is one '?' for each character, so that the caret stays below its place. */
-static void show_text(FILE *out, struct span line)
-{
-    for (size_t i = 0, step; i < line.size; i += step) {
-        step = bytes_of(line.start + i, line.size - i, 1);
-        if (line.start[i] == '\t' || text_showable(line.start + i, line.size - i))
-            fwrite(line.start + i, 1, step, out);
-        else
-            fputc('?', out);
-    }
-}
-
 static void show_line(FILE *out, const struct diag_place *at)
 {
     int column = at->column < 1 ? 1 : at->column;
@@ -130,7 +118,14 @@ static void show_line(FILE *out, const struct diag_place *at)
         fputs("      | ", out);
     else
         fprintf(out, "%5d | ", at->line);
-    show_text(out, line);
+    for (size_t i = 0, step; i < line.size; i += step) {
+        /* what cannot be shown is one '?' for each character, so that the caret stays below its place */
+        step = bytes_of(line.start + i, line.size - i, 1);
+        if (line.start[i] == '\t' || text_showable(line.start + i, line.size - i))
+            fwrite(line.start + i, 1, step, out);
+        else
+            fputc('?', out);
+    }
     fputc('\n', out);
     show_caret(out, line, column, at->width);
 }

@@ -78,15 +78,6 @@ static int order(const void *p, const void *q)
     return by ? by : compare(&a->state, &b->state);
 }
 
-/* Waits where another makes it. NULL: nobody has. */
-static const struct cached *find(struct file_cache *s, const struct cached *wanted)
-{
-    struct cached *const *at = tfind(wanted, &s->tree, order), *x = at ? *at : NULL;
-    while (x && x->progress == MAKING)
-        pthread_cond_wait(&s->made, &s->lock);
-    return x && x->progress == THERE ? x : NULL;
-}
-
 static struct cached *enter(struct file_cache *s, const struct cached *wanted)
 {
     struct cached *x = ARENA_TAKE(s->arena, struct cached, 1);
@@ -123,7 +114,11 @@ const void *file_cache_take(struct file_cache *s, const struct file_cache_ask *a
     struct cached *mine = NULL;
     if (s && wanted.state.of[1]) {
         pthread_mutex_lock(&s->lock);
-        const struct cached *found = find(s, &wanted);
+        struct cached *const *at = tfind(&wanted, &s->tree, order);
+        const struct cached *found = at ? *at : NULL;
+        while (found && found->progress == MAKING) /* by another */
+            pthread_cond_wait(&s->made, &s->lock);
+        found = found && found->progress == THERE ? found : NULL;
         if (!found && (s->bytes < s->most || ask->kind->small)) mine = enter(s, &wanted);
         pthread_mutex_unlock(&s->lock);
         if (found) return found->thing;

@@ -15,15 +15,6 @@
 
 #include "num/real.h"
 
-/* FNV-1a of the text, 64 bits (Fowler, Noll, Vo). */
-static uint64_t hash_of(const char *text)
-{
-    uint64_t h = 0xcbf29ce484222325;
-    for (; *text; text++)
-        h = (h ^ (unsigned char)*text) * 0x100000001b3;
-    return h;
-}
-
 /* One step of splitmix64 (S. Vigna; the finaliser is D. Stafford's Mix13): one-to-one, every output bit depends on
  * every input bit. */
 static uint64_t mix(uint64_t z)
@@ -34,7 +25,13 @@ static uint64_t mix(uint64_t z)
     return z ^ z >> 31;
 }
 
-struct noise noise_make(uint64_t seed, const char *name) { return (struct noise){mix(mix(seed) ^ hash_of(name))}; }
+struct noise noise_make(uint64_t seed, const char *name)
+{
+    uint64_t h = 0xcbf29ce484222325; /* FNV-1a of the name (Fowler, Noll, Vo) */
+    for (; *name; name++)
+        h = (h ^ (unsigned char)*name) * 0x100000001b3;
+    return (struct noise){mix(mix(seed) ^ h)};
+}
 
 void noise_bits(struct noise s, uint64_t row, uint64_t column, uint64_t out[2])
 {

@@ -16,19 +16,14 @@
 
    so that no exponential is needed. x = 0: J_0 = I_0 = 1, all others 0. */
 
-/* Even order above which nothing counts: J and I have fallen below 1e-20 of their size at max(n, x). */
-static int start(int n, double x)
-{
-    double top = fmax(n + 1.0, x);
-    return 2 * (int)((top + 24.0 + 5.0 * sqrt(top)) / 2.0);
-}
-
 /* sign -1: J, +1: I. */
 static void miller(int n, double x, double sign, double out[2])
 {
-    double above = 0.0, here = 1e-290, sum = 0.0;
+    double above = 0.0, here = 1e-290, sum = 0.0, top = fmax(n + 1.0, x);
+    /* even order above which nothing counts: J and I have fallen below 1e-20 of their size at max(n, x) */
+    int start = 2 * (int)((top + 24.0 + 5.0 * sqrt(top)) / 2.0);
     out[0] = out[1] = 0.0;
-    for (int k = start(n, x); k >= 0; k--) { /* here = order k */
+    for (int k = start; k >= 0; k--) { /* here = order k */
         if (k == n + 1) out[1] = here;
         if (k == n) out[0] = here;
         if (sign > 0.0 || k % 2 == 0) sum += k > 0 ? 2.0 * here : here;
