@@ -65,21 +65,6 @@ static void took(void *context, int i)
     p->broken[i] = NULL;
 }
 
-/* Each is looked at, replicates too: an error is measured with the noise that is there. */
-static bool all_hold(struct cmd_call *c, const char *file, const struct design *d, struct err *e)
-{
-    struct promises p = {.design = d,
-                         .broken = ARENA_TAKE(c->arena, struct err *, d->n_stimuli),
-                         .faults = ARENA_TAKE(c->arena, struct set_fault, d->n_stimuli),
-                         .arena = c->arena};
-    resample_prepare();
-    pool_run(
-        &(struct pool_work){.n = d->n_stimuli, .threads = batch_cores(), .context = &p, .job = look, .took = took});
-    batch_message_faults(c, "check", file, &(struct set_plan){.faults = p.faults, .n_faults = p.n});
-    return !p.stimuli ||
-           err_set(e, (enum err_kind)p.worst, "%s: %d of %d stimuli cannot be rendered", file, p.stimuli, d->n_stimuli);
-}
-
 /* Reads the design and the scene of every stimulus, as far as can be known before rendering. A fault that many stimuli
    have is told once. *remark: what is worth knowing of a design without fault, or NULL. */
 static bool check_design(struct cmd_call *c, const char *file, const char **remark, struct err *e)
@@ -100,8 +85,19 @@ static bool check_design(struct cmd_call *c, const char *file, const char **rema
         batch_message_faults(c, "check", file, &r.plan);
         *e = (struct err){0};
         err_set(e, cause.kind, "%s: %s", file, cause.text);
-    } else if ((ok = all_hold(c, file, &r.design, e)))
-        *remark = set_lengths_text(&r.set, &r.plan, c->arena);
+    } else { /* each is looked at, replicates too: an error is measured with the noise that is there */
+        int n = r.design.n_stimuli;
+        struct promises p = {.design = &r.design,
+                             .broken = ARENA_TAKE(c->arena, struct err *, n),
+                             .faults = ARENA_TAKE(c->arena, struct set_fault, n),
+                             .arena = c->arena};
+        resample_prepare();
+        pool_run(&(struct pool_work){.n = n, .threads = batch_cores(), .context = &p, .job = look, .took = took});
+        batch_message_faults(c, "check", file, &(struct set_plan){.faults = p.faults, .n_faults = p.n});
+        ok = !p.stimuli ||
+             err_set(e, (enum err_kind)p.worst, "%s: %d of %d stimuli cannot be rendered", file, p.stimuli, n);
+        if (ok) *remark = set_lengths_text(&r.set, &r.plan, c->arena);
+    }
     batch_close(&r);
     return ok;
 }

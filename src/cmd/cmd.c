@@ -210,38 +210,32 @@ void cmd_print(FILE *f)
 
 /* ------------------------------------------------------------------ man rasp(1) */
 
-static void man_command(FILE *f, const struct command *m)
+void cmd_print_man(FILE *f)
 {
-    fprintf(f, ".It Nm Cm %s Oo Ar OPTION Oc ...%s%s\n%c%s.\n", m->name, *m->operands ? " " : "", m->operands,
-            toupper((unsigned char)m->summary[0]), m->summary + 1);
-    /* A full stop ends a sentence and so a line, as mdoc asks for. */
-    for (const char *p = m->does; *p; p++) {
-        bool ends = *p == '.' && p[1] == ' ';
-        fputc(*p, f);
-        if (ends) fputc('\n', f);
-        p += ends;
-    }
-    fputc('\n', f);
     struct arena *a = arena_open();
-    fputs(".Bl -tag -width Ds\n", f);
-    for (const struct args_option *o = cmd_options(m, a); o->name; o++) {
-        fputs(".It ", f);
-        if (o->letter) fprintf(f, "Fl %c , ", o->letter);
-        fprintf(f, "Fl \\-%s", o->name);
-        if (o->value) fprintf(f, " Ns = Ns Ar %s", o->value);
-        fprintf(f, "\n%c%s.\n", toupper((unsigned char)o->help[0]), o->help + 1);
+    for (const struct command *const *m = cmd_table; *m; m++) {
+        if ((*m)->group) fprintf(f, "%s.Ss %s\n.Bl -tag -width Ds\n", m == cmd_table ? "" : ".El\n", (*m)->group);
+        fprintf(f, ".It Nm Cm %s Oo Ar OPTION Oc ...%s%s\n%c%s.\n", (*m)->name, *(*m)->operands ? " " : "",
+                (*m)->operands, toupper((unsigned char)(*m)->summary[0]), (*m)->summary + 1);
+        /* A full stop ends a sentence and so a line, as mdoc asks for. */
+        for (const char *p = (*m)->does; *p; p++) {
+            bool ends = *p == '.' && p[1] == ' ';
+            fputc(*p, f);
+            if (ends) fputc('\n', f);
+            p += ends;
+        }
+        fputs("\n.Bl -tag -width Ds\n", f);
+        for (const struct args_option *o = cmd_options(*m, a); o->name; o++) {
+            fputs(".It ", f);
+            if (o->letter) fprintf(f, "Fl %c , ", o->letter);
+            fprintf(f, "Fl \\-%s", o->name);
+            if (o->value) fprintf(f, " Ns = Ns Ar %s", o->value);
+            fprintf(f, "\n%c%s.\n", toupper((unsigned char)o->help[0]), o->help + 1);
+        }
+        fputs(".El\n", f);
     }
     fputs(".El\n", f);
     arena_close(a);
-}
-
-void cmd_print_man(FILE *f)
-{
-    for (const struct command *const *m = cmd_table; *m; m++) {
-        if ((*m)->group) fprintf(f, "%s.Ss %s\n.Bl -tag -width Ds\n", m == cmd_table ? "" : ".El\n", (*m)->group);
-        man_command(f, *m);
-    }
-    fputs(".El\n", f);
 }
 
 /* ------------------------------------------------------------------ help */
@@ -276,22 +270,6 @@ void cmd_print_help(const struct command *m)
 
 /* ------------------------------------------------------------------ running a command */
 
-/* What was printed has to have arrived: a full disk or a closed pipe is an error, unless there is a worse one already.
- */
-static int close_stdout(int code)
-{
-    int failed = ferror(stdout);
-    if (failed && __fpending(stdout) == 0)
-        putchar('\n'); /* else nothing is left that would say why it cannot be written */
-    int pending = __fpending(stdout) != 0;
-    errno = 0;
-    if (fclose(stdout) != 0) failed |= pending || errno != EBADF;
-    if (!failed) return code;
-    fprintf(stderr, "rasp: error: cannot write to standard output: %s\n",
-            errno ? strerror(errno) : "what was printed is not complete");
-    return code ? code : ERR_IO;
-}
-
 int cmd_complain(const char *command, const struct err *e)
 {
     char line[sizeof e->text + 64];
@@ -325,7 +303,7 @@ int cmd_run(const struct command *m, int argc, char **argv)
         err_set(&e, ERR_USAGE, "extra operand '%s'; usage: rasp %s [OPTION]... %s", c.args.operands[m->most], m->name,
                 m->operands);
     else
-        code = m->run(&c, &e);
+        code = m->run ? m->run(&c, &e) : cmd_actions(m->name, m->actions, &c, &e);
     message_end(&c);
     if (e.kind == ERR_INTERRUPTED) interrupt_report();
     if (e.kind) {
@@ -358,5 +336,17 @@ int cmd_main(int (*run)(int argc, char **argv), int argc, char **argv)
     json_set_alloc_funcs(memory_take, free); /* what jansson gets no memory for is else left out */
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN); /* a file that grows past its limit is a write error, exit 74 */
-    return close_stdout(run(argc, argv));
+    int code = run(argc, argv);
+    /* What was printed has to have arrived: a full disk or a closed pipe is an error, unless there is a worse one
+       already. */
+    int failed = ferror(stdout);
+    if (failed && __fpending(stdout) == 0)
+        putchar('\n'); /* else nothing is left that would say why it cannot be written */
+    int pending = __fpending(stdout) != 0;
+    errno = 0;
+    if (fclose(stdout) != 0) failed |= pending || errno != EBADF;
+    if (!failed) return code;
+    fprintf(stderr, "rasp: error: cannot write to standard output: %s\n",
+            errno ? strerror(errno) : "what was printed is not complete");
+    return code ? code : ERR_IO;
 }

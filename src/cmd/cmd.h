@@ -38,7 +38,7 @@ struct command {
     const struct args_option *options; /* its own (cmd_options has the rest); ends with {0}; never NULL */
     const struct action *actions;      /* what the first operand may be, ends with name NULL; NULL: no such command */
     const char *examples;              /* shell lines, each ending in \n; a line may end in # comment */
-    int (*run)(struct cmd_call *c, struct err *e);
+    int (*run)(struct cmd_call *c, struct err *e); /* NULL: that of the action */
 };
 
 extern const struct command check_command, explain_command, new_command, render_command, plan_command, compare_command,

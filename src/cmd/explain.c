@@ -132,8 +132,8 @@ static json_t *typed(const struct key *k, struct arena *a)
     return json_object();
 }
 
-/* The meaning, the type where it is a quantity, range, default, when it applies, and what the words mean. */
-static const char *description(const struct key *k, struct arena *a)
+/* The value of one key, with what `rasp explain` says of it. */
+static json_t *key_value(const struct key *k, struct arena *a)
 {
     const char *range = keys_text_range(k, a), *when = keys_text_applies(k, a),
                *all = arena_format(a, "%c%s.", toupper((unsigned char)k->meaning[0]), k->meaning + 1);
@@ -144,13 +144,7 @@ static const char *description(const struct key *k, struct arena *a)
     if (when) all = arena_format(a, "%s Only %s.", all, when);
     for (const struct choice *c = k->choices; c && c->word; c++)
         all = arena_format(a, "%s\n- %s: %s", all, c->word, c->meaning);
-    return all;
-}
-
-/* The value of one key, with what `rasp explain` says of it. */
-static json_t *key_value(const struct key *k, struct arena *a)
-{
-    json_t *o = described(typed(k, a), description(k, a));
+    json_t *o = described(typed(k, a), all);
     double x;
     if (k->standard && *k->standard && k->standard[0] != '[')
         json_object_set_new(o, "default", text_double(k->standard, &x) ? number(x) : json_string(k->standard));

@@ -158,27 +158,6 @@ struct line {
     int n;
 };
 
-/* ------------------------------------------------------------------ words of a line */
-
-static bool split(struct line *l, const char *text, struct arena *a, struct err *e)
-{
-    l->n = 0;
-    for (const char *p = text;;) {
-        p += strspn(p, " \t");
-        if (!*p || *p == '#') return true;
-        char *word = arena_take(a, strlen(p) + 1, 1), *to = word, quote = '\0';
-        for (; *p && (quote || !strchr(" \t", *p)); p++) {
-            if (quote ? *p == quote : *p == '\'' || *p == '"')
-                quote = quote ? '\0' : *p;
-            else
-                *to++ = *p;
-        }
-        if (quote) return err_set(e, ERR_SCENE, "%s:%d: a quote is not closed", l->list, l->number);
-        if (l->n == WORDS) return err_set(e, ERR_SCENE, "%s:%d: more than %d words", l->list, l->number, WORDS);
-        l->words[l->n++] = word;
-    }
-}
-
 /* ------------------------------------------------------------------ a scene */
 
 /* Its own limits count, of each kind for which it has any; else those of the command. */
@@ -256,7 +235,20 @@ static bool list_add(struct golden *g, const char *file, struct err *e)
     for (char *rest = b.at, *p; (p = strsep(&rest, "\n"));) {
         p[strcspn(p, "\r")] = '\0';
         l->number++;
-        if (!split(l, p, a, e) || (l->n && !scene_add(g, l, e))) return false;
+        l->n = 0;
+        for (p += strspn(p, " \t"); *p && *p != '#'; p += strspn(p, " \t")) {
+            char *word = arena_take(a, strlen(p) + 1, 1), *to = word, quote = '\0';
+            for (; *p && (quote || !strchr(" \t", *p)); p++) {
+                if (quote ? *p == quote : *p == '\'' || *p == '"')
+                    quote = quote ? '\0' : *p;
+                else
+                    *to++ = *p;
+            }
+            if (quote) return err_set(e, ERR_SCENE, "%s:%d: a quote is not closed", file, l->number);
+            if (l->n == WORDS) return err_set(e, ERR_SCENE, "%s:%d: more than %d words", file, l->number, WORDS);
+            l->words[l->n++] = word;
+        }
+        if (l->n && !scene_add(g, l, e)) return false;
     }
     return g->n > before || err_set(e, ERR_SCENE, "%s: no scene is listed: nothing would be checked", file);
 }
@@ -397,8 +389,6 @@ static const struct action actions[] = {
     {NULL, NULL, 0, 0, {NULL}, NULL},
 };
 
-static int golden_run(struct cmd_call *c, struct err *e) { return cmd_actions("golden", actions, c, e); }
-
 static const struct args_option options[] = {
     {"kept", 'k', "FOLDER", false,
      "where the files are kept, FOLDER/NAME/sound.wav and so on; default: golden, unless --hashes is given"},
@@ -444,5 +434,4 @@ const struct command golden_command = {
                 "rasp golden check --tap scenes/list.txt --kept out/golden\n"
                 "rasp golden update scenes/strike.yaml --hashes golden.sha256   # a line a file; nothing else is kept\n"
                 "rasp golden check scenes/strike.yaml --hashes golden.sha256\n",
-    .run = golden_run,
 };

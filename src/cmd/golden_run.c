@@ -201,22 +201,6 @@ static void judge(const struct golden *g, struct golden_scene *s, int pass)
             problem(s, s->made[pass].list[i].name, NULL, "is made, but not kept");
 }
 
-/* ... by the first render and the second  */
-static void judge_twice(const struct golden *g, struct golden_scene *s)
-{
-    s->sounds.exact = s->tables.exact = true;
-    for (int pass = 0; pass < 2; pass++)
-        for (int i = 0; i < s->made[pass].n; i++) {
-            const struct golden_file *one = &s->made[pass].list[i], *other = golden_find(&s->made[1 - pass], one->name);
-            const char *files[2] = {path_of(g, s, 0, one->name, s->arena), path_of(g, s, 1, one->name, s->arena)};
-            if (!other)
-                problem(s, one->name, NULL, "was made by the %s render only", pass ? "second" : "first");
-            else if (pass == 0 && strcmp(one->sha256, other->sha256) != 0)
-                judge_bytes(s, one->name, files, "what the first render made");
-        }
-    if (s->made[0].n == 0) problem(s, "", NULL, "it makes neither a sound nor a table: there is nothing to keep");
-}
-
 /* rasp golden check: every scene rendered, and again from its effective scene where that is asked for, against what is
  * kept. */
 
@@ -318,7 +302,18 @@ static bool same_twice(const struct golden *g, struct err *e)
     int unequal = 0;
     for (int i = 0; i < g->n; i++) {
         struct golden_scene *s = &g->scenes[i];
-        judge_twice(g, s);
+        s->sounds.exact = s->tables.exact = true;
+        for (int pass = 0; pass < 2; pass++)
+            for (const struct golden_file *one = s->made[pass].list; one < s->made[pass].list + s->made[pass].n;
+                 one++) {
+                const struct golden_file *other = golden_find(&s->made[1 - pass], one->name);
+                const char *files[2] = {path_of(g, s, 0, one->name, s->arena), path_of(g, s, 1, one->name, s->arena)};
+                if (!other)
+                    problem(s, one->name, NULL, "was made by the %s render only", pass ? "second" : "first");
+                else if (pass == 0 && strcmp(one->sha256, other->sha256) != 0)
+                    judge_bytes(s, one->name, files, "what the first render made");
+            }
+        if (s->made[0].n == 0) problem(s, "", NULL, "it makes neither a sound nor a table: there is nothing to keep");
         if (s->n_problems && unequal++ == 0 && g->tap) printf("TAP version 13\n1..%d\n", g->n);
         if (s->n_problems) golden_report_scene(g, s, i + 1);
     }

@@ -164,22 +164,6 @@ static void set_source(json_t *o, const struct diag_place *at, struct arena *a)
     set_place(o, lines ? at->line : 0, at->column, at->width);
 }
 
-static json_t *of_diag(const struct diag_error *x, enum err_kind kind, struct arena *a)
-{
-    json_t *o = object("error", kind);
-    set_source(o, &x->at, a);
-    json_value_set(o, "message:s help:s", x->text, x->help);
-    if (!x->at.source || !x->at.source->named.source) return o;
-    json_t *named = json_array();
-    for (const struct diag_place *at = &x->at.source->named; at->source && !at->source->made; at = &at->source->named) {
-        json_t *one = json_object();
-        set_source(one, at, a);
-        json_array_append_new(named, one);
-    }
-    json_object_set_new(o, "named_at", named);
-    return o;
-}
-
 static json_t *of_err(const struct err *e)
 {
     json_t *o = object("error", e->kind);
@@ -210,8 +194,21 @@ static void put(struct cmd_call *c, json_t *o)
 void message_scene(struct cmd_call *c, const struct diag *d, const char *messages, enum err_kind kind)
 {
     struct messages *t = of(c);
-    for (int i = 0; (t->json || t->collected) && d && i < d->n && i < DIAG_STORED; i++)
-        put(c, of_diag(&d->errors[i], kind, c->arena));
+    for (int i = 0; (t->json || t->collected) && d && i < d->n && i < DIAG_STORED; i++) {
+        const struct diag_error *x = &d->errors[i];
+        json_t *o = object("error", kind), *named = json_array();
+        set_source(o, &x->at, c->arena);
+        json_value_set(o, "message:s help:s", x->text, x->help);
+        const struct diag_place *at = x->at.source ? &x->at.source->named : NULL;
+        if (at && at->source) json_object_set(o, "named_at", named);
+        for (; at && at->source && !at->source->made; at = &at->source->named) {
+            json_t *one = json_object();
+            set_source(one, at, c->arena);
+            json_array_append_new(named, one);
+        }
+        json_decref(named);
+        put(c, o);
+    }
     t->reported = (t->json || t->collected) && d && d->n > 0;
     if (t->json) return;
     message_paint(stderr, messages);

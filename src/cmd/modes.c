@@ -585,8 +585,6 @@ int modes_compute_only(struct cmd_call *c, int (*run)(struct cmd_call *c, struct
     return cmd_actions("modes", mine, c, e);
 }
 
-static int modes_run(struct cmd_call *c, struct err *e) { return cmd_actions("modes", actions, c, e); }
-
 static const struct args_option options[] = {
     {"output", 'o', "FILE.csv", false, "object, compute, extract: the mode table to write; must be given"},
     {"force", 'f', NULL, false, "object, compute, extract: replaces files that exist"},
@@ -743,5 +741,4 @@ const struct command modes_command = {
                 "rasp render scenes/strike.yaml -o struck.wav\n"
                 "rasp modes extract struck.wav --modes 20 --method spectrogram --resynthesis again.wav --residual "
                 "rest.wav -o struck.csv\n",
-    .run = modes_run,
 };

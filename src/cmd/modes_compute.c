@@ -311,50 +311,40 @@ static void round_to(const struct compute *k, const double *step, double *phi)
         phi[i] = rint(phi[i] / step[i]) * step[i];
 }
 
-/* gain[places][n] phi(x) phi(l). */
-static double *gains(const struct compute *k)
+/* Gains are phi(x) phi(l). */
+static void rows(FILE *f, const struct compute *k)
 {
     const int all = k->modes.n;
-    double *step = ARENA_TAKE(k->c->arena, double, all);
+    struct modes_point at = modes_point_make(k->c->arena, k->n);
+    double *step = ARENA_TAKE(k->c->arena, double, all), *phi = ARENA_TAKE(k->c->arena, double, all),
+           *ear = ARENA_TAKE(k->c->arena, double, all);
+    int *order = ARENA_TAKE(k->c->arena, int, k->n);
     long wide = 3 * k->modes.nodes;
     for (int i = 0; i < all; i++) {
         for (long j = 0; j < wide; j++)
             step[i] = fmax(step[i], fabs(k->modes.shape[i * wide + j]));
         step[i] = ldexp(1.0, ilogb(step[i]) - 23);
     }
-    double *gain = ARENA_TAKE(k->c->arena, double, (long)k->places * k->n), *phi = ARENA_TAKE(k->c->arena, double, all),
-           *ear = ARENA_TAKE(k->c->arena, double, all);
     if (k->elsewhere) {
         solid_participation(&k->modes, &k->ear, ear);
         round_to(k, step, ear);
     }
-    for (int p = 0; p < k->places; p++) {
-        solid_participation(&k->modes, &k->point[p], phi);
-        round_to(k, step, phi);
-        for (int i = 0; i < k->n; i++)
-            gain[(long)p * k->n + i] = phi[k->mode[i]] * (k->elsewhere ? ear : phi)[k->mode[i]];
-    }
-    return gain;
-}
-
-static void rows(FILE *f, const struct compute *k)
-{
-    struct modes_point p = modes_point_make(k->c->arena, k->n);
-    const double *gain = gains(k);
-    int *order = ARENA_TAKE(k->c->arena, int, k->n);
     for (int i = 0; i < k->n; i++)
         order[i] = i;
     mode_table_write_header(f);
-    for (int at = 0; at < k->places; at++, gain += k->n) {
-        struct mode_table_place place = {DIGITS, at + 1, k->xy[at][0] + k->origin[0], k->xy[at][1] + k->origin[1]};
+    for (int p = 0; p < k->places; p++) {
+        struct mode_table_place place = {DIGITS, p + 1, k->xy[p][0] + k->origin[0], k->xy[p][1] + k->origin[1]};
+        solid_participation(&k->modes, &k->point[p], phi);
+        round_to(k, step, phi);
         for (int i = 0; i < k->n; i++) {
-            p.frequency[i] = k->frequency[i];
-            p.decay[i] = k->decay[i];
-            p.im[i] = gain[i];
-            p.re[i] = -gain[i] * k->decay[i] / (2.0 * REAL_PI * k->frequency[i]);
+            double gain = phi[k->mode[i]] * (k->elsewhere ? ear : phi)[k->mode[i]];
+            at.frequency[i] = k->frequency[i];
+            at.decay[i] = k->decay[i];
+            at.im[i] = gain;
+            at.re[i] = -gain * k->decay[i] / (2.0 * REAL_PI * k->frequency[i]);
         }
-        modes_to_quantity(k->quantity, k->n, &p);
-        mode_table_write_place(f, &place, k->n, order, &p, k->quantity);
+        modes_to_quantity(k->quantity, k->n, &at);
+        mode_table_write_place(f, &place, k->n, order, &at, k->quantity);
     }
 }
 

@@ -25,21 +25,6 @@ static const char *item_name(int i) { return plan_item((enum item)i); }
 
 static const char *knob_name(int i) { return keys_knobs[i].name; }
 
-static void set_stage(struct report *r, const struct plan *p, const struct plan_row *row)
-{
-    bool runs = row->verdict == PLAN_RUNS;
-    const char *why = runs                            ? NULL
-                      : row->verdict == PLAN_UNWANTED ? row->stage->idle
-                                                      : "nothing that is asked for needs it";
-    report_set(r, ":{ name:s runs:b why_not:e does:s equations:e", row->stage->name, runs, why, row->stage->does,
-               row->stage->paper);
-    set_names(r, "reads", runs ? row->reads & p->alive : 0, ITEM_COUNT, item_name);
-    set_names(r, "gives", runs ? row->stage->gives & p->alive : 0, ITEM_COUNT, item_name);
-    report_set(r, "cycles_per_sample:n", runs ? row->work : NAN);
-    set_names(r, "knobs", runs ? row->knobs : 0, KNOBS, knob_name);
-    report_set(r, "}");
-}
-
 static const struct args_option plan_options[] = {
     CMD_SCENE_OPTIONS,
     {"json", 'j', NULL, false,
@@ -73,8 +58,19 @@ static bool plan_one(struct cmd_call *c, const char *file, struct report *r, str
         report_set(r, "cycles_per_sample:n", whole);
         set_names(r, "knobs", plan_knobs(p), KNOBS, knob_name);
         report_set(r, "ablation:e stages:[", contact_ablation(p->contact, c->arena));
-        for (int k = 0; k < p->n; k++)
-            set_stage(r, p, &p->rows[k]);
+        for (const struct plan_row *row = p->rows; row < p->rows + p->n; row++) {
+            bool runs = row->verdict == PLAN_RUNS;
+            const char *why = runs                            ? NULL
+                              : row->verdict == PLAN_UNWANTED ? row->stage->idle
+                                                              : "nothing that is asked for needs it";
+            report_set(r, ":{ name:s runs:b why_not:e does:s equations:e", row->stage->name, runs, why,
+                       row->stage->does, row->stage->paper);
+            set_names(r, "reads", runs ? row->reads & p->alive : 0, ITEM_COUNT, item_name);
+            set_names(r, "gives", runs ? row->stage->gives & p->alive : 0, ITEM_COUNT, item_name);
+            report_set(r, "cycles_per_sample:n", runs ? row->work : NAN);
+            set_names(r, "knobs", runs ? row->knobs : 0, KNOBS, knob_name);
+            report_set(r, "}");
+        }
         report_set(r, "] }");
         if (!r->json) plan_print(p, r->out);
     }

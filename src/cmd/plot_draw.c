@@ -45,24 +45,6 @@ static struct view view_of(const struct plot_page *p)
     return size_of(&all) > FAR * size_of(&path) ? path : all;
 }
 
-static void data(const struct plot_page *p, double unit, const struct view *v, FILE *f)
-{
-    for (int i = 0; i < p->n_ways; i++) {
-        fprintf(f, "$way%d << END\n", i);
-        for (int k = 0; k < p->ways[i].n; k++)
-            fprintf(f, "%.9g %.9g %.9g\n", p->ways[i].at[k][0] / unit, p->ways[i].at[k][1] / unit, p->ways[i].at[k][2]);
-        fputs("END\n", f);
-    }
-    for (int i = 0; i < p->n_grounds; i++) {
-        fprintf(f, "$places%d << END\n", i);
-        for (int k = 0; k < p->grounds[i].n; k++)
-            if (p->grounds[i].places[k][0] >= v->low[0] && p->grounds[i].places[k][0] <= v->high[0] &&
-                p->grounds[i].places[k][1] >= v->low[1] && p->grounds[i].places[k][1] <= v->high[1])
-                fprintf(f, "%.9g %.9g\n", p->grounds[i].places[k][0] / unit, p->grounds[i].places[k][1] / unit);
-        fputs("NaN NaN\nEND\n", f);
-    }
-}
-
 /* Edges as objects, behind all else. */
 static void put_edges(const struct plot_page *p, double unit, FILE *f)
 {
@@ -130,7 +112,23 @@ static void plot_motion(const struct plot_page *p, const struct plot_place *at, 
             fastest = fmax(fastest, p->ways[i].at[k][2]);
     bool small = v.high[0] - v.low[0] < 0.03;
     double unit = small ? 1e-3 : 1e-2;
-    data(p, unit, &v, g->in);
+    for (int i = 0; i < p->n_ways; i++) {
+        fprintf(g->in, "$way%d << END\n", i);
+        for (int k = 0; k < p->ways[i].n; k++) {
+            const double *at3 = p->ways[i].at[k];
+            fprintf(g->in, "%.9g %.9g %.9g\n", at3[0] / unit, at3[1] / unit, at3[2]);
+        }
+        fputs("END\n", g->in);
+    }
+    for (int i = 0; i < p->n_grounds; i++) {
+        fprintf(g->in, "$places%d << END\n", i);
+        for (int k = 0; k < p->grounds[i].n; k++) {
+            const double *xy = p->grounds[i].places[k];
+            if (xy[0] >= v.low[0] && xy[0] <= v.high[0] && xy[1] >= v.low[1] && xy[1] <= v.high[1])
+                fprintf(g->in, "%.9g %.9g\n", xy[0] / unit, xy[1] / unit);
+        }
+        fputs("NaN NaN\nEND\n", g->in);
+    }
     fprintf(g->in, "set xlabel 'x / %s'\nset ylabel 'y / %s'\nset format x '%%g'\n", small ? "mm" : "cm",
             small ? "mm" : "cm");
     fprintf(g->in, "set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\nset cbrange [0:%.6g]\n", v.low[0] / unit,

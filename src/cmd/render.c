@@ -49,13 +49,14 @@ static struct accuracy finest(const struct accuracy *own, unsigned used, unsigne
     return set;
 }
 
-/* What is raised and refused (heights that take too much memory) is had one and a half times as fine as what is
-   verified, or as fine, never coarser than the preset has it: one knob after another, until the reference is rendered.
- */
-static bool reference(struct accuracy_sweep *s, unsigned raised, struct err *e)
+/* What of the reference is raised and refused (heights that take too much memory) is had one and a half times as fine
+   as what is verified, or as fine, never coarser than the preset has it: one knob after another, until the reference is
+   rendered. */
+static bool measure(struct accuracy_sweep *s, unsigned raised, struct err *e)
 {
     struct accuracy_render *r = &s->renders[REFERENCE];
     struct accuracy preset = r->set;
+    if (!accuracy_child_folder(s, e)) return false;
     accuracy_preset(&preset, "reference");
     s->reference = -1; /* that a reference is refused would be an error */
     bool ok = accuracy_child(s, REFERENCE, e);
@@ -67,16 +68,9 @@ static bool reference(struct accuracy_sweep *s, unsigned raised, struct err *e)
         ok = accuracy_child(s, REFERENCE, e);
     }
     s->reference = REFERENCE;
-    return ok;
-}
-
-static bool measure(struct accuracy_sweep *s, unsigned raised, struct err *e)
-{
-    if (!accuracy_child_folder(s, e)) return false;
-    bool ok = true;
     for (int i = 0; ok && i < s->n_renders; i++) {
-        const struct accuracy_render *r = &s->renders[i];
-        ok = (i == REFERENCE ? reference(s, raised, e) : accuracy_child(s, i, e)) &&
+        r = &s->renders[i];
+        ok = (i == REFERENCE || accuracy_child(s, i, e)) &&
              (r->code == 0 || err_set(e, (enum err_kind)r->code, "%s", r->words)) && accuracy_child_compare(s, i, e);
     }
     accuracy_child_end(s);

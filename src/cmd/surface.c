@@ -612,8 +612,6 @@ static const struct action actions[] = {
     {NULL, NULL, 0, 0, {NULL}, NULL},
 };
 
-static int surface_run(struct cmd_call *c, struct err *e) { return cmd_actions("surface", actions, c, e); }
-
 static const struct args_option options[] = {
     {"pitch", 0, "LENGTH", false,
      "distance between two samples; of read files, only for those that do not hold it (NPY, PNG, CSV)"},
@@ -663,5 +661,4 @@ const struct command surface_command = {
                 "rasp surface convert --crop '1mm,1mm,5mm,5mm' map.gwy part.gsf\n"
                 "rasp surface convert --row 128 map.gsf profile.npy\n"
                 "rasp surface synth --size 2mmx1mm --pitch 5um surfaces/sandpaper.yaml map.gsf\n",
-    .run = surface_run,
 };

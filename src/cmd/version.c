@@ -43,10 +43,18 @@
 #define BUILT_FOR "x86-64"
 #endif
 
-/* The best level this CPU has; functions with clones run at it, all with the same results to the bit: that which hot
-   functions are compiled for (num/lanes.h), or the one that all is compiled for. */
-static void print_level(void)
+const char version_number[] = VERSION, version_revision[] = RASP_REVISION;
+
+void version_print(bool verbose)
 {
+    printf("rasp " VERSION "\n");
+    if (!verbose) return;
+    printf("revision     %s\n", RASP_REVISION);
+    printf("compiler     %s\n", COMPILER);
+    printf("flags        %s\n", RASP_FLAGS);
+    printf("glibc        %s (built with %d.%d)\n", gnu_get_libc_version(), __GLIBC__, __GLIBC_MINOR__);
+    /* The best level this CPU has; functions with clones run at it, all with the same results to the bit: that which
+       hot functions are compiled for (num/lanes.h), or the one that all is compiled for. */
 #define TEXT(...) #__VA_ARGS__
 #define TEXT_OF(...) TEXT(__VA_ARGS__)
     __builtin_cpu_init();
@@ -60,19 +68,6 @@ static void print_level(void)
            : v4 || v3 ? level
                       : "x86-64",
            clones ? "picked at run time" : "as built");
-}
-
-const char version_number[] = VERSION, version_revision[] = RASP_REVISION;
-
-void version_print(bool verbose)
-{
-    printf("rasp " VERSION "\n");
-    if (!verbose) return;
-    printf("revision     %s\n", RASP_REVISION);
-    printf("compiler     %s\n", COMPILER);
-    printf("flags        %s\n", RASP_FLAGS);
-    printf("glibc        %s (built with %d.%d)\n", gnu_get_libc_version(), __GLIBC__, __GLIBC_MINOR__);
-    print_level();
     char ebur128[32], png[32];
     int major, minor, patch;
     unsigned v = (unsigned)png_access_version_number();
