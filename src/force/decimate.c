@@ -93,28 +93,10 @@ static void decimate_sort(const struct decimate *d, const double *x, long n)
 /* y[i] = sum over phases r and their taps k of tap[r][k] x[r][i + k], one addition after another; WIDE outputs at a
    time, so that inputs and taps are loaded once for all and no sum over lanes is left: with a sum over the lanes of
    each output it took half as long again. */
-LANES_CLONES
 static void decimate_all(const struct decimate *d, double *y, long n)
 {
-    int taps = d->taps, over = d->over;
-    for (long i = 0; i < n; i += WIDE) {
-        double sum[4][LANES] = {{0}};
-        int some = n - i < WIDE ? (int)(n - i) : WIDE;
-        for (int r = 0; r < over; r++) {
-            const double *x = d->x + r * d->room + i, *taps_of = d->tap + r * taps;
-            for (int k = 0; k < taps; k++)
-#pragma omp simd
-                for (int l = 0; l < LANES; l++) {
-                    const double *at = x + k + l;
-                    double tap = taps_of[k];
-                    sum[0][l] += tap * at[0];
-                    sum[1][l] += tap * at[LANES];
-                    sum[2][l] += tap * at[2 * LANES];
-                    sum[3][l] += tap * at[3 * LANES];
-                }
-        }
-        memcpy(y + i, sum, (size_t)some * sizeof *y);
-    }
+    for (int r = 0; r < d->over; r++)
+        smooth_taps(d->tap + r * d->taps, d->taps, d->x + r * d->room, n, r > 0, y);
 }
 
 /* Of the inputs x from frame 0 on. The kernel reads `reach` inputs to either side, and so from frame -leads on nothing

@@ -54,26 +54,26 @@ struct shares { /* of a segment's elements, for the kernels at its two ends */
     double early[SPREAD_SEGMENT], late[SPREAD_SEGMENT];
 };
 
-/* y[i] = sum_j tap[j] x[i + j], SPREAD_WIDE outputs at a time: the additions of one wait for each other, those of four
- * registers hardly. */
+/* SPREAD_WIDE outputs at a time: the additions of one wait for each other, those of four
+   registers do not. */
 LANES_CLONES
-static void spread_still(const struct filter *f, const double *x, double *y, long n)
+void smooth_taps(const double *tap, int taps, const double *x, long n, bool adds, double *y)
 {
-    int taps = 2 * f->reach + 1;
     for (long i = 0; i < n; i += SPREAD_WIDE) {
         double sum[4][LANES] = {{0}};
-        int some = n - i < SPREAD_WIDE ? (int)(n - i) : SPREAD_WIDE;
+        size_t some = (size_t)(n - i < SPREAD_WIDE ? n - i : SPREAD_WIDE);
+        if (adds) memcpy(sum, y + i, some * sizeof *y);
         for (int j = 0; j < taps; j++)
 #pragma omp simd
             for (int l = 0; l < LANES; l++) {
                 const double *at = x + i + j + l;
-                double tap = f->tap[j];
-                sum[0][l] += tap * at[0];
-                sum[1][l] += tap * at[LANES];
-                sum[2][l] += tap * at[2 * LANES];
-                sum[3][l] += tap * at[3 * LANES];
+                double by = tap[j];
+                sum[0][l] += by * at[0];
+                sum[1][l] += by * at[LANES];
+                sum[2][l] += by * at[2 * LANES];
+                sum[3][l] += by * at[3 * LANES];
             }
-        memcpy(y + i, sum, (size_t)some * sizeof *y);
+        memcpy(y + i, sum, some * sizeof *y);
     }
 }
 
@@ -327,7 +327,8 @@ static bool smooth_run(struct stage_run *r, long from, long to, struct err *e)
     if (!s->varies) {
         smooth_take(s, b, first - s->reach, (to + r->ahead - 1) * b->over);
         if (first == 0) smooth_mirror(s);
-        spread_still(&s->still.kernel, s->raw + (first - s->reach - s->raw_first), y, end - first);
+        smooth_taps(s->still.kernel.tap, s->still.kernel.taps, s->raw + (first - s->reach - s->raw_first), end - first,
+                    false, y);
         return true;
     }
     long oldest = s->node < s->start ? s->raw_first : s->node;

@@ -385,23 +385,10 @@ static inline __attribute__((always_inline)) double shorter(double turn)
     return turn > half_turn ? turn - 2.0 : turn < -half_turn ? turn + 2.0 : turn;
 }
 
-/* Phases where every corner has the mode, and torn[i]: whether the turns round them add up to a whole one. */
-LANES_CLONES
-static void turn_all(int n, const struct rows *phase, const double w[CORNERS], double *torn, double *to)
-{
-    const double *qa = phase->at[0], *qb = phase->at[1], *qc = phase->at[2], *qd = phase->at[3];
-    double v = w[1], x = w[2], y = w[3];
-#pragma omp simd
-    for (int i = 0; i < n; i++) {
-        double b = shorter(qb[i] - qa[i]), c = b + shorter(qc[i] - qb[i]), d = c + shorter(qd[i] - qc[i]);
-        to[i] = qa[i] + (v * b + x * c + y * d);
-        torn[i] = fabs(d + shorter(qa[i] - qd[i])) > 1.0 ? 1.0 : 0.0;
-    }
-}
-
-/* The same of mode i where some corner may lack it: phases are unrolled from the corner behind one that does. */
-static void turn_some(const struct morph *p, const struct places_mix *mix, const struct rows *phase,
-                      const struct rows *there, int i, double *to)
+/* The phase of mode i, and torn: whether the turns round the corners add up to a whole one. Where a corner lacks the
+   mode, phases are unrolled from the corner behind it. */
+static void turn_one(const struct morph *p, const struct places_mix *mix, const struct rows *phase,
+                     const struct rows *there, int i, double *to)
 {
     double last = 0, sum = 0, turned = 0, first = 0;
     int corners = mix->n, from = 0, have = 0;
@@ -415,19 +402,15 @@ static void turn_some(const struct morph *p, const struct places_mix *mix, const
         last = phase->at[k][i];
         sum += mix->weight[k] * turned;
     }
-    to[i] = first + (p->share[i] > 0.0 ? sum / p->share[i] : 0.0);
+    to[i] = first + (!p->gaps ? sum : p->share[i] > 0.0 ? sum / p->share[i] : 0.0);
     p->torn[i] = have == corners && fabs(turned + shorter(first - last)) > 1.0 ? 1.0 : 0.0;
 }
 
 static void turn_to(const struct morph *p, const struct places_mix *mix, double *to)
 {
     struct rows phase = rows_of(p, p->phase, mix), there = rows_of(p, p->there, mix);
-    double w[CORNERS] = {0};
-    for (int k = 0; k < mix->n; k++)
-        w[k] = mix->weight[k];
-    if (!p->gaps) turn_all(p->n, &phase, w, p->torn, to);
-    for (int i = 0; p->gaps && i < p->n; i++)
-        turn_some(p, mix, &phase, &there, i, to);
+    for (int i = 0; i < p->n; i++)
+        turn_one(p, mix, &phase, &there, i, to);
 }
 
 /* Poles, and amplitudes without W. */

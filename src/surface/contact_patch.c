@@ -41,49 +41,14 @@ enum { ENVELOPE = 32, READ = 64, EIGHT = 8 };
 struct on_lattice {
     const struct relief *under;
     struct rolling_plan plan;
-    double h, d;        /* m; d: of the plane */
-    double least, most; /* m, of the heights read so far */
-    bool warned;
-    long reach; /* in d */
+    double h, d; /* m; d: of the plane */
+    long reach;  /* in d */
     struct lattice heights;
     struct envelope *envelope; /* of the plane */
     struct relief line;        /* the envelope in one coordinate */
 };
 
 /* ------------------------------------------------------------------ heights */
-
-/* The least and most of n numbers, a multiple of LANES. */
-LANES_CLONES
-static void extremes(const double *z, long n, double found[2])
-{
-    double least[LANES], most[LANES];
-    for (int l = 0; l < LANES; l++)
-        least[l] = most[l] = z[l];
-    for (long i = LANES; i < n; i += LANES)
-#pragma omp simd
-        for (int l = 0; l < LANES; l++) {
-            least[l] = lanes_select(z[i + l] < least[l], z[i + l], least[l]);
-            most[l] = lanes_select(z[i + l] > most[l], z[i + l], most[l]);
-        }
-    found[0] = least[0];
-    found[1] = most[0];
-    for (int l = 1; l < LANES; l++) {
-        found[0] = least[l] < found[0] ? least[l] : found[0];
-        found[1] = most[l] > found[1] ? most[l] : found[1];
-    }
-}
-
-static void heights_watch(struct on_lattice *w, const double *z, long n)
-{
-    double found[2];
-    extremes(z, n, found);
-    w->least = fmin(w->least, found[0]);
-    w->most = fmax(w->most, found[1]);
-    if (!w->warned && w->most - w->least > w->plan.span) {
-        w->warned = true;
-        if (w->plan.exceeded) w->plan.exceeded(w->plan.self);
-    }
-}
 
 struct reading {
     double z[READ], x[READ], y[READ], xx[READ], xy[READ], yy[READ];
@@ -128,7 +93,7 @@ static void heights_fill(void *self, long column, long row, double *out)
                   &(struct relief_values){r.z, r.x, r.y, r.xx, r.xy, r.yy});
         squares_put(&r, w->d / 2, out + below * side + left, side);
     }
-    heights_watch(w, out, side * side);
+    rolling_envelope_watch(&w->plan, out, side * side);
 }
 
 long contact_patch_side(const struct rolling_plan *p)
@@ -176,8 +141,7 @@ static struct lattice lattice_make(struct arena *a, const struct relief *under, 
 {
     struct on_lattice *w = ARENA_TAKE(a, struct on_lattice, 1);
     double h = p->patch / PATCH_POINTS;
-    *w = (struct on_lattice){
-        .under = under, .plan = *p, .h = h, .d = h / p->finer, .least = HUGE_VAL, .most = -HUGE_VAL};
+    *w = (struct on_lattice){.under = under, .plan = *p, .h = h, .d = h / p->finer};
     if (under->along == ALONG_PLANE) return lattice_plane(w, a);
     w->line.along = ALONG_PATH;
     relief_add(&w->line, rolling_envelope_part(a, under, p));
@@ -192,8 +156,6 @@ struct rolling {
     double kernel[KERNEL + 1];
     struct lattice envelope, splines; /* a block of splines has EDGE more coefficients: those of its cells */
     double *window, *half;            /* work: envelope under a block of splines; the same, done along rows */
-    long column, row;                 /* of the block of splines at hand */
-    const double *at_hand;            /* NULL: none */
 };
 
 /* ------------------------------------------------------------------ splines */
@@ -253,12 +215,8 @@ static const double *rolling_cell(struct rolling *w, long i, long j)
 {
     const long *side = w->splines.side;
     long column = block_cache_index(i, side[0]), row = w->plane ? block_cache_index(j, side[1]) : 0;
-    if (!w->at_hand || column != w->column || row != w->row) {
-        w->at_hand = block_cache_at(w->splines.blocks, column, row);
-        w->column = column;
-        w->row = row;
-    }
-    return w->at_hand + (w->plane ? (j - row * side[1]) * (side[0] + EDGE) : 0) + (i - column * side[0]);
+    return block_cache_at(w->splines.blocks, column, row) + (w->plane ? (j - row * side[1]) * (side[0] + EDGE) : 0) +
+           (i - column * side[0]);
 }
 
 struct cubic {

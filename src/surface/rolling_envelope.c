@@ -457,28 +457,26 @@ struct underlying {
     const struct relief *under;
     struct rolling_plan plan;
     struct disc disc;
-    bool warned;
-    double least, most;
-    long reach, side;      /* places: as far as the disc looks; in a block of the envelope */
-    int kinds;             /* of what is known of a place: its height; slope and bend      */
-    double *window[KINDS]; /* work */
+    long reach, side; /* places: as far as the disc looks; in a block of the envelope */
+    int kinds;        /* of what is known of a place: its height; slope and bend      */
+    double *window;   /* [kinds][places of the window] work */
     struct rolling_envelope *envelope;
     struct block_cache *heights; /* blocks of LINE places, of one kind after the other */
     struct block_cache *blocks;  /* of the envelope: how many stretches, and these */
-    long column, hint;           /* of the block at hand; its stretch that was read last */
-    const double *at_hand;       /* NULL: none */
+    long column, hint;           /* the block that was read last, and its stretch */
 };
 
-static void heights_watch(struct underlying *g, const double *z)
+void rolling_envelope_watch(struct rolling_plan *p, const double *z, long n)
 {
-    for (long i = 0; i < LINE; i++) {
-        g->least = z[i] < g->least ? z[i] : g->least;
-        g->most = z[i] > g->most ? z[i] : g->most;
+    if (!p->begun) p->read[0] = p->read[1] = z[0];
+    p->begun = true;
+    for (long i = 0; i < n; i++) {
+        p->read[0] = z[i] < p->read[0] ? z[i] : p->read[0];
+        p->read[1] = z[i] > p->read[1] ? z[i] : p->read[1];
     }
-    if (!g->warned && g->most - g->least > g->plan.span) {
-        g->warned = true;
-        if (g->plan.exceeded) g->plan.exceeded(g->plan.self);
-    }
+    if (p->warned || !(p->read[1] - p->read[0] > p->span)) return;
+    p->warned = true;
+    if (p->exceeded) p->exceeded(p->self);
 }
 
 static void heights_fill(void *self, long column, long row, double *out)
@@ -494,17 +492,7 @@ static void heights_fill(void *self, long column, long row, double *out)
                                   .xx = g->plan.points ? NULL : out + 2 * LINE + i};
         relief_at(g->under, &(struct relief_points){READ, x, NULL}, &v);
     }
-    heights_watch(g, out);
-}
-
-static void heights_gather(struct underlying *g, long first, long n)
-{
-    for (long b = block_cache_index(first, LINE); b * LINE < first + n; b++) {
-        const double *z = block_cache_at(g->heights, b, 0);
-        long from = b * LINE > first ? b * LINE : first, to = (b + 1) * LINE < first + n ? (b + 1) * LINE : first + n;
-        for (int k = 0; k < g->kinds; k++)
-            memcpy(g->window[k] + from - first, z + k * LINE + from - b * LINE, (size_t)(to - from) * sizeof *z);
-    }
+    rolling_envelope_watch(&g->plan, out, LINE);
 }
 
 /* Of the window's stretches, those that come up inside the block and the one that is up where it begins. */
@@ -513,10 +501,14 @@ static void blocks_fill(void *self, long column, long row, double *out)
     struct underlying *g = self;
     long first = column * g->side - g->reach, n = rolling_envelope_window(&g->plan);
     double from = (double)(column * g->side) * g->plan.pitch, to = (double)((column + 1) * g->side) * g->plan.pitch;
+    double *z = g->window;
     const double *found;
     (void)row;
-    heights_gather(g, first, n);
-    rolling_envelope_set(g->envelope, &(struct envelope_ground){g->window[0], g->window[1], g->window[2]}, n, first);
+    block_cache_gather(&(struct lattice){g->heights, {LINE, g->kinds}}, (long[]){first, 0}, (long[]){n, g->kinds}, z,
+                       n);
+    bool points = g->plan.points;
+    rolling_envelope_set(g->envelope, &(struct envelope_ground){z, points ? NULL : z + n, points ? NULL : z + 2 * n}, n,
+                         first);
     long stretches = rolling_envelope_between(g->envelope, from, to, &found);
     out[0] = (double)stretches;
     memcpy(out + 1, found, (size_t)(stretches * STRETCH_NUMBERS) * sizeof *out);
@@ -525,13 +517,10 @@ static void blocks_fill(void *self, long column, long row, double *out)
 static const double *underlying_stretch(struct underlying *g, double x)
 {
     long column = (long)floor(x / ((double)g->side * g->plan.pitch));
-    if (!g->at_hand || column != g->column) {
-        g->at_hand = block_cache_at(g->blocks, column, 0);
-        g->column = column;
-        g->hint = 0;
-    }
-    g->hint = stretch_find(g->at_hand + 1, (long)g->at_hand[0], g->hint, x);
-    return g->at_hand + 1 + g->hint * STRETCH_NUMBERS;
+    const double *found = block_cache_at(g->blocks, column, 0);
+    g->hint = stretch_find(found + 1, (long)found[0], column == g->column ? g->hint : 0, x);
+    g->column = column;
+    return found + 1 + g->hint * STRETCH_NUMBERS;
 }
 
 static void underlying_put(const struct relief_values *v, size_t n, double z, double slope, double bend)
@@ -592,14 +581,11 @@ struct relief_part *rolling_envelope_part(struct arena *a, const struct relief *
     *g = (struct underlying){.under = under,
                              .plan = *p,
                              .disc = rolling_envelope_disc(p->radius, p->points ? 0 : 0.5 * p->pitch),
-                             .least = HUGE_VAL,
-                             .most = -HUGE_VAL,
                              .reach = plan_reach(p),
                              .side = plan_side(p),
                              .kinds = p->points ? 1 : KINDS,
                              .envelope = rolling_envelope_make(a, p->radius, p->pitch, window)};
-    for (int k = 0; k < g->kinds; k++)
-        g->window[k] = ARENA_TAKE(a, double, window);
+    g->window = ARENA_TAKE(a, double, g->kinds *window);
     blocks = blocks < BLOCKS_LEAST ? BLOCKS_LEAST : blocks > BLOCKS_MOST ? BLOCKS_MOST : blocks;
     g->heights = block_cache_make(a, (size_t)(LINE * g->kinds),
                                   (size_t)(heights > HEIGHTS_LEAST ? heights : HEIGHTS_LEAST), heights_fill, g);

@@ -76,15 +76,20 @@ long rolling_envelope_between(const struct rolling_envelope *c, double from, dou
 /* ------------------------------------------------------------------ as a part of a relief */
 
 struct rolling_plan {
-    double radius, patch;     /* m; patch: standard deviation of the Gaussian                                    */
-    double reach;             /* m: heights further from the ball's centre than this are not looked at; <= radius */
-    int finer;                /* in the plane heights are read at patch / 4 / finer                              */
-    double pitch;             /* m: in one coordinate, at its multiples                                          */
-    bool points;              /* in one coordinate: the surface has kinks, and only its heights there count      */
-    double span;              /* m between the greatest and least height that reach was made for; HUGE_VAL: any  */
+    double radius, patch; /* m; patch: standard deviation of the Gaussian                                    */
+    double reach;         /* m: heights further from the ball's centre than this are not looked at; <= radius */
+    int finer;            /* in the plane heights are read at patch / 4 / finer                              */
+    double pitch;         /* m: in one coordinate, at its multiples                                          */
+    bool points;          /* in one coordinate: the surface has kinks, and only its heights there count      */
+    double span;          /* m between the greatest and least height that reach was made for; HUGE_VAL: any  */
+    double read[2];       /* m, least and greatest height read so far, once any is                           */
+    bool begun, warned;
     void (*exceeded)(void *); /* called once when the heights read span more; may be NULL                      */
     void *self;
 };
+
+/* Of n heights that have been read: is it more than span now? */
+void rolling_envelope_watch(struct rolling_plan *p, const double *z, long n);
 
 /* How many places of the ground are held at a time for a piece of the envelope. */
 long rolling_envelope_window(const struct rolling_plan *p);

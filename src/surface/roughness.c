@@ -21,6 +21,7 @@
 #include "scene/rows.h"
 #include "scene/scene_part.h"
 #include "stage.h"
+#include "surface/block_cache.h"
 #include "surface/heights.h"
 #include "surface/relief.h"
 #include "surface/spectrum.h"
@@ -143,20 +144,12 @@ double roughness_scale(const struct contact *c)
  * one costs what 20 000 frames of reading do. */
 enum { BLOCKS_LEAST = 4, BLOCKS_MOST = 64, BLOCKS_BYTES = 1 << 19 };
 
-struct block {
-    long index;
-    bool filled;
-    double *c; /* [n]; NULL: not asked for yet */
-};
-
 struct blocks {
     long n;                  /* samples of a block, even */
     double *window, *spread; /* [n], [n/2+1]: window; standard deviation of a line's real and imaginary part */
     struct fft *fft;
     struct noise stream;
-    struct block *blocks; /* [cached]: block b lies in slot b mod cached */
-    long cached;
-    struct arena *arena; /* for blocks */
+    struct block_cache *cache;
     double *re, *im, *normal;
 };
 
@@ -173,27 +166,19 @@ static void blocks_spread(struct blocks *g, const struct spectrum *s, double pit
     }
 }
 
-static void block_fill(struct blocks *g, struct block *b, long index)
+static void blocks_fill(void *self, long index, long row, double *c)
 {
-    if (!b->c) b->c = ARENA_TAKE(g->arena, double, g->n);
+    const struct blocks *g = self;
+    (void)row;
     noise_normal(g->stream, (uint64_t)index, (size_t)g->n, g->normal);
     for (long j = 0; j < g->n / 2; j++) {
         g->re[j] = g->normal[2 * j] * g->spread[j];
         g->im[j] = g->normal[2 * j + 1] * g->spread[j];
     }
     g->im[0] = g->re[g->n / 2] = g->im[g->n / 2] = 0;
-    fft_inverse(g->fft, g->re, g->im, b->c);
+    fft_inverse(g->fft, g->re, g->im, c);
     for (long i = 0; i < g->n; i++)
-        b->c[i] *= g->window[i];
-    b->index = index;
-    b->filled = true;
-}
-
-static const double *block_at(struct blocks *g, long index)
-{
-    struct block *b = &g->blocks[((index % g->cached) + g->cached) % g->cached];
-    if (!b->filled || b->index != index) block_fill(g, b, index);
-    return b->c;
+        c[i] *= g->window[i];
 }
 
 /* Coefficient i is the sum of blocks b = floor(i / half) and b - 1, block b beginning at b half. */
@@ -202,9 +187,10 @@ static void blocks_read(struct profile *p, long first, long n, double *c)
     struct blocks *g = p->state;
     long half = g->n / 2;
     while (n > 0) {
-        long b = first >= 0 ? first / half : -((-first + half - 1) / half), from = first - b * half;
+        long b = block_cache_index(first, half), from = first - b * half;
         long some = half - from < n ? half - from : n;
-        const double *new = block_at(g, b) + from, *old = block_at(g, b - 1) + half + from;
+        const double *new = block_cache_at(g->cache, b, 0) + from,
+                     *old = block_cache_at(g->cache, b - 1, 0) + half + from;
         for (long i = 0; i < some; i++)
             c[i] = new[i] + old[i];
         c += some;
@@ -233,10 +219,6 @@ struct profile *roughness_blocks(struct arena *a, const struct spectrum *s, stru
     long n = (long)fft_good_size((size_t)(span < 4096 ? 4096 : span));
     long cached = BLOCKS_BYTES / (n * (long)sizeof(double));
     *g = (struct blocks){.n = n,
-                         .arena = a,
-                         .cached = cached < BLOCKS_LEAST  ? BLOCKS_LEAST
-                                   : cached > BLOCKS_MOST ? BLOCKS_MOST
-                                                          : cached,
                          .stream = stream,
                          .fft = fft_open((size_t)n),
                          .window = ARENA_TAKE(a, double, n),
@@ -244,7 +226,8 @@ struct profile *roughness_blocks(struct arena *a, const struct spectrum *s, stru
                          .re = ARENA_TAKE(a, double, n / 2 + 1),
                          .im = ARENA_TAKE(a, double, n / 2 + 1),
                          .normal = ARENA_TAKE(a, double, n)};
-    g->blocks = ARENA_TAKE(a, struct block, g->cached);
+    cached = cached < BLOCKS_LEAST ? BLOCKS_LEAST : cached > BLOCKS_MOST ? BLOCKS_MOST : cached;
+    g->cache = block_cache_make(a, (size_t)n, (size_t)cached, blocks_fill, g);
     for (long i = 0; i < n; i++)
         g->window[i] = blocks_window(((double)i + 0.5) / (double)n);
     blocks_spread(g, s, pitch);
