@@ -149,16 +149,6 @@ static void invert(int n, double *a, double *inverse)
     }
 }
 
-static void set_nodes(struct alias *f)
-{
-    double low = real_cospi(TOP);
-    for (int k = 0; k < NODES; k++) {
-        double c = low + 0.5 * (1 - low) * (1 + real_cospi((k + 2.5) / (M + 1))), s = sqrt((1 - c) * (1 + c));
-        f->turn[k] = real_atan2(s, c);
-        f->circle[k] = (struct z){c, -s};
-    }
-}
-
 /* Rows: value and curvature at 0, or the slope there; then the nodes. Columns: cos m theta, m = 0 .. M, or sin m theta,
  * m = 1 .. M. */
 static void set_fit(struct alias *f)
@@ -250,7 +240,12 @@ struct alias *alias_make(struct arena *a, int gamma, double rate)
     struct alias *f = ARENA_TAKE(a, struct alias, 1);
     f->gamma = gamma;
     f->rate = rate;
-    set_nodes(f);
+    double low = real_cospi(TOP);
+    for (int k = 0; k < NODES; k++) {
+        double c = low + 0.5 * (1 - low) * (1 + real_cospi((k + 2.5) / (M + 1))), s = sqrt((1 - c) * (1 + c));
+        f->turn[k] = real_atan2(s, c);
+        f->circle[k] = (struct z){c, -s};
+    }
     set_fit(f);
     set_series(f);
     f->arena = a;
@@ -258,14 +253,6 @@ struct alias *alias_make(struct arena *a, int gamma, double rate)
 }
 
 /* ------------------------------------------------------------------ taps by interpolation */
-
-static void make_row(struct alias *f, int r)
-{
-    f->re[r] = arena_take(f->arena, PLACES + 4, sizeof *f->re[r]);
-    f->im[r] = arena_take(f->arena, PLACES + 4, sizeof *f->im[r]);
-    for (int i = 0; i < PLACES + 4; i++)
-        alias_taps(f, (i - 1) * f->rate / (2 * PLACES), 2 * r * STEP * f->rate, f->re[r][i], f->im[r][i]);
-}
 
 LANES_CLONES
 static void mix(const double *restrict re, const double *restrict im, const double a[4], const double b[4],
@@ -292,7 +279,12 @@ void alias_add(struct alias *f, double frequency, double decay, const double gai
         return;
     }
     int r = (int)(0.5 * (y + 1));
-    if (!f->re[r]) make_row(f, r);
+    if (!f->re[r]) {
+        f->re[r] = arena_take(f->arena, PLACES + 4, sizeof *f->re[r]);
+        f->im[r] = arena_take(f->arena, PLACES + 4, sizeof *f->im[r]);
+        for (int q = 0; q < PLACES + 4; q++)
+            alias_taps(f, (q - 1) * f->rate / (2 * PLACES), 2 * r * STEP * f->rate, f->re[r][q], f->im[r][q]);
+    }
     /* s T = j STEP (x + j y): Lagrange's polynomials of -1, 0, 1, 2 at u = x - i + j (y - 2 r), times A */
     y -= 2 * r;
     struct z u = {x - i, y}, up = {u.re + 1, y}, down = {u.re - 1, y}, two = {u.re - 2, y}, A = {gain[0], gain[1]},

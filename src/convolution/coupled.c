@@ -516,35 +516,12 @@ bool coupled_make(struct arena *a, const struct coupled_ask *ask, struct coupled
     return ask->integrator != INTEGRATOR_DISCRETE_GRADIENT || coupled_gradient_make(c, e);
 }
 
-/* How far the modes' places sink under the weight. */
-static double sunk(const struct coupled *c, const double *phi)
-{
-    double sum = 0;
-    for (int i = 0; phi && i < c->modes.n; i++)
-        sum += phi[i] * phi[i] / c->modes.square[i];
-    return sum * c->ask.weight;
-}
-
-/* k xi^1.5 = G */
-static double pressed(const struct coupled *c)
-{
-    double load = c->ask.weight / c->ask.stiffness;
-    return load > 0 ? real_pow(load, 2.0 / 3) : 0;
-}
-
 double coupled_rest(const struct coupled *c, double surface, const double *phi)
 {
-    return surface - (sunk(c, phi) + pressed(c));
-}
-
-static void start_modes(struct coupled *c, const double *phi, bool settled)
-{
-    struct coupled_modes *m = &c->modes;
-    for (int i = 0; i < m->padded; i++) {
-        m->phi[i] = phi && i < m->n ? phi[i] : 0;
-        m->q[i] = settled ? m->phi[i] * c->ask.weight / m->square[i] : 0;
-        m->p[i] = m->swing[i] = 0;
-    }
+    double give = 0, load = c->ask.weight / c->ask.stiffness; /* k xi^1.5 = G */
+    for (int i = 0; phi && i < c->modes.n; i++)
+        give += phi[i] * phi[i] / c->modes.square[i];
+    return surface - (give * c->ask.weight + (load > 0 ? real_pow(load, 2.0 / 3) : 0));
 }
 
 LANES_CLONES
@@ -702,10 +679,14 @@ void coupled_start(struct coupled *c, double height, double speed, double surfac
                             .speed = speed,
                             .closing = -speed};
     *c = fresh;
-    start_modes(c, phi, settled);
+    struct coupled_modes *m = &c->modes;
     double bent = 0;
-    for (int i = 0; i < c->modes.n; i++)
-        bent += c->modes.phi[i] * c->modes.q[i];
+    for (int i = 0; i < m->padded; i++) {
+        m->phi[i] = phi && i < m->n ? phi[i] : 0;
+        m->q[i] = settled ? m->phi[i] * c->ask.weight / m->square[i] : 0;
+        m->p[i] = m->swing[i] = 0;
+        bent += m->phi[i] * m->q[i];
+    }
     c->penetration = -bent - c->height;
     double greatest;
     const char *whose;

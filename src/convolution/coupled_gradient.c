@@ -399,15 +399,6 @@ struct gradient_run {
     double deepest, fastest; /* greatest xi and |w'| so far                                     */
 };
 
-static bool stuck(const struct gradient_run *r, long step, double free, double yield, struct err *e)
-{
-    return err_set(e, ERR_NUMBERS,
-                   "step %ld of the coupled contact has no solution after %d passes (penetration %g m, %g m without a "
-                   "force, %g m/N; the place moves too far in one step, "
-                   "or a value is not finite)",
-                   step, r->contact.passes, r->contact.from, free, yield);
-}
-
 /* The ball and the ledger, from a force that is found. work: by the surface, per N. */
 INLINE void take(struct gradient_run *r, long step, double free, double work)
 {
@@ -506,7 +497,10 @@ static bool steps_on(struct gradient_run *r, const int batch[3], const double *s
         double free = (next - bent) - (c->height + (h * c->speed - drop)),
                yield = r->own + coupled_modal_sum_along(r->answers.press, j, j - 0.5);
         if (!(yield > 0) || !press(r, free, yield, behind ? j + 1 : 0))
-            return stuck(r, c->state.steps + j - from, free, yield, e);
+            return err_set(e, ERR_NUMBERS,
+                           "step %ld of the coupled contact has no solution after %d passes (penetration %g m, %g m "
+                           "without a force, %g m/N; the place moves too far in one step, or a value is not finite)",
+                           c->state.steps + j - from, r->contact.passes, r->contact.from, free, yield);
         if (behind) lean(r, last, place, r->sum.place);
         take(r, c->state.steps + j - from - 1, free, next - c->surface);
         c->surface = next;

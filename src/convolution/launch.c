@@ -363,14 +363,6 @@ static void grow_rows(struct clusters *g, struct arena *a)
     g->room = room;
 }
 
-static void row_copy(struct row *to, const struct row *from, int l)
-{
-    to->xr[l] = from->xr[l], to->xi[l] = from->xi[l];
-    to->dr[l] = from->dr[l], to->di[l] = from->di[l];
-    to->ar[l] = from->ar[l], to->ai[l] = from->ai[l];
-    to->until[l] = from->until[l];
-}
-
 /* How many rows the group's lanes need, and the reach of those that ring. */
 static void measure(struct ringing *r, int k)
 {
@@ -403,8 +395,13 @@ static void lane_sweep(struct ringing *r, int l)
     v->soonest = HUGE_VAL;
     for (int k = 0; k < v->count;)
         if (rows[k].until[l % LANES] <= (double)r->now) {
-            row_copy(&rows[k], &rows[--v->count], l % LANES);
-            rows[v->count].xr[l % LANES] = rows[v->count].xi[l % LANES] = 0;
+            struct row *to = &rows[k], *from = &rows[--v->count];
+            int i = l % LANES;
+            to->xr[i] = from->xr[i], to->xi[i] = from->xi[i];
+            to->dr[i] = from->dr[i], to->di[i] = from->di[i];
+            to->ar[i] = from->ar[i], to->ai[i] = from->ai[i];
+            to->until[i] = from->until[i];
+            from->xr[i] = from->xi[i] = 0;
         } else {
             v->soonest = fmin(v->soonest, rows[k].until[l % LANES]);
             k++;
@@ -545,14 +542,6 @@ static void ringing_run(struct ringing *r, double (*sums)[LANES])
             cluster_sound(&r->group[k], sums, r->block);
         }
     r->now += r->block;
-}
-
-static long ringing_active(const struct ringing *r)
-{
-    long count = 0;
-    for (int l = 0; l < r->groups * LANES; l++)
-        count += r->lane[l].count;
-    return count;
 }
 
 /* ------------------------------------------------------------------ nodes under force */
@@ -725,7 +714,9 @@ void launch_run(struct launch *l, const double *f, double *y, long frames)
 
 long launch_active(const struct launch *l)
 {
-    long count = ringing_active(l->ringing);
+    long count = 0;
+    for (int k = 0; k < l->ringing->groups * LANES; k++)
+        count += l->ringing->lane[k].count;
     for (int q = 0; q < NODES; q++)
         for (int i = 0; i < l->ask.n; i++)
             count +=

@@ -216,11 +216,6 @@ struct overlap_add_moving {
     long quiet;   /* samples of zero force before `now`                     */
 };
 
-static double window_at(double u)
-{
-    return u <= 1.0 ? (1.0 - u * u) * (2.0 - u) / 2.0 : (1.0 - u) * (2.0 - u) * (3.0 - u) / 6.0;
-}
-
 /* First sample of node k's window. */
 static long window_start(const struct overlap_add_moving *o, long k) { return (k - ORDER / 2) * o->hop; }
 
@@ -245,8 +240,10 @@ struct overlap_add_moving *overlap_add_moving_open(size_t length, int hop, enum 
     o->force = take(a, o->bins);
     o->own = take(a, o->bins);
     o->window = ARENA_TAKE(a, double, o->count);
-    for (int j = 0; j < o->count; j++)
-        o->window[j] = window_at(fabs((double)(j - o->count / 2) / hop));
+    for (int j = 0; j < o->count; j++) { /* Lagrange's cubic between four nodes */
+        double u = fabs((double)(j - o->count / 2) / hop);
+        o->window[j] = u <= 1.0 ? (1.0 - u * u) * (2.0 - u) / 2.0 : (1.0 - u) * (2.0 - u) * (3.0 - u) / 6.0;
+    }
     o->room = reading == OVERLAP_ADD_READOUT ? (size_t)o->count : o->size;
     o->ring = ARENA_TAKE(a, double, o->room);
     o->past = ARENA_TAKE(a, double, length);

@@ -45,12 +45,6 @@ struct ring_alias {
 
 /* ------------------------------------------------------------------ taps */
 
-static void add(const double *restrict re, const double *restrict im, double a, double b, double *restrict to)
-{
-    for (int k = 0; k < ALIAS_TAPS; k++)
-        to[k] += a * im[k] + b * re[k];
-}
-
 static void taps_at(struct ring_alias *s, const struct ring *g, const struct ring_output *v, long frame,
                     struct known *to)
 {
@@ -63,7 +57,8 @@ static void taps_at(struct ring_alias *s, const struct ring *g, const struct rin
         if (s->moves && s->separate)
             alias_add(s->fit, s->at.frequency[i], s->at.decay[i], (double[2]){s->at.re[i], s->at.im[i]}, to->tap);
         else
-            add(s->re[cached ? i : 0], s->im[cached ? i : 0], s->at.re[i], s->at.im[i], to->tap);
+            for (int k = 0; k < ALIAS_TAPS; k++)
+                to->tap[k] += s->at.re[i] * s->im[cached ? i : 0][k] + s->at.im[i] * s->re[cached ? i : 0][k];
     }
 }
 
@@ -117,23 +112,18 @@ static double share(const struct ring_alias *s, long frame)
     return s->moves ? (double)(frame - s->start.frame) / (double)(s->end.frame - s->start.frame) : 0;
 }
 
-/* What would be heard before frame `least`, from `first` on, is added to that. */
-static void launch_early(struct ring_alias *s, double f, double u, long first, long least)
-{
-    double early[ALIAS_TAPS] = {0};
-    scatter(s->start.tap, s->end.tap, u, f, early);
-    for (int k = 0; k < ALIAS_TAPS; k++)
-        s->sum[first + k > least ? first + k : least] += early[k];
-}
-
 /* The force f of a frame, to what is heard around it, from frame `begin` on. */
 static void launch(struct ring_alias *s, double f, long frame, long from, long begin)
 {
     long first = frame - ALIAS_REACH - from, least = begin > from ? begin - from : 0;
     if (first >= least)
         scatter(s->start.tap, s->end.tap, share(s, frame), f, s->sum + first);
-    else
-        launch_early(s, f, share(s, frame), first, least);
+    else {
+        double early[ALIAS_TAPS] = {0};
+        scatter(s->start.tap, s->end.tap, share(s, frame), f, early);
+        for (int k = 0; k < ALIAS_TAPS; k++)
+            s->sum[first + k > least ? first + k : least] += early[k];
+    }
 }
 
 /* What is heard in a frame of the force around it, f[0] the frame's own. */
@@ -331,13 +321,6 @@ static bool note_quantity(const struct ring *g, struct board *b, struct err *e)
     return true;
 }
 
-static void note_ring(const struct ring *g, const struct response *given, struct board *b)
-{
-    double ring =
-        modes_ring_time(&g->choice->modes, gammatone_decibel(g->choice->gamma, 80)) + (double)g->delay / b->rate;
-    b->ring = fmax(b->ring, isnan(given->length) ? ring : fmin(ring, given->length));
-}
-
 /* The sound ends 60 s after the last force where output.tail is auto (pipeline/render.c). */
 static void note_endless(const struct ring *g, const struct response *given, struct stage_run *r)
 {
@@ -384,7 +367,9 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
     if (g->choice->recorded) return true;
     for (int k = 0; k < g->channels; k++)
         if (!voice_open(g, r, k, e)) return err_about(e, r->contact->name, ring_choice_about(r->contact, body));
-    note_ring(g, given, r->board);
+    double ring =
+        modes_ring_time(&g->choice->modes, gammatone_decibel(g->choice->gamma, 80)) + (double)g->delay / r->board->rate;
+    r->board->ring = fmax(r->board->ring, isnan(given->length) ? ring : fmin(ring, given->length));
     note_warnings(g, r);
     note_endless(g, given, r);
     r->back = (int)g->delay + (g->choice->reading == MOVING_READOUT ? ALIAS_REACH : 0);

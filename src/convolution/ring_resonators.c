@@ -110,15 +110,6 @@ static void ring_moving(struct ring_bank *s, long from, long to)
     }
 }
 
-static void ring_still(struct ring_bank *s, long from, long to)
-{
-    for (int k = 0; k < s->ring.channels; k++) {
-        memset(s->ring.y, 0, (size_t)(to - from) * sizeof *s->ring.y);
-        bank_run(&s->banks[k], ring_force(&s->ring, &s->ring.outputs[k], from), s->ring.y, (int)(to - from));
-        ring_put(&s->ring, k, from, to);
-    }
-}
-
 static bool ring_bank_run(struct stage_run *r, long from, long to, struct err *e)
 {
     struct ring_bank *s = r->state;
@@ -126,7 +117,11 @@ static bool ring_bank_run(struct stage_run *r, long from, long to, struct err *e
     if (s->ring.moves)
         ring_moving(s, from, to);
     else
-        ring_still(s, from, to);
+        for (int k = 0; k < s->ring.channels; k++) {
+            memset(s->ring.y, 0, (size_t)(to - from) * sizeof *s->ring.y);
+            bank_run(&s->banks[k], ring_force(&s->ring, &s->ring.outputs[k], from), s->ring.y, (int)(to - from));
+            ring_put(&s->ring, k, from, to);
+        }
     return true;
 }
 

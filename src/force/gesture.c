@@ -89,14 +89,6 @@ static bool gesture_wanted(const struct contact *c, const struct scene *s)
     return gesture_follows(c);
 }
 
-/* The fade of what is lowered and raised; of a given force of the release alone, as far as there is time. */
-static bool fade_make(const struct stage_run *r, struct load_law *fade, struct err *e)
-{
-    if (!load_make(r->contact, r->board->trajectory, r->arena, fade, e)) return false;
-    if (r->contact->contact.model == CONTACT_GIVEN) fade->release = fmin(LOAD_APPROACH, fade->duration);
-    return true;
-}
-
 static void warn_open(const struct stage_run *r, double greatest)
 {
     const struct gesture *g = params_of(r->contact, &gesture_params);
@@ -117,7 +109,10 @@ static bool gesture_open(struct stage_run *r, struct err *e)
     f->order = g->order;
     f->per_speed = g->cutoff / g->speed / r->board->rate;
     warn_open(r, f->per_speed * r->board->rate * r->board->trajectory->top_speed);
-    return fade_make(r, &f->fade, e);
+    /* what is lowered and raised; of a given force raised alone, as far as there is time */
+    if (!load_make(r->contact, r->board->trajectory, r->arena, &f->fade, e)) return false;
+    if (r->contact->contact.model == CONTACT_GIVEN) f->fade.release = fmin(LOAD_APPROACH, f->fade.duration);
+    return true;
 }
 
 static double filter_step(struct gesture_filter *f, double x)
@@ -134,13 +129,6 @@ static double filter_step(struct gesture_filter *f, double x)
     return y;
 }
 
-static void filter_tune(struct gesture_filter *f, double speed)
-{
-    if (speed == f->speed) return;
-    f->speed = speed;
-    f->g = real_tan(REAL_PI * fmin(f->per_speed * speed, GESTURE_OPEN));
-}
-
 static bool gesture_run(struct stage_run *r, long from, long to, struct err *e)
 {
     struct gesture_filter *f = r->state;
@@ -149,7 +137,9 @@ static bool gesture_run(struct stage_run *r, long from, long to, struct err *e)
     double *force = board_at(b, ITEM_FORCE, from);
     (void)e;
     for (long n = from; n < to; n++) {
-        filter_tune(f, fabs(velocity[(n - from) * b->over]));
+        double speed = fabs(velocity[(n - from) * b->over]);
+        if (speed != f->speed) f->g = real_tan(REAL_PI * fmin(f->per_speed * speed, GESTURE_OPEN));
+        f->speed = speed;
         force[n - from] = filter_step(f, force[n - from]) * load_lowered(&f->fade, (double)n / b->rate);
     }
     return true;

@@ -32,26 +32,19 @@ static const char *own_key(const struct contact *c)
     return contact_rolls(c) ? "contact.roll.stiffness" : "contact.strike.stiffness";
 }
 
-static bool radius_missing(const struct contact *c, struct err *e)
-{
-    return err_set(e, ERR_SCENE, "contact '%s': the stiffness of the %s is not known: give %s.radius, or %s", c->name,
-                   contact_rolls(c) ? "contact" : "impact", contact_tool(c), own_key(c));
-}
-
-static bool material_missing(const struct contact *c, const char *body, struct err *e)
-{
-    return err_set(e, ERR_SCENE,
-                   "contact '%s': the stiffness of the %s is not known: give %s.material (such as steel), or "
-                   "youngs_modulus and poisson of %s.object, "
-                   "or %s",
-                   c->name, contact_rolls(c) ? "contact" : "impact", body, body, own_key(c));
-}
-
 bool hertz_stiffness(const struct contact *c, double *stiffness, struct err *e)
 {
     double tool = compliance(&c->scraper.response.object), surface = compliance(&c->surface.response.object);
-    if (isnan(c->scraper.radius)) return radius_missing(c, e);
-    if (isnan(tool) || isnan(surface)) return material_missing(c, isnan(tool) ? contact_tool(c) : "surface", e);
+    const char *what = contact_rolls(c) ? "contact" : "impact";
+    if (isnan(c->scraper.radius))
+        return err_set(e, ERR_SCENE, "contact '%s': the stiffness of the %s is not known: give %s.radius, or %s",
+                       c->name, what, contact_tool(c), own_key(c));
+    const char *body = isnan(tool) ? contact_tool(c) : "surface";
+    if (isnan(tool) || isnan(surface))
+        return err_set(e, ERR_SCENE,
+                       "contact '%s': the stiffness of the %s is not known: give %s.material (such as steel), or "
+                       "youngs_modulus and poisson of %s.object, or %s",
+                       c->name, what, body, body, own_key(c));
     *stiffness = 4.0 / 3 * sqrt(c->scraper.radius) / (tool + surface);
     return true;
 }

@@ -142,18 +142,12 @@ static double table_density(const struct impact_table *t, double x)
     return t->density[i] + (t->density[i + 1] - t->density[i]) * ((x - t->value[i]) / (t->value[i + 1] - t->value[i]));
 }
 
-static double table_below(const struct impact_table *t, double x)
+/* The share of what lies above x, or below it. */
+static double table_beyond(const struct impact_table *t, double x, bool upper)
 {
-    if (x <= t->value[0] || x >= t->value[t->n - 1]) return x > t->value[0];
-    int i = table_piece_of(t->value, t->n, x, 1);
-    return t->below[i] + 0.5 * (x - t->value[i]) * (t->density[i] + table_density(t, x));
-}
-
-static double table_above(const struct impact_table *t, double x)
-{
-    if (x <= t->value[0] || x >= t->value[t->n - 1]) return x <= t->value[0];
-    int i = table_piece_of(t->value, t->n, x, 1);
-    return t->above[i + 1] + 0.5 * (t->value[i + 1] - x) * (t->density[i + 1] + table_density(t, x));
+    if (x <= t->value[0] || x >= t->value[t->n - 1]) return (x > t->value[0]) != upper;
+    int i = table_piece_of(t->value, t->n, x, 1), end = i + upper;
+    return (upper ? t->above : t->below)[end] + 0.5 * fabs(t->value[end] - x) * (t->density[end] + table_density(t, x));
 }
 
 /* ------------------------------------------------------------------ one */
@@ -218,7 +212,7 @@ double impact_density_beyond(const struct impact_density *d, bool upper, double 
         return upper ? e : 1 - e;
     case IMPACT_DENSITY_TABLE:
         *density = table_density(&d->table, x);
-        return upper ? table_above(&d->table, x) : table_below(&d->table, x);
+        return table_beyond(&d->table, x, upper);
     default:
         *density = 0;
         return upper ? x < d->mean : x > d->mean;

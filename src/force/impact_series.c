@@ -207,15 +207,6 @@ static const char *impacted(const struct impact_report *o, struct arena *a)
                         percent(o->overlaps, o->count));
 }
 
-static json_t *impacts_json(const struct impact_report *o)
-{
-    return json_value_object("count:l per_second:n limited_amplitudes:l limited_intervals:l overlaps:l "
-                             "mean_amplitude_n:n mean_interval_s:n longest_s:n",
-                             (long)o->count, (double)o->count / o->time, (long)o->limited_amplitude,
-                             (long)o->limited_interval, (long)o->overlaps, o->mean_amplitude, o->mean_interval,
-                             o->longest);
-}
-
 /* NULL: there are few of them. */
 static const char *limited_warning(const char *what, long limited, long all, struct arena *a)
 {
@@ -229,7 +220,13 @@ static const char *limited_warning(const char *what, long limited, long all, str
 
 struct stage_report impact_series_report(const struct impact_report *o, struct arena *a)
 {
-    struct stage_report r = {.key = "impacts", .value = impacts_json(o), .note = impacted(o, a)};
+    struct stage_report r = {.key = "impacts", .note = impacted(o, a)};
+    r.value =
+        json_pack("{s:I, s:o, s:I, s:I, s:I, s:o, s:o, s:o}", "count", (json_int_t)o->count, "per_second",
+                  json_value_number((double)o->count / o->time), "limited_amplitudes", (json_int_t)o->limited_amplitude,
+                  "limited_intervals", (json_int_t)o->limited_interval, "overlaps", (json_int_t)o->overlaps,
+                  "mean_amplitude_n", json_value_number(o->mean_amplitude), "mean_interval_s",
+                  json_value_number(o->mean_interval), "longest_s", json_value_number(o->longest));
     const char *warnings[STAGE_WARNINGS] = {
         limited_warning("amplitude", o->limited_amplitude, o->count, a),
         limited_warning("interval", o->limited_interval, o->count, a),
@@ -317,12 +314,6 @@ static void queue_add(struct impact_queue *q, const struct impact_waiting *w, st
     q->waiting[q->n++] = *w;
 }
 
-/* Its share at the end of sub-interval k - 1. */
-static double waiting_share(const struct impact_waiting *w, double k)
-{
-    return strike_pulse_cosine((k - w->from - w->after) / w->length - 0.5);
-}
-
 /* Adds what it does in the block; true when it is over then. */
 static bool waiting_lay(struct impact_waiting *w, const struct impact_block *b)
 {
@@ -349,7 +340,7 @@ static struct impact_waiting waiting_make(const struct impact *i, double per_sec
     struct impact_waiting w = {from, begins - from, i->duration * per_second,
                                0.5 * i->amplitude * i->duration * per_second, 0};
     if (from < first) /* only at the contact's start */
-        w.share = waiting_share(&w, first);
+        w.share = strike_pulse_cosine((first - w.from - w.after) / w.length - 0.5);
     return w;
 }
 

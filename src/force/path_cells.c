@@ -56,12 +56,6 @@ static void values_axes(struct path_cells *w)
     }
 }
 
-static void values_slope(struct cells *p, const double *zx, const double *zy)
-{
-    for (int k = 0; k < p->points; k++)
-        p->slope[k] = p->ex[k] * zx[k] + p->ey[k] * zy[k];
-}
-
 /* Pieces come in pairs (a, m), (m, b): of a parabola through the three, each half bulges by a quarter of what m lies
  * above the chord. */
 static void values_sagitta(struct cells *p, int channel)
@@ -85,7 +79,8 @@ static void cells_flush(struct path_cells *w)
                                       .xx = w->along ? p->curvature[0] : w->xx,
                                       .xy = plane ? w->xy : NULL,
                                       .yy = plane ? w->yy : NULL});
-    if (axes) values_slope(p, zx, zy);
+    for (int k = 0; axes && k < p->points; k++)
+        p->slope[k] = p->ex[k] * zx[k] + p->ey[k] * zy[k];
     if (axes)
         values_axes(w);
     else if (!w->along)
@@ -307,17 +302,6 @@ static void cut_turning(struct path_cells *w, const struct trajectory *tr, const
     cut_between(w, &middle, ends + 1, alpha, interval);
 }
 
-/* Of each of the n sub-intervals. */
-static void alphas_of(const struct stage_run *r, long first, int n, double *alpha)
-{
-    const struct board *b = r->board;
-    bool varies = board_has(b, ITEM_ALPHA);
-    const double *given = varies ? cells_values(b, ITEM_ALPHA, first) : NULL;
-    double fixed = varies ? NAN : limiter_constant(r->contact);
-    for (int i = 0; i < n; i++)
-        alpha[i] = varies ? 0.5 * (given[i] + given[i + 1]) : fixed;
-}
-
 void path_cells_run(struct path_cells *w, const struct stage_run *r, long first, int n)
 {
     const struct board *b = r->board;
@@ -325,7 +309,10 @@ void path_cells_run(struct path_cells *w, const struct stage_run *r, long first,
     struct instant at[CELLS_CHUNK + 1];
     double alpha[CELLS_CHUNK];
     instants_of(w, b, first, n, at);
-    alphas_of(r, first, n, alpha);
+    const double *varies = board_has(b, ITEM_ALPHA) ? cells_values(b, ITEM_ALPHA, first) : NULL;
+    double fixed = varies ? NAN : limiter_constant(r->contact);
+    for (int i = 0; i < n; i++)
+        alpha[i] = varies ? 0.5 * (varies[i] + varies[i + 1]) : fixed;
     for (int i = 0; i < n; i++)
         if (w->curved ? at[i].ex * at[i + 1].ex + at[i].ey * at[i + 1].ey < 0 : du[i] * du[i + 1] < 0)
             cut_turning(w, b->trajectory, (double[]){(double)(first + i) * dt, (double)(first + i + 1) * dt}, at + i,
@@ -358,13 +345,6 @@ static bool knots_of(struct path_cells *w, const char *contact, struct err *e)
     return true;
 }
 
-static bool linear_between_knots(const struct relief *r)
-{
-    for (const struct relief_part *p = r->first; p; p = p->next)
-        if (!p->linear) return false;
-    return true;
-}
-
 bool path_cells_place(struct path_cells *w, const struct stage_run *r, struct err *e)
 {
     const struct trajectory *tr = r->board->trajectory;
@@ -391,7 +371,9 @@ bool path_cells_make(struct path_cells *w, struct stage_run *r, enum cells_kind 
     w->channels = (kind == CELLS_ALONG && w->curved) || (kind == CELLS_AXES && along == ALONG_PLANE) ? 2 : 1;
     w->limiter = limiter->curve == LIMITER_TANH;
     w->ratio = kind == CELLS_AXES ? limiter->ratio_y : 1;
-    w->halves = w->curved || along == ALONG_PLANE || !linear_between_knots(w->relief);
+    w->halves = w->curved || along == ALONG_PLANE;
+    for (const struct relief_part *p = w->relief->first; p; p = p->next)
+        w->halves = w->halves || !p->linear;
     w->longest = w->halves ? fmin(longest, relief_finest(w->relief) / 2) : longest;
     if (!load_varies(r->contact)) {
         double n = load_constant(r->contact);

@@ -133,29 +133,16 @@ static void slope_fill(struct path_integral *s, int upto)
     }
 }
 
-/* The slope vector as seen from axes turned by the angle of that sine and cosine. */
-static void slope_rotate(struct path_integral *s, double sine, double cosine)
-{
-    double before = s->slope;
-    s->slope = before * cosine + s->across * sine;
-    s->across = s->across * cosine - before * sine;
-}
-
 /* From the axes the slope is in to those at a point; at once where the path has a corner. */
 static void slope_face(struct path_integral *s, double ex, double ey)
 {
-    if (s->ex != 0 || s->ey != 0) slope_rotate(s, s->ex * ey - s->ey * ex, s->ex * ex + s->ey * ey);
+    if (s->ex != 0 || s->ey != 0) {
+        double sine = s->ex * ey - s->ey * ex, cosine = s->ex * ex + s->ey * ey, before = s->slope;
+        s->slope = before * cosine + s->across * sine;
+        s->across = s->across * cosine - before * sine;
+    }
     s->ex = ex;
     s->ey = ey;
-}
-
-/* The unit vector half way between the axes at a cell's two ends, which are never opposed (force/path_cells.c). */
-static void slope_halfway(const struct cells *p, int i, double *ex, double *ey)
-{
-    double x = p->ex[p->at[i]] + p->ex[p->at[i] + 1], y = p->ey[p->at[i]] + p->ey[p->at[i] + 1],
-           length = sqrt(x * x + y * y);
-    *ex = x / length;
-    *ey = y / length;
 }
 
 /* Height at the cell's end, from the slope at its start in the direction of travel. */
@@ -172,31 +159,25 @@ static double slope_turn(const struct cells *p, int i)
     return p->length[i] * (p->ex[a] * p->ey[b] - p->ey[a] * p->ex[b]);
 }
 
-/* What T varies by within a cell that turns goes partly to the side: T is taken along e half way, and e turns about
- * it. */
-static void slope_lean(struct path_integral *s, const struct cells *p, int i)
-{
-    double turn = p->heading[i] * slope_turn(p, i);
-    s->slope -= turn * p->moment[1][i];
-    s->across += turn * p->moment[0][i];
-}
-
 /* Slope at the end of a cell of a way that turns, or whose height is asked for. */
 static void slope_cell(struct path_integral *s, const struct cells *p, int i)
 {
-    double ex, ey;
     slope_fill(s, p->interval[i]);
     if (s->cells.curved) {
-        slope_halfway(p, i, &ex, &ey);
-        slope_face(s, p->ex[p->at[i]], p->ey[p->at[i]]);
-        slope_face(s, ex, ey);
+        int k = p->at[i];
+        double x = p->ex[k] + p->ex[k + 1], y = p->ey[k] + p->ey[k + 1], length = sqrt(x * x + y * y);
+        slope_face(s, p->ex[k], p->ey[k]);
+        slope_face(s, x / length, y / length); /* half way */
         s->across = p->heading[i] * path_terms_end(&s->terms, 1, i, s->across * p->heading[i]);
     }
     double a = s->terms.start[i] = s->slope * p->heading[i], b = s->terms.end[i] = path_terms_end(&s->terms, 0, i, a);
     if (s->rising) s->height = slope_rise(s, p, i, a);
     s->slope = b * p->heading[i];
     if (s->cells.curved) {
-        slope_lean(s, p, i);
+        /* what T varies by within a cell that turns goes partly to the side: T is taken along e half way, and e turns */
+        double turn = p->heading[i] * slope_turn(p, i);
+        s->slope -= turn * p->moment[1][i];
+        s->across += turn * p->moment[0][i];
         slope_face(s, p->ex[p->at[i] + 1], p->ey[p->at[i] + 1]);
     }
 }

@@ -115,17 +115,6 @@ static void ground_extent(const struct relief *ground, int axis, double extent[2
 /* Numbers of random streams, one row each. */
 enum { ALONG, ACROSS, SHUFFLE };
 
-/* Which vector belongs to which place: at random, as two sequences in step would meet some waves at the same phase
-   again and again. */
-static void shuffle(struct noise places, int order[PLACES])
-{
-    for (int i = 0; i < PLACES; i++) {
-        int k = (int)(noise_uniform(places, SHUFFLE, (uint64_t)i) * (i + 1));
-        order[i] = order[k];
-        order[k] = i;
-    }
-}
-
 /* The second differences of BATCH places from number `first` on, m. */
 static void second_differences(const struct relief *ground, double extent[2][2], struct noise places,
                                const int order[PLACES], long first, double to[BATCH])
@@ -154,7 +143,12 @@ double roll_stiffness_roughness(const struct relief *ground)
     struct noise places = noise_make(0, "roll_stiffness");
     double extent[2][2], difference[BATCH], sum = 0;
     int order[PLACES];
-    shuffle(places, order);
+    /* Vectors go to places at random: two sequences in step would meet some waves at the same phase again and again. */
+    for (int i = 0; i < PLACES; i++) {
+        int k = (int)(noise_uniform(places, SHUFFLE, (uint64_t)i) * (i + 1));
+        order[i] = order[k];
+        order[k] = i;
+    }
     for (int axis = 0; axis < 2; axis++)
         ground_extent(ground, axis, extent[axis]);
     for (long first = 0; first < PLACES; first += BATCH) {
@@ -542,13 +536,6 @@ static struct roll_parts roll_force(struct roll_state *s, int i, double dt)
     return roll_law_force(&s->law, &from, &to, s->mean[i] + 0.5 * (s->slow[0] + slow) - bend / 12, dt);
 }
 
-/* Of what no weight presses: the straight line of N(t), whose part below 0 is cut off (force/path_integral.h). */
-static struct roll_parts roll_weightless(const double *load, int i)
-{
-    if (!load) return (struct roll_parts){0};
-    return (struct roll_parts){(2 * load[i] + load[i + 1]) / 6, (load[i] + 2 * load[i + 1]) / 6};
-}
-
 /* N, by how much the force is above N(t)+ in the sub-interval. */
 static double roll_excess(const struct roll_state *s, const double *load, int i, struct roll_parts f)
 {
@@ -571,7 +558,11 @@ static void roll_add(struct roll_state *s, const double *load, double dt, int n)
     for (int i = 0; i < n; i++) {
         double ahead = 2 * s->excess[0] - s->excess[1]; /* of this sub-interval */
         s->rho[i + 1] = s->rests_at[i + 1] + s->shift - holding * ahead + s->follows[i + 1];
-        struct roll_parts f = weightless ? roll_weightless(load, i) : roll_force(s, i, dt);
+        struct roll_parts f = {0};
+        if (!weightless)
+            f = roll_force(s, i, dt);
+        else if (load)
+            f = (struct roll_parts){(2 * load[i] + load[i + 1]) / 6, (load[i] + 2 * load[i + 1]) / 6};
         s->excess[1] = s->excess[0];
         s->excess[0] = holding > 0 ? roll_excess(s, load, i, f) : 0;
         s->shift -= holding * s->excess[0];

@@ -48,15 +48,6 @@ void scrape_reset(struct scrape *s)
     s->momentum = s->bspline.carried = 0;
 }
 
-/* rubbed[i] N: beta1 |v|^(beta2 - 1) at the mean speed. */
-static void scrape_rubbed(const struct scrape *s, double per_second, int n, double *rubbed)
-{
-    for (int i = 0; i < n; i++)
-        rubbed[i] = s->beta1;
-    for (int i = 0; i < n && s->beta2 != 1; i++)
-        if (s->path.crossed[i] > 0) rubbed[i] = s->beta1 * real_pow(s->path.travelled[i] * per_second, s->beta2 - 1);
-}
-
 /* Both parts of f_h, N, from rubbed[]. `changes` is (v1 - v0)/(v1 + v0), and 0 where these are not the ends of the
    sub-interval's straight line: at a turn, a sudden start or stop. */
 LANES_CLONES
@@ -102,7 +93,10 @@ void scrape_force(struct scrape *s, const struct stage_run *r, long first, int n
     double rubbed[CELLS_CHUNK], per_second = b->rate * b->over, share = s->share * per_second;
     path_integral_run(&s->path, r, first, n);
     const double *v = cells_values(b, ITEM_VELOCITY, first);
-    scrape_rubbed(s, per_second, n, rubbed);
+    for (int i = 0; i < n; i++)
+        rubbed[i] = s->beta2 == 1 || !(s->path.crossed[i] > 0)
+                        ? s->beta1
+                        : s->beta1 * real_pow(s->path.travelled[i] * per_second, s->beta2 - 1);
     scrape_horizontal(s, v, per_second, n, rubbed);
     scrape_vertical(s, v, n, per_second, share);
 }

@@ -290,22 +290,6 @@ static void smooth_segments(struct smooth *s, const struct board *b, long end)
     }
 }
 
-/* Of the first sub-samples: what was spread to those before 0. */
-static void smooth_reflect(struct smooth *s)
-{
-    double *start = s->sum + s->reach;
-    for (int i = 0; i < s->reach; i++)
-        start[i] += start[-1 - i];
-}
-
-/* The same by elements before 0, as the kernel is symmetric. */
-static void smooth_mirror(struct smooth *s)
-{
-    double *start = s->raw + s->reach;
-    for (int i = 0; i < s->reach; i++)
-        start[-1 - i] = start[i];
-}
-
 /* Hands over the finished sums of [first, end) and makes room behind them. */
 static void smooth_hand_over(struct smooth *s, double *y, long first, long end)
 {
@@ -326,7 +310,8 @@ static bool smooth_run(struct stage_run *r, long from, long to, struct err *e)
     if (s->still.taken) return true;
     if (!s->varies) {
         smooth_take(s, b, first - s->reach, (to + r->ahead - 1) * b->over);
-        if (first == 0) smooth_mirror(s);
+        for (int i = 0; first == 0 && i < s->reach; i++)
+            s->raw[s->reach - 1 - i] = s->raw[s->reach + i];
         smooth_taps(s->still.kernel.tap, s->still.kernel.taps, s->raw + (first - s->reach - s->raw_first), end - first,
                     false, y);
         return true;
@@ -334,7 +319,8 @@ static bool smooth_run(struct stage_run *r, long from, long to, struct err *e)
     long oldest = s->node < s->start ? s->raw_first : s->node;
     smooth_take(s, b, oldest, (to + r->ahead - 1) * b->over);
     smooth_segments(s, b, end);
-    if (first == 0) smooth_reflect(s);
+    for (int i = 0; first == 0 && i < s->reach; i++) /* what was spread to before 0 */
+        s->sum[s->reach + i] += s->sum[s->reach - 1 - i];
     smooth_hand_over(s, y, first, end);
     return true;
 }

@@ -137,27 +137,20 @@ static void restart(struct ir_sampler *s)
     memset(s->sums, 0, sizeof s->sums);
 }
 
-static void start(struct ir_sampler *s, const struct modes_point *p)
+void ir_sample(struct ir_sampler *s, int quantity, const struct modes_point *p, double *h, size_t length)
 {
+    set_poles(s, p);
     for (int i = 0; i < s->n; i++) {
         struct group *g = &s->group[i / LANES];
         g->zr[i % LANES] = g->Zr[i % LANES] = p->re[i] / s->rate;
         g->zi[i % LANES] = g->Zi[i % LANES] = p->im[i] / s->rate;
     }
     memset(s->sums, 0, sizeof s->sums);
-}
-
-void ir_sample(struct ir_sampler *s, int quantity, const struct modes_point *p, double *h, size_t length)
-{
-    set_poles(s, p);
-    start(s, p);
     for (size_t at = 0; at < length; at += SEGMENT) {
         size_t n = length - at < SEGMENT ? length - at : SEGMENT;
         ring(s->group, s->groups, s->sums, (n + SPAN - 1) / SPAN * SPAN);
-        for (size_t i = 0; i < n; i++) {
-            const double *v = s->sums[i];
-            h[at + i] = lanes_total(v);
-        }
+        for (size_t i = 0; i < n; i++)
+            h[at + i] = lanes_total(s->sums[i]);
         restart(s);
     }
     h[0] = 0.5 * h[0] + modes_direct(quantity, s->n, s->frequency, s->decay, p);
@@ -298,14 +291,6 @@ static bool number(const struct reader *r, size_t row, int what, double *value)
     return r->column[what] < 0 || csv_number(&r->table, row, r->column[what], value, r->e);
 }
 
-static bool read_place(const struct reader *r, size_t row, double xy[2])
-{
-    double z;
-    if (!number(r, row, X, &xy[0]) || !number(r, row, Y, &xy[1]) || !number(r, row, Z, &z)) return false;
-    return z == 0.0 || err_set(r->e, ERR_SCENE, "z_m is %g; places lie in the surface's plane, where it is 0", z) ||
-           at(r, row);
-}
-
 static bool read_response(const struct reader *r, size_t row, struct ir *ir)
 {
     double gain;
@@ -372,8 +357,15 @@ static bool read_rows(const struct reader *r, struct ir_set *s)
 {
     int bad = -1;
     double *xy = ARENA_TAKE(r->arena, double, 2 * r->table.rows);
-    for (size_t row = 0; row < r->table.rows; row++)
-        if (!check_name(r, row) || !read_place(r, row, xy + 2 * row)) return false;
+    for (size_t row = 0; row < r->table.rows; row++) {
+        double z;
+        if (!check_name(r, row) || !number(r, row, X, &xy[2 * row]) || !number(r, row, Y, &xy[2 * row + 1]) ||
+            !number(r, row, Z, &z))
+            return false;
+        if (z != 0.0)
+            return err_set(r->e, ERR_SCENE, "z_m is %g; places lie in the surface's plane, where it is 0", z) ||
+                   at(r, row);
+    }
     if (!places_make(r->arena, (int)r->table.rows, xy, &s->places, &bad, r->e))
         return bad < 0 ? err_at(r->e, "%s", r->table.file) : at(r, (size_t)bad);
     s->n = (int)r->table.rows;

@@ -185,16 +185,6 @@ static void renumber(const struct rows *r, int c, struct arena *a)
         id[i] = to[id[i]];
 }
 
-/* The first row of that place, or of that mode (column PLACE or _MODE). */
-static size_t first_row(const struct rows *r, int column, size_t number)
-{
-    const size_t *id = column == PLACE ? r->place : r->mode;
-    size_t i = 0;
-    while (id[i] != number)
-        i++;
-    return i;
-}
-
 /* ------------------------------------------------------------------ order */
 
 struct key {
@@ -534,11 +524,13 @@ static void take_places(const struct rows *r, struct arena *a, struct mode_table
 
 static bool missing(const struct rows *r, const struct mode_table *t, size_t place, size_t mode, struct err *e)
 {
+    size_t first = 0;
+    while (r->mode[first] != mode)
+        first++;
     return err_set(e, ERR_SCENE,
                    "%s:%d: place '%.60s', which starts here, has no mode '%.60s'; every place needs every mode (a mode "
                    "that is silent there has gain 0)",
-                   t->csv.file, t->csv.lines[t->row[place]], cell_of(r, t->row[place], PLACE),
-                   cell_of(r, first_row(r, MODE, mode), MODE));
+                   t->csv.file, t->csv.lines[t->row[place]], cell_of(r, t->row[place], PLACE), cell_of(r, first, MODE));
 }
 
 /* Returns the first mode the place lacks, or their number. */
@@ -571,13 +563,6 @@ static bool same_poles(const struct rows *r, const struct mode_entry *m, const s
                            cell_of(r, m->row, MODE), m->frequency, m->slope[k].decay, w->frequency, w->slope[k].decay,
                            r->csv->lines[w->row]) ||
                    bad_row(r, m->row, e);
-    return true;
-}
-
-static bool check_shared(const struct rows *r, const struct mode_table *t, struct err *e)
-{
-    for (size_t i = 0; i < t->first[t->places]; i++)
-        if (!same_poles(r, &t->entry[i], &t->entry[t->entry[i].mode], e)) return false;
     return true;
 }
 
@@ -633,7 +618,9 @@ static bool read_entries(struct mode_table *t, int by_frequency, struct arena *a
     t->by_frequency = by_frequency > 0;
     if (by_frequency < 0 && whole < t->places) guess_pairing(t, a);
     if (r.envelope && !envelopes_fit(&r, from, a, t, e)) return false;
-    return t->shared ? check_shared(&r, t, e) : check_separate(&r, t, e);
+    for (size_t i = 0; t->shared && i < t->first[t->places]; i++)
+        if (!same_poles(&r, &t->entry[i], &t->entry[t->entry[i].mode], e)) return false;
+    return t->shared || check_separate(&r, t, e);
 }
 
 bool mode_table_read(const char *path, struct arena *a, struct mode_table *t, struct err *e)

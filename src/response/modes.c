@@ -226,16 +226,6 @@ static int most_slopes(const struct making *k, int chosen)
     return most;
 }
 
-static void make_components(struct making *k)
-{
-    for (int c = 0; c < k->chosen; c++)
-        k->n += most_slopes(k, c);
-    k->component = ARENA_TAKE(k->arena, struct component, k->n);
-    for (int c = 0, i = 0; c < k->chosen; c++)
-        for (int s = 0, most = most_slopes(k, c); s < most; s++)
-            k->component[i++] = (struct component){c, s};
-}
-
 /* The entry and slope of component i at a place; NULL: the place lacks it. */
 static const struct mode_entry *entry_of(const struct making *k, int i, size_t place, const struct mode_slope **slope)
 {
@@ -371,7 +361,12 @@ bool modes_table(const char *path, const struct modes_ask *ask, struct arena *a,
                        "widen that band (surface.band, scraper.band or ball.band), or check that frequency_hz is in Hz",
                        path, ask->band[0], ask->band[1]);
     choose(&k, ask->strongest);
-    make_components(&k);
+    for (int c = 0; c < k.chosen; c++)
+        k.n += most_slopes(&k, c);
+    k.component = ARENA_TAKE(a, struct component, k.n);
+    for (int c = 0, i = 0; c < k.chosen; c++)
+        for (int s = 0, most = most_slopes(&k, c); s < most; s++)
+            k.component[i++] = (struct component){c, s};
     make_modes(&k, ask->rate, m);
     return true;
 }

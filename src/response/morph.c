@@ -66,19 +66,13 @@ struct problem {
     char *done;
 };
 
-static double reduced(const struct problem *p, int row, int column)
-{
-    double cost = column < p->columns ? p->cost[(size_t)row * p->columns + column] : p->dummy;
-    return cost - p->u[row] - p->v[column];
-}
-
 /* Looks from a row that a path of `column` (-1: none) has led to; returns the nearest column not done. */
 static int look(struct problem *p, int row, int column)
 {
     int nearest = -1;
     for (int j = 0; j < p->columns + p->rows; j++) {
         if (p->done[j]) continue;
-        double cost = reduced(p, row, j);
+        double cost = (j < p->columns ? p->cost[(size_t)row * p->columns + j] : p->dummy) - p->u[row] - p->v[j];
         if (cost < p->least[j]) {
             p->least[j] = cost;
             p->from[j] = column;
@@ -372,14 +366,6 @@ static void add_up(int n, const struct places_mix *mix, const struct rows *r, do
         add(n, k == 0, mix->weight[k], r->at[k], to);
 }
 
-LANES_CLONES
-static void divide(int n, const double *share, double *x)
-{
-#pragma omp simd
-    for (int i = 0; i < n; i++)
-        x[i] = share[i] > 0.0 ? x[i] / share[i] : 0.0;
-}
-
 static inline __attribute__((always_inline)) double shorter(double turn)
 {
     return turn > half_turn ? turn - 2.0 : turn < -half_turn ? turn + 2.0 : turn;
@@ -422,7 +408,8 @@ static void logarithms(const struct morph *p, const struct modes *m, const struc
     for (int c = 0; c < 3; c++) {
         struct rows r = rows_of(p, rows[c], mix);
         add_up(p->n, mix, &r, out[c]);
-        if (p->gaps) divide(p->n, p->share, out[c]);
+        for (int i = 0; p->gaps && i < p->n; i++)
+            out[c][i] = p->share[i] > 0.0 ? out[c][i] / p->share[i] : 0.0;
         vecmath_exp((size_t)p->n, out[c], out[c]);
         times(p->n, by[c], out[c]);
     }

@@ -310,13 +310,6 @@ static struct block *block_for(struct table *t, const struct object_mode *mode, 
     return room;
 }
 
-static struct block *block_new(struct table *t, int parity, struct arena *a)
-{
-    struct block *k = &t->block[t->blocks++];
-    *k = (struct block){.parity = parity, .terms = t->terms, .c = ARENA_TAKE(a, double, t->terms *RADIAL_CHUNK)};
-    return k;
-}
-
 void object_radial_bind(struct arena *a, struct object *o)
 {
     const struct object_inside *in = object_inside(o);
@@ -333,7 +326,11 @@ void object_radial_bind(struct arena *a, struct object *o)
         const struct object_mode *m = &in->list.mode[i];
         int at;
         struct block *k = block_for(t, in->list.mode, m, &at);
-        if (!k) k = block_new(t, m->a % 2, a);
+        if (!k) {
+            k = &t->block[t->blocks++];
+            *k = (struct block){
+                .parity = m->a % 2, .terms = t->terms, .c = ARENA_TAKE(a, double, t->terms *RADIAL_CHUNK)};
+        }
         if (at < 0) {
             expand(q, m->a, m->own, k);
             at = k->n++;
@@ -643,15 +640,6 @@ static void ear_make(struct ear *r, const struct object *o, const double origin[
 
 /* ------------------------------------------------------------------ the strongest */
 
-static void average_pairs(const struct object *o, double *energy)
-{
-    const struct object_mode *mode = object_inside(o)->list.mode;
-    if (o->shape != OBJECT_DISK && o->shape != OBJECT_DRUM) return;
-    for (int i = 0; i + 1 < o->n; i++)
-        if (mode[i].a == mode[i + 1].a && mode[i].b == mode[i + 1].b)
-            energy[i] = energy[i + 1] = 0.5 * (energy[i] + energy[i + 1]);
-}
-
 static double *energies(const struct ear *r, struct arena *a)
 {
     const struct object *o = r->o;
@@ -665,7 +653,10 @@ static double *energies(const struct ear *r, struct arena *a)
     }
     for (int i = 0; i < o->n; i++)
         energy[i] /= 4.0 * o->decay[i];
-    average_pairs(o, energy);
+    const struct object_mode *mode = object_inside(o)->list.mode;
+    for (int i = 0; i + 1 < o->n && (o->shape == OBJECT_DISK || o->shape == OBJECT_DRUM); i++)
+        if (mode[i].a == mode[i + 1].a && mode[i].b == mode[i + 1].b)
+            energy[i] = energy[i + 1] = 0.5 * (energy[i] + energy[i + 1]);
     return energy;
 }
 

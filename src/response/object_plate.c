@@ -212,11 +212,6 @@ static bool axes_make(struct ritz *r, const struct object_given *g, double w)
 
 /* ------------------------------------------------------------------ one class of symmetry */
 
-static bool is_rigid(const struct ritz *r, int m, int n)
-{
-    return r->x.functions.b == 0 && r->y.functions.b == 0 && m + n < 2;
-}
-
 static void class_terms(struct class *c, const struct ritz *r, int which, struct arena *a)
 {
     int sx = r->x.halves ? 2 : 1, sy = r->y.halves ? 2 : 1;
@@ -225,7 +220,8 @@ static void class_terms(struct class *c, const struct ritz *r, int which, struct
     for (int m = which % sx; m < r->x.n; m += sx)
         for (int n = which / sx; n < r->y.n; n += sy) {
             double u = (double)m / r->x.n, v = (double)n / r->y.n;
-            if (is_rigid(r, m, n) || u * u * u + v * v * v > 1.0) continue;
+            bool rigid = r->x.functions.b == 0 && r->y.functions.b == 0 && m + n < 2;
+            if (rigid || u * u * u + v * v * v > 1.0) continue;
             c->term[c->n][0] = m;
             c->term[c->n++][1] = n;
         }

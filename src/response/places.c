@@ -234,17 +234,6 @@ static int by_corner(const void *a, const void *b)
     return 0;
 }
 
-/* The lowest corner of each triangle first, and triangles by it. */
-static void order_triangles(struct mesh *m)
-{
-    for (int t = 0; t < m->triangles; t++) {
-        int *k = m->corner[t], low = k[0] < k[1] ? (k[0] < k[2] ? 0 : 2) : (k[1] < k[2] ? 1 : 2);
-        int turned[3] = {k[low], k[(low + 1) % 3], k[(low + 2) % 3]};
-        memcpy(k, turned, sizeof turned);
-    }
-    qsort(m->corner, (size_t)m->triangles, sizeof *m->corner, by_corner);
-}
-
 /* The triangles of the points xy [n][2] (m, n >= 3, different, not on one line), anticlockwise, and their sides;
    slivers along the hull, within 1e-9 m of a line, are left out. false: no triangulation. */
 static bool delaunay(struct arena *a, const double *xy, struct mesh *m)
@@ -267,7 +256,12 @@ static bool delaunay(struct arena *a, const double *xy, struct mesh *m)
     for (int pass = 0; pass < 4 * n && flip(m) > 0; pass++)
         ;
     peel(m);
-    order_triangles(m);
+    for (int t = 0; t < m->triangles; t++) { /* the lowest corner of each first, and triangles by it */
+        int *k = m->corner[t], low = k[0] < k[1] ? (k[0] < k[2] ? 0 : 2) : (k[1] < k[2] ? 1 : 2);
+        int turned[3] = {k[low], k[(low + 1) % 3], k[(low + 2) % 3]};
+        memcpy(k, turned, sizeof turned);
+    }
+    qsort(m->corner, (size_t)m->triangles, sizeof *m->corner, by_corner);
     find_sides(m);
     for (int t = 0; t < m->triangles; t++)
         if (!(height(m, m->corner[t][0], m->corner[t][1], m->corner[t][2]) > 0.0)) return false;

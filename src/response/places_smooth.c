@@ -69,22 +69,15 @@ struct places_spline places_smooth_spline_make(struct arena *a, int n, const dou
     return s;
 }
 
-/* m = left (f_(c+1) - f_c) + right (f_(c+2) - f_(c+1)), less `below` of the row before. */
-static void right_side(int count, double left, double right, double below, const double *const *f, const double *before,
-                       double *m)
-{
-    const double *x = f[0], *y = f[1], *z = f[2];
-    for (int i = 0; i < count; i++)
-        m[i] = left * (y[i] - x[i]) + right * (z[i] - y[i]) - below * before[i];
-}
-
 void places_smooth_spline_slopes(const struct places_spline *s, int count, const double *const *f, double *const *m)
 {
     for (int k = 0; k < s->n; k++) {
         struct equation r = equation_of(s->n, s->step, k);
         int c = first_chord(s->n, k);
-        right_side(count, r.left / s->step[c], r.right / s->step[c + 1], s->below[k], f + c, k > 0 ? m[k - 1] : f[0],
-                   m[k]);
+        double left = r.left / s->step[c], right = r.right / s->step[c + 1], below = s->below[k];
+        const double *x = f[c], *y = f[c + 1], *z = f[c + 2], *before = k > 0 ? m[k - 1] : f[0];
+        for (int i = 0; i < count; i++)
+            m[k][i] = left * (y[i] - x[i]) + right * (z[i] - y[i]) - below * before[i];
     }
     for (int k = s->n - 1; k >= 0; k--) {
         const double *after = k + 1 < s->n ? m[k + 1] : m[k];

@@ -166,9 +166,6 @@ static void anchor_spectrum(int shape, int anchor, int n, double *log_ratio, str
         log_ratio[i] = 0.5 * real_log(log_ratio[i] / first);
 }
 
-/* Gain of mode i over that of mode 0. */
-static double anchor_gain(int shape, int i) { return shape == SPACE_SHELL ? (2.0 * i + 5.0) / 5.0 : 1.0; }
-
 /* decay in 1/s at angular frequency w (rad/s) */
 static double anchor_decay(int anchor, double w)
 {
@@ -300,7 +297,7 @@ static int spectra(struct self *s, int most, const struct modes_ask *ask, struct
     for (int d = 0; d < SPACE_SHAPES; d++) {
         s->log_gain[d] = ARENA_TAKE(a, double, most);
         for (int i = 0; i < most; i++)
-            s->log_gain[d][i] = real_log(anchor_gain(d, i));
+            s->log_gain[d][i] = real_log(d == SPACE_SHELL ? (2.0 * i + 5.0) / 5.0 : 1.0);
         for (int k = 0; k < SPACE_ANCHORS; k++) {
             s->spectrum[d][k] = ARENA_TAKE(a, double, most);
             anchor_spectrum(d, k, most, s->spectrum[d][k], a);

@@ -242,16 +242,6 @@ static void line_add(struct rolling *w, const struct relief_points *p, const str
     }
 }
 
-static void plane_put(const struct relief_values *v, size_t n, double h, const struct cubic c[3])
-{
-    if (v->z) v->z[n] += c[0].z;
-    if (v->x) v->x[n] += c[1].z / h;
-    if (v->y) v->y[n] += c[0].d / h;
-    if (v->xx) v->xx[n] += c[2].z / (h * h);
-    if (v->xy) v->xy[n] += c[1].d / (h * h);
-    if (v->yy) v->yy[n] += c[0].dd / (h * h);
-}
-
 static void plane_add(struct rolling *w, const struct relief_points *p, const struct relief_values *v)
 {
     for (size_t n = 0; n < p->n; n++) {
@@ -263,7 +253,14 @@ static void plane_add(struct rolling *w, const struct relief_points *p, const st
             d[k] = r.d;
             dd[k] = r.dd;
         }
-        plane_put(v, n, w->h, (struct cubic[3]){cubic_at(z, qy - j), cubic_at(d, qy - j), cubic_at(dd, qy - j)});
+        struct cubic at = cubic_at(z, qy - j), along = cubic_at(d, qy - j), bent = cubic_at(dd, qy - j);
+        double h = w->h;
+        if (v->z) v->z[n] += at.z;
+        if (v->x) v->x[n] += along.z / h;
+        if (v->y) v->y[n] += at.d / h;
+        if (v->xx) v->xx[n] += bent.z / (h * h);
+        if (v->xy) v->xy[n] += along.d / (h * h);
+        if (v->yy) v->yy[n] += at.dd / (h * h);
     }
 }
 

@@ -162,22 +162,19 @@ static void nearest_add(struct relief_part *part, const struct relief_points *p,
     }
 }
 
-static struct relief_part *knots_part(struct arena *a, const struct fractal *f, const double *z, long n)
-{
-    struct knots *s = ARENA_TAKE(a, struct knots, 1);
-    bool linear = f->interpolation == INTERPOLATION_LINEAR;
-    *s = (struct knots){n, f->pitch, z};
-    struct relief_part *part = relief_endless(a, "fractal", f->pitch, linear ? linear_add : nearest_add, s);
-    part->kinks = linear ? f->pitch : f->pitch / 2;
-    return part;
-}
-
 struct relief_part *fractal_part(struct arena *a, const struct fractal *f, struct noise stream)
 {
     long n = (long)fractal_size(f);
     double *z = ARENA_TAKE(a, double, n);
     fractal_heights(f, stream, z);
-    if (f->interpolation != INTERPOLATION_SPLINE) return knots_part(a, f, z, n);
+    if (f->interpolation != INTERPOLATION_SPLINE) {
+        struct knots *s = ARENA_TAKE(a, struct knots, 1);
+        bool linear = f->interpolation == INTERPOLATION_LINEAR;
+        *s = (struct knots){n, f->pitch, z};
+        struct relief_part *part = relief_endless(a, "fractal", f->pitch, linear ? linear_add : nearest_add, s);
+        part->kinks = linear ? f->pitch : f->pitch / 2;
+        return part;
+    }
     struct profile *p = profile_from_samples(a, z, (size_t)n, f->pitch, OFF_MAP_WRAP);
     p->from = -HUGE_VAL;
     p->to = HUGE_VAL;

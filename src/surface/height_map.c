@@ -134,15 +134,6 @@ static void values_put(int n, const double *from, double base, double *to)
         to[i] += base + from[i];
 }
 
-static void map_put(const struct height_map_spline *m, const struct bicubic *b, const struct relief_values *v,
-                    size_t at)
-{
-    const double *from[6] = {b->z, b->x, b->y, b->xx, b->xy, b->yy};
-    double *to[6] = {v->z, v->x, v->y, v->xx, v->xy, v->yy};
-    for (int k = 0; k < 6; k++)
-        if (to[k]) values_put(b->n, from[k], k == 0 ? m->base : 0, to[k] + at);
-}
-
 static void map_add(struct relief_part *part, const struct relief_points *p, const struct relief_values *v)
 {
     const struct map *m = part->state;
@@ -160,7 +151,10 @@ static void map_add(struct relief_part *part, const struct relief_points *p, con
             bicubic_put(&b, i, end, from, stride);
         }
         bicubic_sum(&b, 1 / m->spline.pitch[0], 1 / m->spline.pitch[1], v);
-        map_put(&m->spline, &b, v, at);
+        const double *from[6] = {b.z, b.x, b.y, b.xx, b.xy, b.yy};
+        double *to[6] = {v->z, v->x, v->y, v->xx, v->xy, v->yy};
+        for (int k = 0; k < 6; k++)
+            if (to[k]) values_put(b.n, from[k], k == 0 ? m->spline.base : 0, to[k] + at);
     }
 }
 

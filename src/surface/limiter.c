@@ -42,15 +42,6 @@ static void limiter_base(const struct limiter_law *l, size_t n, const double *fo
     }
 }
 
-LANES_CLONES
-static void limiter_blend(const struct limiter_law *l, size_t n, double *alpha)
-{
-    double alpha_min = l->alpha_min, alpha_max = l->alpha_max;
-#pragma omp simd
-    for (size_t i = 0; i < n; i++)
-        alpha[i] = (1 - alpha[i]) * alpha_max + alpha[i] * alpha_min;
-}
-
 void limiter_alpha(const struct limiter_law *l, size_t n, const double *force, double *alpha)
 {
     if (!l->varies) {
@@ -60,7 +51,8 @@ void limiter_alpha(const struct limiter_law *l, size_t n, const double *force, d
     }
     limiter_base(l, n, force, alpha);
     vecmath_pow(n, alpha, l->zeta, alpha);
-    limiter_blend(l, n, alpha);
+    for (size_t i = 0; i < n; i++)
+        alpha[i] = (1 - alpha[i]) * l->alpha_max + alpha[i] * l->alpha_min;
 }
 
 double limiter_constant(const struct contact *c)
@@ -205,31 +197,17 @@ static void cells_unlimited(const struct limiter_cells *p)
     }
 }
 
-LANES_CLONES
-static void points_times(int n, const double *alpha, const double *curvature, double *x)
-{
-#pragma omp simd
-    for (int k = 0; k < n; k++)
-        x[k] = alpha[k] * curvature[k];
-}
-
-LANES_CLONES
-static void points_over(int n, const double *alpha, double *per, double *limited)
-{
-#pragma omp simd
-    for (int k = 0; k < n; k++) {
-        per[k] = 1 / alpha[k];
-        limited[k] *= per[k];
-    }
-}
-
 static void cells_limited(const struct limiter_cells *p)
 {
     struct points q;
-    points_times(p->points, p->alpha, p->curvature, q.x);
+    for (int k = 0; k < p->points; k++)
+        q.x[k] = p->alpha[k] * p->curvature[k];
     vecmath_tanh_softplus2((size_t)p->points, q.x, p->limited, q.soft);
     points_rest(q.x, q.soft, q.rest, p->points);
-    points_over(p->points, p->alpha, q.per, p->limited);
+    for (int k = 0; k < p->points; k++) {
+        q.per[k] = 1 / p->alpha[k];
+        p->limited[k] *= q.per[k];
+    }
     each_mean(p, &q);
     each_moment(p, &q);
     if (p->sagitta) each_sagitta(p);

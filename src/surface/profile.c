@@ -92,17 +92,13 @@ struct window {
     double c[WINDOW];
 };
 
-static void window_fetch(struct window *w, long first)
-{
-    w->first = first;
-    w->profile->read(w->profile, first, WINDOW, w->c);
-}
-
 /* Coefficients cell - 1 .. cell + 2; more of them are fetched ahead of the motion than behind it. */
 static const double *window_at(struct window *w, long cell)
 {
-    if (w->first == LONG_MIN || cell - 1 < w->first || cell + 2 >= w->first + WINDOW)
-        window_fetch(w, w->first == LONG_MIN || cell > w->first ? cell - 9 : cell + 10 - WINDOW);
+    if (w->first == LONG_MIN || cell - 1 < w->first || cell + 2 >= w->first + WINDOW) {
+        w->first = w->first == LONG_MIN || cell > w->first ? cell - 9 : cell + 10 - WINDOW;
+        w->profile->read(w->profile, w->first, WINDOW, w->c);
+    }
     return w->c + (cell - 1 - w->first);
 }
 

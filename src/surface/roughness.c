@@ -205,12 +205,6 @@ static void blocks_close(struct profile *p)
     fft_close(g->fft);
 }
 
-static double blocks_window(double share)
-{
-    double s = real_sinpi(share);
-    return real_sinpi(s * s / 2);
-}
-
 struct profile *roughness_blocks(struct arena *a, const struct spectrum *s, struct noise stream)
 {
     struct profile *p = ARENA_TAKE(a, struct profile, 1);
@@ -228,8 +222,10 @@ struct profile *roughness_blocks(struct arena *a, const struct spectrum *s, stru
                          .normal = ARENA_TAKE(a, double, n)};
     cached = cached < BLOCKS_LEAST ? BLOCKS_LEAST : cached > BLOCKS_MOST ? BLOCKS_MOST : cached;
     g->cache = block_cache_make(a, (size_t)n, (size_t)cached, blocks_fill, g);
-    for (long i = 0; i < n; i++)
-        g->window[i] = blocks_window(((double)i + 0.5) / (double)n);
+    for (long i = 0; i < n; i++) {
+        double sine = real_sinpi(((double)i + 0.5) / (double)n);
+        g->window[i] = real_sinpi(sine * sine / 2);
+    }
     blocks_spread(g, s, pitch);
     *p = (struct profile){
         .pitch = pitch, .from = -HUGE_VAL, .to = HUGE_VAL, .read = blocks_read, .state = g, .close = blocks_close};

@@ -113,16 +113,6 @@ static void moduli(const double power[TILE_LINES], double modulus[TILE_LINES])
         modulus[r] = sqrt(power[r] / count[r]);
 }
 
-/* Column 0 holds each line and its conjugate. */
-static void conjugate(double *re, double *im)
-{
-    for (int j = 1; j < HALF; j++) {
-        re[(N - j) * (HALF + 1)] = re[j * (HALF + 1)];
-        im[(N - j) * (HALF + 1)] = -im[j * (HALF + 1)];
-    }
-    im[0] = 0;
-}
-
 void tiles_tile(const double power[TILE_LINES], struct noise stream, struct fft_plane *fft, double *tile)
 {
     double *re = fft->re, *im = fft->im, modulus[TILE_LINES], spline[TILE_LINES];
@@ -142,7 +132,11 @@ void tiles_tile(const double power[TILE_LINES], struct noise stream, struct fft_
             re[at] = size * (i || j ? real_cospi(turns) : turns < 1 ? 1 : -1);
             im[at] = size * real_sinpi(turns);
         }
-    conjugate(re, im);
+    for (int j = 1; j < HALF; j++) {
+        re[(N - j) * (HALF + 1)] = re[j * (HALF + 1)];
+        im[(N - j) * (HALF + 1)] = -im[j * (HALF + 1)];
+    }
+    im[0] = 0;
     const double *x = fft->x;
     fft_plane_inverse(fft);
     for (int j = 0; j < N; j++)

@@ -150,14 +150,6 @@ static double plane_metre(const struct contact *c, double dense)
     return aslant(&c->motion) * (envelope + heights) / h;
 }
 
-/* Measured along a line: cycles per point of the lattice, or per place that is read. */
-static double tip_work_metre(const struct contact *c, double dense)
-{
-    double patch = c->scraper.patch;
-    if (patch == 0) return 2e2 * dense / likely_pitch(c);
-    return relief_along(c) == ALONG_PLANE ? plane_metre(c, dense) : 8e2 * dense / (patch / PATCH_POINTS);
-}
-
 /* ------------------------------------------------------------------ the stage */
 
 static void tip_exceeded(void *self)
@@ -309,7 +301,11 @@ static double tip_work(const struct contact *c, const struct scene *s)
                    : m->path == PATH_BACK_AND_FORTH ? 2 * m->rate * m->duration
                                                     : 1;
     double length = motion_speed(m) / fmax(times, 1) / s->output.sample_rate; /* m of new surface per audio sample */
-    return length > 0 ? length * tip_work_metre(c, s->accuracy.tip_heights) : 0;
+    double dense = s->accuracy.tip_heights, patch = c->scraper.patch;
+    double metre = patch == 0                      ? 2e2 * dense / likely_pitch(c)
+                   : relief_along(c) == ALONG_PLANE ? plane_metre(c, dense)
+                                                   : 8e2 * dense / (patch / PATCH_POINTS);
+    return length > 0 ? length * metre : 0;
 }
 
 const struct stage tip_stage = {

@@ -345,14 +345,6 @@ static bool stage_open(struct stage_run *r, struct err *e)
     return load_make(r->contact, r->board->trajectory, r->arena, l, e);
 }
 
-/* Of a ball. A motion does not go on after its end, and the board's u and its derivatives stay at their last values: so
- * does the force. */
-static void fill_turned(const struct board *b, long from, long to)
-{
-    load_turned(b->load, (size_t)((to - from) * b->over), board_at(b, ITEM_POSITION, from),
-                board_at(b, ITEM_VELOCITY, from), board_at(b, ITEM_ACCELERATION, from), board_at(b, ITEM_LOAD, from));
-}
-
 static bool stage_fill(struct stage_run *r, long from, long to, struct err *e)
 {
     const struct board *b = r->board;
@@ -363,8 +355,9 @@ static bool stage_fill(struct stage_run *r, long from, long to, struct err *e)
                  *y = x ? board_at(b, ITEM_AY, from) : NULL;
     double *force = board_at(b, ITEM_LOAD, from), t[LOAD_SOME], ax[LOAD_SOME], ay[LOAD_SOME];
     (void)e;
-    if (b->load->turned > 0) {
-        fill_turned(b, from, to);
+    if (b->load->turned > 0) { /* of a ball; behind its end the board's motion stays as it is, and so does the force */
+        load_turned(b->load, (size_t)((to - from) * b->over), board_at(b, ITEM_POSITION, from),
+                    board_at(b, ITEM_VELOCITY, from), board_at(b, ITEM_ACCELERATION, from), force);
         return true;
     }
     for (long i = 0, n = (to - from) * b->over; i < n; i += LOAD_SOME) {

@@ -125,14 +125,6 @@ static void spin_rim(const struct spin *p, size_t n, const struct chunk *o, cons
     }
 }
 
-static void spin_printed(const struct spin *p, size_t n, const struct chunk *o, double *printed)
-{
-    double s[SPIN_CHUNK], c[SPIN_CHUNK];
-    spin_sincos(n, o->y, 1, s, c);
-    for (size_t i = 0; i < n; i++)
-        printed[i] = -p->offset * c[i];
-}
-
 static double *later(double *x, size_t first) { return x ? x + first : NULL; }
 
 void spin_at(const struct spin *s, size_t n, const double *u, const double *du, const double *ddu,
@@ -150,6 +142,9 @@ void spin_at(const struct spin *s, size_t n, const double *u, const double *du, 
         spin_solve(s, some, u + first, &o);
         spin_motion(s, some, &o, &m, &at);
         spin_rim(s, some, &o, &m, &at);
-        if (at.printed) spin_printed(s, some, &o, at.printed);
+        double sine[SPIN_CHUNK], cosine[SPIN_CHUNK];
+        if (at.printed) spin_sincos(some, o.y, 1, sine, cosine);
+        for (size_t i = 0; at.printed && i < some; i++)
+            at.printed[i] = -s->offset * cosine[i];
     }
 }
