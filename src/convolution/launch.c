@@ -172,25 +172,6 @@ INLINE void gather(struct clusters *restrict g, int terms)
         }
 }
 
-LANES_CLONES
-static void gather_1(struct clusters *g) { gather(g, 1); }
-
-LANES_CLONES
-static void gather_5(struct clusters *g) { gather(g, 5); }
-
-LANES_CLONES
-static void gather_7(struct clusters *g) { gather(g, 7); }
-
-static int terms_of(const struct clusters *g) { return g->reach == 0.0 ? 1 : g->reach < REACH_5 ? 5 : 7; }
-
-static void cluster_gather(struct clusters *g)
-{
-    int terms = terms_of(g);
-    memset(g->mr, 0, sizeof g->mr);
-    memset(g->mi, 0, sizeof g->mi);
-    (terms == 1 ? gather_1 : terms == 5 ? gather_5 : gather_7)(g);
-}
-
 /* ------------------------------------------------------------------ sound */
 
 struct carrier {
@@ -251,19 +232,26 @@ INLINE void sound(const struct clusters *restrict g, double (*restrict sums)[LAN
         sound_some(g, carrier, sums + j, &(double){(j - centre) * per}, 1, terms);
 }
 
-LANES_CLONES
-static void sound_1(const struct clusters *g, double (*sums)[LANES], int block) { sound(g, sums, block, 1); }
-
-LANES_CLONES
-static void sound_5(const struct clusters *g, double (*sums)[LANES], int block) { sound(g, sums, block, 5); }
-
-LANES_CLONES
-static void sound_7(const struct clusters *g, double (*sums)[LANES], int block) { sound(g, sums, block, 7); }
-
-static void cluster_sound(const struct clusters *g, double (*sums)[LANES], int block)
+INLINE void ring_some(struct clusters *g, double (*sums)[LANES], int block, int terms)
 {
-    int terms = terms_of(g);
-    (terms == 1 ? sound_1 : terms == 5 ? sound_5 : sound_7)(g, sums, block);
+    gather(g, terms);
+    sound(g, sums, block, terms);
+}
+
+LANES_CLONES
+static void ring_1(struct clusters *g, double (*sums)[LANES], int block) { ring_some(g, sums, block, 1); }
+
+LANES_CLONES
+static void ring_5(struct clusters *g, double (*sums)[LANES], int block) { ring_some(g, sums, block, 5); }
+
+LANES_CLONES
+static void ring_7(struct clusters *g, double (*sums)[LANES], int block) { ring_some(g, sums, block, 7); }
+
+static void cluster_ring(struct clusters *g, double (*sums)[LANES], int block)
+{
+    memset(g->mr, 0, sizeof g->mr);
+    memset(g->mi, 0, sizeof g->mi);
+    (g->reach == 0.0 ? ring_1 : g->reach < REACH_5 ? ring_5 : ring_7)(g, sums, block);
 }
 
 /* ------------------------------------------------------------------ nodes that ring out */
@@ -537,10 +525,7 @@ static void ringing_run(struct ringing *r, double (*sums)[LANES])
 {
     if ((r->now / r->block) % SWEEP == 0) sweep(r);
     for (int k = 0; k < r->groups; k++)
-        if (r->group[k].used) {
-            cluster_gather(&r->group[k]);
-            cluster_sound(&r->group[k], sums, r->block);
-        }
+        if (r->group[k].used) cluster_ring(&r->group[k], sums, r->block);
     r->now += r->block;
 }
 

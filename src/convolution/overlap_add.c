@@ -119,12 +119,6 @@ void overlap_add_close(struct overlap_add *o)
     arena_close(o->arena);
 }
 
-int overlap_add_ahead(const struct overlap_add *o)
-{
-    (void)o;
-    return BLOCK - 1;
-}
-
 /* The spectra of response k, divided by SIZE, since FFTW's inverse is not. */
 static void prepare(struct overlap_add *o, int k)
 {

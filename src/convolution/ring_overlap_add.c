@@ -195,8 +195,7 @@ static bool ring_overlap_open(struct stage_run *r, enum ring_body body, struct e
     else if (!open_recorded(s, r, body == RING_SURFACE ? &r->contact->surface.response : &r->contact->scraper.response,
                             e))
         return false;
-    int ahead =
-        s->outputs[0].stays ? overlap_add_ahead(s->outputs[0].stays) : overlap_add_moving_ahead(s->outputs[0].moves);
+    int ahead = s->outputs[0].stays ? OVERLAP_ADD_BLOCK - 1 : overlap_add_moving_ahead(s->outputs[0].moves);
     r->ahead = r->ahead > ahead ? r->ahead : ahead;
     return true;
 }

@@ -59,7 +59,7 @@ struct mesh {
 
 /* ------------------------------------------------------------------ triangles */
 
-static double length(const double *p, const double *q)
+static double distance(const double *p, const double *q)
 {
     return sqrt((q[0] - p[0]) * (q[0] - p[0]) + (q[1] - p[1]) * (q[1] - p[1]));
 }
@@ -73,7 +73,7 @@ static double area(const double *p, const double *q, const double *r)
 static double height(const struct mesh *m, int i, int j, int k)
 {
     const double *p = m->xy + 2 * i, *q = m->xy + 2 * j, *r = m->xy + 2 * k;
-    return 2.0 * area(p, q, r) / fmax(fmax(length(p, q), length(q, r)), length(r, p));
+    return 2.0 * area(p, q, r) / fmax(fmax(distance(p, q), distance(q, r)), distance(r, p));
 }
 
 /* ------------------------------------------------------------------ sweep */
@@ -99,7 +99,7 @@ struct corner { /* of the hull, anticlockwise; a place may be there twice while 
 static bool sees(const struct mesh *m, int point, const struct corner *c)
 {
     const double *a = m->xy + 2 * c->point, *b = m->xy + 2 * c->after->point;
-    return -2.0 * area(a, b, m->xy + 2 * point) > m->least * length(a, b);
+    return -2.0 * area(a, b, m->xy + 2 * point) > m->least * distance(a, b);
 }
 
 static void add_triangle(struct mesh *m, const struct corner *side, int point)
@@ -472,12 +472,6 @@ static int rank_up(const void *a, const void *b)
     if (p->key != q->key) return p->key < q->key ? -1 : 1;
     if (p->other != q->other) return p->other < q->other ? -1 : 1;
     return (p->index > q->index) - (p->index < q->index);
-}
-
-static double distance(const double *p, const double *q)
-{
-    double x = q[0] - p[0], y = q[1] - p[1];
-    return sqrt(x * x + y * y);
 }
 
 static void sort(struct arena *a, struct places *p, const double *xy, struct rank *r)

@@ -472,23 +472,19 @@ struct polyline {
 
 static double corner_psi(double z) { return z - real_sinpi(2 * z) / (2 * REAL_PI); }
 
-static void corner_cosine(const void *self, size_t n, const double *z, double *g, double *dg)
-{
-    const double turn = *(const double *)self;
-    for (size_t i = 0; i < n; i++) {
-        double psi = turn * corner_psi(z[i]);
-        g[i] = real_cos(psi);
-        dg[i] = -real_sin(psi) * turn * (1 - real_cospi(2 * z[i]));
-    }
-}
+struct corner_slope {
+    double turn;
+    bool sine;
+};
 
-static void corner_sine(const void *self, size_t n, const double *z, double *g, double *dg)
+/* cos psi, or sin psi. */
+static void corner_slope(const void *self, size_t n, const double *z, double *g, double *dg)
 {
-    const double turn = *(const double *)self;
+    const struct corner_slope *c = self;
     for (size_t i = 0; i < n; i++) {
-        double psi = turn * corner_psi(z[i]);
-        g[i] = real_sin(psi);
-        dg[i] = real_cos(psi) * turn * (1 - real_cospi(2 * z[i]));
+        double psi = c->turn * corner_psi(z[i]), sine = real_sin(psi), cosine = real_cos(psi);
+        g[i] = c->sine ? sine : cosine;
+        dg[i] = (c->sine ? cosine : -sine) * c->turn * (1 - real_cospi(2 * z[i]));
     }
 }
 
@@ -563,8 +559,8 @@ static double corner_make(struct line_piece *w, double turn, double radius, stru
     double half = 0.5, x, y;
     w->turn = turn;
     w->length = 2 * fabs(turn) * radius;
-    panels_integral(&(struct panels_slope){corner_cosine, &w->turn}, whole, 3, a, &w->x);
-    panels_integral(&(struct panels_slope){corner_sine, &w->turn}, whole, 3, a, &w->y);
+    panels_integral(&(struct panels_slope){corner_slope, &(struct corner_slope){turn, false}}, whole, 3, a, &w->x);
+    panels_integral(&(struct panels_slope){corner_slope, &(struct corner_slope){turn, true}}, whole, 3, a, &w->y);
     panels_at(&w->x, 1, &half, &x, NULL, NULL);
     panels_at(&w->y, 1, &half, &y, NULL, NULL);
     return w->length * (x + y * real_tan(turn / 2));

@@ -36,7 +36,7 @@ enum { TRAJECTORY_CHUNK = 256 };
 
 /* ------------------------------------------------------------------ at an instant */
 
-static double *from(double *x, size_t first) { return x ? x + first : NULL; }
+static double *advanced(double *x, size_t by) { return x ? x + by : NULL; }
 
 static void at_straight(const struct trajectory *tr, size_t n, const double *t, const struct trajectory_out *out)
 {
@@ -121,9 +121,9 @@ void trajectory_at(const struct trajectory *tr, size_t n, const double *t, struc
         size_t some = n - first < TRAJECTORY_CHUNK ? n - first : TRAJECTORY_CHUNK;
         at_inside(tr->duration, some, t + first, inside);
         at_any(tr, some, inside,
-               &(struct trajectory_out){from(out.u, first), from(out.du, first), from(out.ddu, first),
-                                        from(out.x, first), from(out.y, first), from(out.vx, first),
-                                        from(out.vy, first), from(out.ax, first), from(out.ay, first)});
+               &(struct trajectory_out){advanced(out.u, first), advanced(out.du, first), advanced(out.ddu, first),
+                                        advanced(out.x, first), advanced(out.y, first), advanced(out.vx, first),
+                                        advanced(out.vy, first), advanced(out.ax, first), advanced(out.ay, first)});
     }
 }
 
@@ -495,43 +495,24 @@ static const enum item stage_items[] = {ITEM_POSITION, ITEM_VELOCITY, ITEM_ACCEL
                                         ITEM_VX,       ITEM_VY,       ITEM_AX,           ITEM_AY};
 enum { STAGE_ITEMS = sizeof stage_items / sizeof stage_items[0] };
 
-/* False where the motion is read at other instants only. */
-static bool stage_read(const struct board *b)
-{
-    bool any = false;
-    for (int k = 0; k < STAGE_ITEMS; k++)
-        any = any || board_has(b, stage_items[k]);
-    return any;
-}
-
-/* Only what something reads. */
-static struct trajectory_out stage_out(const struct board *b, long from, long skip)
-{
-    double *at[STAGE_ITEMS];
-    for (int k = 0; k < STAGE_ITEMS; k++)
-        at[k] = board_has(b, stage_items[k]) ? board_at(b, stage_items[k], from) + skip : NULL;
-    return (struct trajectory_out){at[0], at[1], at[2], at[3], at[4], at[5], at[6], at[7], at[8]};
-}
-
-LANES_CLONES
-static void stage_instants(long first, size_t n, double rate, double *t)
-{
-    double from = (double)first; /* exact, as the sums are */
-#pragma omp simd
-    for (int i = 0; i < (int)n; i++)
-        t[i] = (from + i) / rate;
-}
-
 static bool stage_fill(struct stage_run *r, long from, long to, struct err *e)
 {
     (void)e;
     const struct board *b = r->board;
-    double t[TRAJECTORY_CHUNK];
-    long n = (to - from) * b->over, first = from * b->over;
-    for (long i = 0; i < n && stage_read(b); i += TRAJECTORY_CHUNK) {
-        size_t some = (size_t)(n - i < TRAJECTORY_CHUNK ? n - i : TRAJECTORY_CHUNK);
-        stage_instants(first + i, some, b->rate * b->over, t);
-        trajectory_at(b->trajectory, some, t, stage_out(b, from, i));
+    double t[TRAJECTORY_CHUNK], *at[STAGE_ITEMS], first = (double)(from * b->over), rate = b->rate * b->over;
+    bool read = false; /* by a stage, at the board's instants */
+    for (int k = 0; k < STAGE_ITEMS; k++) {
+        at[k] = board_has(b, stage_items[k]) ? board_at(b, stage_items[k], from) : NULL;
+        read = read || at[k];
+    }
+    for (long i = 0, some, n = (to - from) * b->over; i < n && read; i += some) {
+        some = n - i < TRAJECTORY_CHUNK ? n - i : TRAJECTORY_CHUNK;
+        for (int k = 0; k < (int)some; k++)
+            t[k] = (first + (double)i + k) / rate;
+        trajectory_at(b->trajectory, (size_t)some, t,
+                      (struct trajectory_out){at[0], at[1], at[2], at[3], at[4], at[5], at[6], at[7], at[8]});
+        for (int k = 0; k < STAGE_ITEMS; k++)
+            at[k] = advanced(at[k], (size_t)some);
     }
     return true;
 }

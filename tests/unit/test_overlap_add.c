@@ -77,7 +77,7 @@ static void run(int cut)
     struct overlap_add *p = overlap_add_open(
         &(struct overlap_add_source){.n = KEYS, .length = length, .share = share_of, .response = response});
     long total = N + (long)length;
-    ck_assert_int_le(total + overlap_add_ahead(p), ROOM);
+    ck_assert_int_le(total + OVERLAP_ADD_BLOCK - 1, ROOM);
     memset(sound, 0, sizeof sound);
     for (long at = 0, n = cut; at<total; at += n, n = cut> 0 ? cut : n % 700 + 37)
         overlap_add_run(p, force + at, sound + at, at + n < total ? n : total - at);
