@@ -182,17 +182,6 @@ static bool impact_step(const struct rules *r, struct impact *s)
     return true;
 }
 
-static bool ready(const struct coupled *c, struct err *e)
-{
-    const struct coupled_ask *k = &c->ask;
-    double fall = k->mu * k->step * k->weight / k->mass;
-    return fall < 1 || err_set(e, ERR_SCENE,
-                               "contact.roll.integrator: exact_impact: a ball that falls for one step (%.3g s) is "
-                               "faster than 1/mu = %.3g m/s; raise accuracy.contact_steps, "
-                               "lower mu, or choose contact.roll.integrator: discrete_gradient",
-                               k->step, 1 / k->mu);
-}
-
 /* What the step has brought, into the shared state. */
 static void take(struct coupled *c, const struct impact *s, double surface)
 {
@@ -219,7 +208,12 @@ static bool exact_run(struct coupled *c, int steps, const double *surface, const
     const struct coupled_ask *k = &c->ask;
     const struct rules r = {k->stiffness / k->mass, k->mu, k->weight / k->mass, k->step};
     (void)phi_to;
-    if (!ready(c, e)) return false;
+    if (!(k->mu * k->step * k->weight / k->mass < 1))
+        return err_set(e, ERR_SCENE,
+                       "contact.roll.integrator: exact_impact: a ball that falls for one step (%.3g s) is faster than "
+                       "1/mu = %.3g m/s; raise accuracy.contact_steps, lower mu, or choose "
+                       "contact.roll.integrator: discrete_gradient",
+                       k->step, 1 / k->mu);
     for (int i = 0; i < steps; i++) {
         if (coupled_unseen(c, i, steps) == i)
             coupled_seen(c, c->state.steps + i, &(struct coupled_account){.modal = coupled_modal(c)});
@@ -574,18 +568,6 @@ static void account(const struct coupled *c, const struct coupled_account *more,
     s->residual = ((s->energy - c->energy_start) - s->surface_work) + (s->contact_loss + s->mode_loss);
 }
 
-static bool unbalanced(const struct coupled *c, double bound, const char *whose, struct err *e)
-{
-    const struct coupled_state *s = &c->state;
-    return err_set(e, ERR_NUMBERS,
-                   "the energy of the coupled contact is off balance by %.3g J at step %ld (allowed: %.3g J): energy "
-                   "%.6g J, most of it in %s; work of the surface %.6g J, "
-                   "lost in the contact %.6g J, in the modes %.6g J; at most %ld iterations a step: take more steps "
-                   "(accuracy.contact_steps)",
-                   s->residual, s->steps, bound, s->energy, whose, s->surface_work, s->contact_loss, s->mode_loss,
-                   s->iterations_most);
-}
-
 bool coupled_balance(struct coupled *c, bool bounded, struct err *e)
 {
     struct coupled_state *s = &c->state;
@@ -600,7 +582,13 @@ bool coupled_balance(struct coupled *c, bool bounded, struct err *e)
     s->highest = fmax(s->highest, fmax(greatest, fabs(s->energy)));
     account(c, &(struct coupled_account){0}, s);
     double bound = (1e-10 + 4 * DBL_EPSILON * (double)s->steps) * s->highest;
-    return !bounded || fabs(s->residual) <= bound || unbalanced(c, bound, whose, e);
+    return !bounded || fabs(s->residual) <= bound ||
+           err_set(e, ERR_NUMBERS,
+                   "the energy of the coupled contact is off balance by %.3g J at step %ld (allowed: %.3g J): energy "
+                   "%.6g J, most of it in %s; work of the surface %.6g J, lost in the contact %.6g J, in the modes "
+                   "%.6g J; at most %ld iterations a step: take more steps (accuracy.contact_steps)",
+                   s->residual, s->steps, bound, s->energy, whose, s->surface_work, s->contact_loss, s->mode_loss,
+                   s->iterations_most);
 }
 
 /* Steps and fractions apart: hours of steps leave a fraction few digits. */

@@ -440,18 +440,6 @@ static void store_ball(struct gradient_run *r)
     r->c->closing = r->wide / r->c->ask.step;
 }
 
-/* The modes' true displacements and velocities, and what they have lost. */
-static void finish(struct gradient_run *r, int to)
-{
-    struct coupled_modes *m = &r->c->modes;
-    double before = r->sum.place;
-    coupled_modal_sum_advance(m, to - 0.5, to + 2.0, r->c->force, &r->sum);
-    lean(r, r->c->force, before, r->sum.place);
-    coupled_sum_add(&r->c->mode_loss, lanes_total(r->sum.lanes.lost));
-    for (int i = 0; i < m->padded; i++)
-        m->p[i] = m->swing[i] * (2 / r->c->ask.step);
-}
-
 /* A step's force, and the modes' end of the step before (on: as coupled_modal_sum_advance has it), whose force is
    known.
    Each fills the other's latencies, which is why they are laid between each other in pieces: 50 modes take 230 cycles a
@@ -535,7 +523,14 @@ static bool batch(struct gradient_run *r, int from, int to, const double *surfac
         if (!steps_on(r, (int[]){from, at, end}, surface, force, e)) return false;
         at = end;
     }
-    if (c->modes.padded > 0) finish(r, to);
+    if (c->modes.padded > 0) {
+        double before = r->sum.place;
+        coupled_modal_sum_advance(&c->modes, to - 0.5, to + 2.0, c->force, &r->sum);
+        lean(r, c->force, before, r->sum.place);
+        coupled_sum_add(&c->mode_loss, lanes_total(r->sum.lanes.lost));
+        for (int i = 0; i < c->modes.padded; i++)
+            c->modes.p[i] = c->modes.swing[i] * (2 / c->ask.step);
+    }
     store_ball(r);
     coupled_sum_add(&c->surface_work, r->work);
     coupled_sum_add(&c->contact_loss, r->loss);

@@ -230,17 +230,6 @@ static bool returns(const struct modes *m, const struct trajectory *tr, double t
    looked at as show its shape: what is left out between two of them is far less than the distance of two places. */
 #define REACH_SLACK 1e-9 /* m */
 
-static bool refuse_reach(const struct modes *m, const struct stage_run *r, const double p[2], double out, struct err *e)
-{
-    bool place = contact_one_place(r->contact) && !isnan(r->contact->ablation.place[0]);
-    return err_set(e, ERR_SCENE,
-                   "contact '%s': %s: %s [%g m, %g m], %.3g m beyond the places of %s%s%s; move it, or set "
-                   "surface.extrapolate: nearest",
-                   r->contact->name, ring_choice_about(r->contact, RING_SURFACE),
-                   place ? "ablation.place is" : "the motion reaches", p[0], p[1], out, m->name, m->places ? ": " : "",
-                   m->places ? places_text(m->places, r->arena) : "");
-}
-
 bool ring_reach(const struct modes *m, const struct stage_run *r, struct err *e)
 {
     const struct response *given = &r->contact->surface.response;
@@ -257,7 +246,14 @@ bool ring_reach(const struct modes *m, const struct stage_run *r, struct err *e)
         else if (!one)
             trajectory_at(tr, 1, &t, (struct trajectory_out){.x = &p[0], .y = &p[1]});
         double out = modes_at(m, &(struct modes_where){p[0], p[1], 0}, &point);
-        if (out > REACH_SLACK) return refuse_reach(m, r, p, out, e);
+        if (out > REACH_SLACK)
+            return err_set(e, ERR_SCENE,
+                           "contact '%s': %s: %s [%g m, %g m], %.3g m beyond the places of %s%s%s; move it, or set "
+                           "surface.extrapolate: nearest",
+                           r->contact->name, ring_choice_about(r->contact, RING_SURFACE),
+                           one && !isnan(r->contact->ablation.place[0]) ? "ablation.place is" : "the motion reaches",
+                           p[0], p[1], out, m->name, m->places ? ": " : "",
+                           m->places ? places_text(m->places, r->arena) : "");
     }
     return true;
 }
@@ -307,6 +303,27 @@ static bool voice_open(struct ring *g, struct stage_run *r, int channel, struct 
 
 /* ------------------------------------------------------------------ what the board is told */
 
+/* The sound ends 60 s after the last force where output.tail is auto (pipeline/render.c). */
+static void note_warnings(const struct ring *g, const struct response *given, struct stage_run *r)
+{
+    const struct ring_choice *c = g->choice;
+    double falls = gammatone_decibel(c->gamma, 80), ring = modes_ring_time(&c->modes, falls);
+    if (c->note) board_warn(r->board, c->note);
+    if (c->high)
+        board_warn(r->board,
+                   arena_format(r->arena,
+                                "%s: %d of its %d strongest modes lie%s above %g Hz, 0.45 of the sample rate, and do%s "
+                                "not ring: raise output.sample_rate, or end the key band there",
+                                c->modes.name, c->high, c->chosen, c->high == 1 ? "s" : "", MODES_TOP * g->board->rate,
+                                c->high == 1 ? "es" : ""));
+    if (isnan(r->scene->output.tail) && isnan(r->scene->output.duration) && isnan(given->length) && ring > 60)
+        board_warn(r->board,
+                   arena_format(r->arena,
+                                "%s: its slowest mode has fallen by %.3g dB only when the sound ends, 60 s after the "
+                                "motion: set output.tail, or give the mode more decay",
+                                c->modes.name, gammatone_fallen(c->gamma, falls * 60 / ring)));
+}
+
 /* All that is summed is of one quantity; what is recorded does not say its own, and goes with any. */
 static bool note_quantity(const struct ring *g, struct board *b, struct err *e)
 {
@@ -319,32 +336,6 @@ static bool note_quantity(const struct ring *g, struct board *b, struct err *e)
                        g->choice->modes.name, modes_quantity_name(quantity), modes_quantity_name(b->quantity));
     b->quantity = quantity;
     return true;
-}
-
-/* The sound ends 60 s after the last force where output.tail is auto (pipeline/render.c). */
-static void note_endless(const struct ring *g, const struct response *given, struct stage_run *r)
-{
-    double falls = gammatone_decibel(g->choice->gamma, 80), ring = modes_ring_time(&g->choice->modes, falls);
-    if (isnan(r->scene->output.tail) && isnan(r->scene->output.duration) && isnan(given->length) && ring > 60)
-        board_warn(r->board,
-                   arena_format(r->arena,
-                                "%s: its slowest mode has fallen by %.3g dB only when the sound ends, 60 s after the "
-                                "motion: set output.tail, or "
-                                "give the mode more decay",
-                                g->choice->modes.name, gammatone_fallen(g->choice->gamma, falls * 60 / ring)));
-}
-
-static void note_warnings(const struct ring *g, struct stage_run *r)
-{
-    if (g->choice->note) board_warn(r->board, g->choice->note);
-    if (g->choice->high)
-        board_warn(r->board, arena_format(r->arena,
-                                          "%s: %d of its %d strongest modes lie%s above %g Hz, 0.45 of the sample "
-                                          "rate, and do%s not ring: raise output.sample_rate, "
-                                          "or end the key band there",
-                                          g->choice->modes.name, g->choice->high, g->choice->chosen,
-                                          g->choice->high == 1 ? "s" : "", MODES_TOP * g->board->rate,
-                                          g->choice->high == 1 ? "es" : ""));
 }
 
 bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct err *e)
@@ -370,8 +361,7 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
     double ring =
         modes_ring_time(&g->choice->modes, gammatone_decibel(g->choice->gamma, 80)) + (double)g->delay / r->board->rate;
     r->board->ring = fmax(r->board->ring, isnan(given->length) ? ring : fmin(ring, given->length));
-    note_warnings(g, r);
-    note_endless(g, given, r);
+    note_warnings(g, given, r);
     r->back = (int)g->delay + (g->choice->reading == MOVING_READOUT ? ALIAS_REACH : 0);
     r->ahead = ALIAS_REACH;
     bool ok = note_quantity(g, r->board, e) && (!surface || ring_reach(&g->choice->modes, r, e));

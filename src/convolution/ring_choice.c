@@ -216,17 +216,6 @@ static bool choose_modal(struct ring_choosing *c, enum ring_body body, struct er
     return true;
 }
 
-static void choose_recorded(struct ring_choosing *c, enum ring_body body)
-{
-    c->to->recorded = true;
-    c->to->folder = response_is_folder(c->given);
-    c->to->reading = MOVING_FIXED;
-    c->to->moves = c->to->folder && body == RING_SURFACE && c->contact->motion.path != PATH_STILL &&
-                   !contact_one_place(c->contact);
-    c->to->engine = RING_OVERLAP_ADD;
-    c->to->seconds = isnan(c->given->length) ? 1 : c->given->length;
-}
-
 bool ring_choice_make(const struct contact *c, const struct scene *s, enum ring_body body, struct arena *a,
                       const struct ring_choice **choice, struct err *e)
 {
@@ -243,7 +232,12 @@ bool ring_choice_make(const struct contact *c, const struct scene *s, enum ring_
     *choice = to;
     to->gamma = given->gammatone > 1 ? given->gammatone : 1;
     if (given->file && !response_is_table(given)) {
-        choose_recorded(&me, body);
+        to->recorded = true;
+        to->folder = response_is_folder(given);
+        to->reading = MOVING_FIXED;
+        to->moves = to->folder && body == RING_SURFACE && c->motion.path != PATH_STILL && !contact_one_place(c);
+        to->engine = RING_OVERLAP_ADD;
+        to->seconds = isnan(given->length) ? 1 : given->length;
         return true;
     }
     return choose_modal(&me, body, e);

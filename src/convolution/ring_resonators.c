@@ -30,17 +30,6 @@ struct ring_bank {
     long ramp_end; /* frame; the ramp began at ramp_end - ramp   */
 };
 
-static void bank_tones(struct bank *b, struct stage_run *r, const struct ring_bank *s, int n)
-{
-    struct gammatone_bank_ask ask = {.n = n,
-                                     .gamma = s->ring.choice->gamma,
-                                     .rate = r->board->rate,
-                                     .frequency = b->to.frequency,
-                                     .decay = b->to.decay};
-    b->tones = gammatone_bank_make(r->arena, &ask);
-    gammatone_bank_set(b->tones, &b->to);
-}
-
 static void bank_run(const struct bank *b, const double *f, double *y, int frames)
 {
     if (b->tones)
@@ -57,7 +46,13 @@ static void bank_open(struct ring_bank *s, struct stage_run *r, int channel)
     b->y = ARENA_TAKE(r->arena, double, s->ramp);
     ring_point_at(&s->ring, v, s->ring.moves ? -1 : 0, &b->to); /* the frame before the first ramp */
     if (s->ring.choice->gamma > 1) {
-        bank_tones(b, r, s, v->n);
+        struct gammatone_bank_ask tones = {.n = v->n,
+                                           .gamma = s->ring.choice->gamma,
+                                           .rate = r->board->rate,
+                                           .frequency = b->to.frequency,
+                                           .decay = b->to.decay};
+        b->tones = gammatone_bank_make(r->arena, &tones);
+        gammatone_bank_set(b->tones, &b->to);
         return;
     }
     struct resonators_ask ask = {.n = v->n,

@@ -136,17 +136,6 @@ static void ground_phi(const struct roll_ground *g, long frame, double *phi)
     modes_shapes_at(&g->shapes, &at, phi);
 }
 
-static void ground_ramps(struct roll_ground *g, const struct stage_run *r)
-{
-    g->moves = g->shapes.moves && r->contact->motion.path != PATH_STILL && !contact_one_place(r->contact);
-    g->first = ring_first_place(r->contact, g->board->trajectory);
-    g->ramp = (long)r->scene->accuracy.gain_ramp;
-    g->phi = ARENA_TAKE(r->arena, double, g->shapes.n);
-    g->from = ARENA_TAKE(r->arena, double, g->shapes.n);
-    g->to = ARENA_TAKE(r->arena, double, g->shapes.n);
-    ground_phi(g, 0, g->to);
-}
-
 bool roll_coupled_ground_make(struct roll_ground *g, const struct stage_run *r, struct err *e)
 {
     const struct contact *c = r->contact;
@@ -162,7 +151,13 @@ bool roll_coupled_ground_make(struct roll_ground *g, const struct stage_run *r, 
     if (!choice && !ring_choice_make(c, r->scene, RING_SURFACE, r->arena, &choice, e)) return false;
     if (!modes_shapes_make(&choice->modes, "surface", r->arena, &g->shapes, e))
         return err_at(e, "contact '%s'", c->name);
-    ground_ramps(g, r);
+    g->moves = g->shapes.moves && c->motion.path != PATH_STILL && !contact_one_place(c);
+    g->first = ring_first_place(c, g->board->trajectory);
+    g->ramp = (long)r->scene->accuracy.gain_ramp;
+    g->phi = ARENA_TAKE(r->arena, double, g->shapes.n);
+    g->from = ARENA_TAKE(r->arena, double, g->shapes.n);
+    g->to = ARENA_TAKE(r->arena, double, g->shapes.n);
+    ground_phi(g, 0, g->to);
     return ring_reach(&choice->modes, r, e) || err_about(e, c->name, ring_choice_about(c, RING_SURFACE));
 }
 
@@ -234,18 +229,6 @@ static bool rolling_steps(struct rolling *w, const struct stage_run *r, struct e
     return true;
 }
 
-/* The penetration is Hertz's as long as it is small beside the radius. */
-static void rolling_depth(struct stage_run *r, double rest)
-{
-    const struct contact *c = r->contact;
-    if (rest > DEEP * c->scraper.radius)
-        board_warn(r->board, arena_format(r->arena,
-                                          "contact '%s': at rest the ball is pressed in by %.3g m, %.3g times its "
-                                          "radius, and the contact's law is one of shallow "
-                                          "dents: raise contact.roll.stiffness (or kappa)",
-                                          c->name, rest, rest / c->scraper.radius));
-}
-
 static void rolling_start(struct rolling *w, struct stage_run *r)
 {
     const double *s = w->curve.s, *phi = roll_coupled_ground_start(&w->ground);
@@ -282,7 +265,11 @@ static bool rolling_open(struct stage_run *r, struct err *e)
                                    .roughness = NAN,
                                    .hertz = NAN,
                                    .step = ask.step};
-    rolling_depth(r, b->roll.rest);
+    if (b->roll.rest > DEEP * c->scraper.radius)
+        board_warn(b, arena_format(r->arena,
+                                   "contact '%s': at rest the ball is pressed in by %.3g m, %.3g times its radius, and "
+                                   "the contact's law is one of shallow dents: raise contact.roll.stiffness (or kappa)",
+                                   c->name, b->roll.rest, b->roll.rest / c->scraper.radius));
     return true;
 }
 
@@ -341,17 +328,6 @@ static void rolling_mean_force(const struct rolling *w, const struct board *b, l
     }
 }
 
-static bool rolling_frames(struct rolling *w, struct stage_run *r, long from, long to, struct err *e)
-{
-    const struct board *b = r->board;
-    for (long frame = from; frame < to; frame++) {
-        if (frame >= w->end && !rolling_leg(w, r, frame, e)) return false;
-        if (board_has(b, ITEM_ROLL)) rolling_note(w, b, frame);
-        if (board_has(b, ITEM_SUBFORCE)) rolling_mean_force(w, b, frame);
-    }
-    return true;
-}
-
 static void rolling_report(const struct rolling *w, struct board *b)
 {
     const struct coupled_state *s = coupled_state(w->ball);
@@ -405,7 +381,11 @@ static bool rolling_run(struct stage_run *r, long from, long to, struct err *e)
     struct rolling *w = r->state;
     struct board *b = r->board;
     long end = to < b->moving ? to : b->moving;
-    if (!rolling_frames(w, r, from, end, e)) return false;
+    for (long frame = from; frame < end; frame++) {
+        if (frame >= w->end && !rolling_leg(w, r, frame, e)) return false;
+        if (board_has(b, ITEM_ROLL)) rolling_note(w, b, frame);
+        if (board_has(b, ITEM_SUBFORCE)) rolling_mean_force(w, b, frame);
+    }
     for (int item = 0; item < ITEM_COUNT; item++) {
         const struct signal *x = &b->signals[item];
         if ((item == ITEM_SUBFORCE || item == ITEM_ROLL) && x->per_frame > 0)

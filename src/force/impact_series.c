@@ -221,12 +221,11 @@ static const char *limited_warning(const char *what, long limited, long all, str
 struct stage_report impact_series_report(const struct impact_report *o, struct arena *a)
 {
     struct stage_report r = {.key = "impacts", .note = impacted(o, a)};
-    r.value =
-        json_pack("{s:I, s:o, s:I, s:I, s:I, s:o, s:o, s:o}", "count", (json_int_t)o->count, "per_second",
-                  json_value_number((double)o->count / o->time), "limited_amplitudes", (json_int_t)o->limited_amplitude,
-                  "limited_intervals", (json_int_t)o->limited_interval, "overlaps", (json_int_t)o->overlaps,
-                  "mean_amplitude_n", json_value_number(o->mean_amplitude), "mean_interval_s",
-                  json_value_number(o->mean_interval), "longest_s", json_value_number(o->longest));
+    r.value = json_value_object("count:l per_second:n limited_amplitudes:l limited_intervals:l overlaps:l "
+                                "mean_amplitude_n:n mean_interval_s:n longest_s:n",
+                                (long)o->count, (double)o->count / o->time, (long)o->limited_amplitude,
+                                (long)o->limited_interval, (long)o->overlaps, o->mean_amplitude, o->mean_interval,
+                                o->longest);
     const char *warnings[STAGE_WARNINGS] = {
         limited_warning("amplitude", o->limited_amplitude, o->count, a),
         limited_warning("interval", o->limited_interval, o->count, a),

@@ -45,17 +45,6 @@ static void values_along(struct path_cells *w)
     }
 }
 
-static void values_axes(struct path_cells *w)
-{
-    struct cells *p = &w->cells;
-    for (int k = 0; k < p->points; k++) {
-        double x = p->ex[k], y = p->ey[k];
-        p->curvature[0][k] = w->xx[k];
-        p->curvature[1][k] = w->yy[k];
-        p->bend[k] = x * x * w->xx[k] + 2 * x * y * w->xy[k] + y * y * w->yy[k];
-    }
-}
-
 /* Pieces come in pairs (a, m), (m, b): of a parabola through the three, each half bulges by a quarter of what m lies
  * above the chord. */
 static void values_sagitta(struct cells *p, int channel)
@@ -79,12 +68,14 @@ static void cells_flush(struct path_cells *w)
                                       .xx = w->along ? p->curvature[0] : w->xx,
                                       .xy = plane ? w->xy : NULL,
                                       .yy = plane ? w->yy : NULL});
-    for (int k = 0; axes && k < p->points; k++)
-        p->slope[k] = p->ex[k] * zx[k] + p->ey[k] * zy[k];
-    if (axes)
-        values_axes(w);
-    else if (!w->along)
-        values_along(w);
+    for (int k = 0; axes && k < p->points; k++) {
+        double x = p->ex[k], y = p->ey[k];
+        p->slope[k] = x * zx[k] + y * zy[k];
+        p->curvature[0][k] = w->xx[k];
+        p->curvature[1][k] = w->yy[k];
+        p->bend[k] = x * x * w->xx[k] + 2 * x * y * w->xy[k] + y * y * w->yy[k];
+    }
+    if (!axes && !w->along) values_along(w);
     for (int k = 0; k < w->channels; k++) {
         if (w->halves) values_sagitta(p, k);
         limiter_cells(&(struct limiter_cells){p->n, p->points, p->at, p->alpha[k], p->curvature[k],

@@ -299,18 +299,6 @@ double roll_follow_step(struct roll_follow *f, double start, double end)
 #define FAST 0.5    /* of w0 */
 #define SLIGHT 0.05 /* of N: how much it swings */
 
-static void warn_depth(struct stage_run *r, double rest)
-{
-    double radius = r->contact->ball.radius;
-    if (rest > DEEP * radius)
-        board_warn(r->board, arena_format(r->arena,
-                                          "contact '%s': at rest the ball lies %.3g m deep, more than a tenth of its "
-                                          "radius, %.3g m: so soft a contact "
-                                          "is no ball's; a greater contact.roll.stiffness (or kappa), or a smaller "
-                                          "static_penetration, makes it harder",
-                                          r->contact->name, rest, radius));
-}
-
 static void warn_lobes(struct stage_run *r, const struct roll_stiffness *rests)
 {
     const struct contact *c = r->contact;
@@ -328,35 +316,9 @@ static void warn_lobes(struct stage_run *r, const struct roll_stiffness *rests)
                 c->name, lobes, own));
 }
 
-/* Equation 7 goes by the extremes of N(t), however near to each other: as N(t) swings less and less, alpha does not
-   come near to that of a constant force. The paper has the extremes, and so it stays; force_range makes it continuous.
- */
-static void warn_alpha(struct stage_run *r)
-{
-    const struct load_law *l = r->board->load;
-    const struct contact *c = r->contact;
-    if (r->board->limiter && r->board->limiter->varies && isnan(c->contact.limiter.force_range[0]) &&
-        l->most - l->least < SLIGHT * l->most)
-        board_warn(r->board, arena_format(r->arena,
-                                          "contact '%s': the normal force swings by %.2g %% only, from %.6g to %.6g N, "
-                                          "and contact.limiter goes from alpha_max to alpha_min "
-                                          "by it; give contact.limiter.force_range, for alpha to go by newtons",
-                                          c->name, 100 * (1 - l->least / l->most), l->least, l->most));
-}
-
-static void warn_weightless(struct stage_run *r)
-{
-    if (contact_gravity(r->contact) == 0)
-        board_warn(r->board,
-                   arena_format(r->arena,
-                                "contact '%s': nothing presses the ball down but its own turning: contact.gravity is "
-                                "0, and for about half of the time it is clear of "
-                                "the surface; once off it would stay off, which contact.model: roll_coupled follows",
-                                r->contact->name));
-}
-
 static void warn_roll(struct stage_run *r, const struct roll_stiffness *rests)
 {
+    const struct contact *c = r->contact;
     const struct load_law *l = r->board->load;
     if (!(rests->normal > 0) && !(l && l->most > 0)) {
         board_warn(r->board,
@@ -365,10 +327,31 @@ static void warn_roll(struct stage_run *r, const struct roll_stiffness *rests)
                                 r->contact->name));
         return;
     }
-    warn_depth(r, rests->rest);
+    if (rests->rest > DEEP * c->ball.radius)
+        board_warn(r->board,
+                   arena_format(r->arena,
+                                "contact '%s': at rest the ball lies %.3g m deep, more than a tenth of its radius, "
+                                "%.3g m: so soft a contact is no ball's; a greater contact.roll.stiffness (or kappa), "
+                                "or a smaller static_penetration, makes it harder",
+                                c->name, rests->rest, c->ball.radius));
     if (rests->normal > 0) warn_lobes(r, rests);
-    warn_alpha(r);
-    warn_weightless(r);
+    /* Equation 7 goes by the extremes of N(t), however near to each other: as N(t) swings less and less, alpha does not
+       come near to that of a constant force. The paper has the extremes, and so it stays. */
+    if (r->board->limiter && r->board->limiter->varies && isnan(c->contact.limiter.force_range[0]) &&
+        l->most - l->least < SLIGHT * l->most)
+        board_warn(r->board,
+                   arena_format(r->arena,
+                                "contact '%s': the normal force swings by %.2g %% only, from %.6g to %.6g N, and "
+                                "contact.limiter goes from alpha_max to alpha_min by it; give "
+                                "contact.limiter.force_range, for alpha to go by newtons",
+                                c->name, 100 * (1 - l->least / l->most), l->least, l->most));
+    if (contact_gravity(c) == 0)
+        board_warn(r->board,
+                   arena_format(r->arena,
+                                "contact '%s': nothing presses the ball down but its own turning: contact.gravity is "
+                                "0, and for about half of the time it is clear of the surface; once off it would stay "
+                                "off, which contact.model: roll_coupled follows",
+                                c->name));
 }
 
 /* ------------------------------------------------------------------ state */
@@ -445,17 +428,6 @@ static void roll_rests(struct stage_run *r, struct roll_state *s)
     warn_roll(r, rests);
 }
 
-static void roll_reports(const struct roll_state *s, struct board *b)
-{
-    const struct roll_stiffness *rests = &s->rests;
-    b->rolls = !s->idle;
-    b->roll.stiffness = rests->stiffness;
-    b->roll.rest = rests->rest;
-    b->roll.resonance = rests->resonance / (2 * REAL_PI);
-    b->roll.roughness = rests->roughness;
-    b->roll.hertz = rests->hertz;
-}
-
 static bool roll_open(struct stage_run *r, struct err *e)
 {
     const struct contact *c = r->contact;
@@ -471,7 +443,12 @@ static bool roll_open(struct stage_run *r, struct err *e)
         return false;
     if (!s->printed) roll_rests(r, s);
     r->board->bspline = true;
-    roll_reports(s, r->board);
+    r->board->rolls = !s->idle;
+    r->board->roll = (struct roll_report){.stiffness = s->rests.stiffness,
+                                          .rest = s->rests.rest,
+                                          .resonance = s->rests.resonance / (2 * REAL_PI),
+                                          .roughness = s->rests.roughness,
+                                          .hertz = s->rests.hertz};
     return true;
 }
 

@@ -124,19 +124,6 @@ static void ring(struct group *restrict group, int groups, double (*restrict sum
         }
 }
 
-/* The next segment's fresh start. */
-static void restart(struct ir_sampler *s)
-{
-    for (int k = 0; k < s->groups; k++) {
-        struct group *g = &s->group[k];
-        for (int l = 0; l < LANES; l++)
-            turn_on(g->Pr[l], g->Pi[l], &g->Zr[l], &g->Zi[l]);
-        memcpy(g->zr, g->Zr, sizeof g->zr);
-        memcpy(g->zi, g->Zi, sizeof g->zi);
-    }
-    memset(s->sums, 0, sizeof s->sums);
-}
-
 void ir_sample(struct ir_sampler *s, int quantity, const struct modes_point *p, double *h, size_t length)
 {
     set_poles(s, p);
@@ -151,7 +138,14 @@ void ir_sample(struct ir_sampler *s, int quantity, const struct modes_point *p, 
         ring(s->group, s->groups, s->sums, (n + SPAN - 1) / SPAN * SPAN);
         for (size_t i = 0; i < n; i++)
             h[at + i] = lanes_total(s->sums[i]);
-        restart(s);
+        for (int k = 0; k < s->groups; k++) {
+            struct group *g = &s->group[k];
+            for (int l = 0; l < LANES; l++)
+                turn_on(g->Pr[l], g->Pi[l], &g->Zr[l], &g->Zi[l]);
+            memcpy(g->zr, g->Zr, sizeof g->zr);
+            memcpy(g->zi, g->Zi, sizeof g->zi);
+        }
+        memset(s->sums, 0, sizeof s->sums);
     }
     h[0] = 0.5 * h[0] + modes_direct(quantity, s->n, s->frequency, s->decay, p);
 }

@@ -384,17 +384,6 @@ static bool comment(const struct csv *t, const char *key, const char **value, st
                                 t->file, key);
 }
 
-static bool read_radius(const struct csv *t, double *radius, struct err *e)
-{
-    const char *value;
-    *radius = NAN;
-    if (!comment(t, "radius_m", &value, e)) return false;
-    if (value && !(text_double(value, radius) && *radius > 0.0 && *radius <= 1000.0))
-        return err_set(e, ERR_SCENE, "%s: radius_m: '%.60s' is not a number above 0, at most 1000 (metres)", t->file,
-                       value);
-    return true;
-}
-
 /* by_frequency: -1 where the table does not say. */
 static bool read_comments(struct mode_table *t, int *by_frequency, struct err *e)
 {
@@ -444,7 +433,13 @@ static bool read_comments(struct mode_table *t, int *by_frequency, struct err *e
             e, ERR_SCENE,
             "%s: pairing: frequency is for separate poles; with shared ones a mode has the same id at every place",
             t->csv.file);
-    return read_radius(&t->csv, &t->radius, e);
+    t->radius = NAN;
+    const char *radius;
+    if (!comment(&t->csv, "radius_m", &radius, e)) return false;
+    if (radius && !(text_double(radius, &t->radius) && t->radius > 0.0 && t->radius <= 1000.0))
+        return err_set(e, ERR_SCENE, "%s: radius_m: '%.60s' is not a number above 0, at most 1000 (metres)",
+                       t->csv.file, radius);
+    return true;
 }
 
 /* ------------------------------------------------------------------ entries */
@@ -566,19 +561,6 @@ static bool same_poles(const struct rows *r, const struct mode_entry *m, const s
     return true;
 }
 
-/* Separate decays are interpolated in the log. */
-static bool check_separate(const struct rows *r, const struct mode_table *t, struct err *e)
-{
-    for (size_t i = 0; t->places > 1 && i < t->first[t->places]; i++)
-        if (!(t->entry[i].slope[0].decay > 0.0))
-            return err_set(
-                       e, ERR_SCENE,
-                       "decay_per_s is 0: separate poles are interpolated between places in the log, where 0 has no "
-                       "value; give a small decay") ||
-                   bad_row(r, t->entry[i].row, e);
-    return true;
-}
-
 /* Names that several places have: do most of them stand for nearly the same frequency wherever they do? Numbers that
    each place gives anew do not, from the first mode on that one place lacks. */
 static bool names_hold(const struct mode_table *t)
@@ -620,7 +602,13 @@ static bool read_entries(struct mode_table *t, int by_frequency, struct arena *a
     if (r.envelope && !envelopes_fit(&r, from, a, t, e)) return false;
     for (size_t i = 0; t->shared && i < t->first[t->places]; i++)
         if (!same_poles(&r, &t->entry[i], &t->entry[t->entry[i].mode], e)) return false;
-    return t->shared || check_separate(&r, t, e);
+    for (size_t i = 0; !t->shared && t->places > 1 && i < t->first[t->places]; i++)
+        if (!(t->entry[i].slope[0].decay > 0.0))
+            return err_set(e, ERR_SCENE,
+                           "decay_per_s is 0: separate poles are interpolated between places in the log, where 0 has "
+                           "no value; give a small decay") ||
+                   bad_row(&r, t->entry[i].row, e);
+    return true;
 }
 
 bool mode_table_read(const char *path, struct arena *a, struct mode_table *t, struct err *e)

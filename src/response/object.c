@@ -183,18 +183,6 @@ static double close_in(const struct object_radial *q, int n, double low, double 
     return middle;
 }
 
-static void add_pair(const struct object_radial *q, int n, int s, double lambda, struct arena *a, struct object_list *l)
-{
-    struct object_mode m = q->mode(q, n, lambda);
-    m.a = n;
-    m.b = s;
-    m.own = lambda;
-    if (n > 0) m.mass *= 0.5; /* the mean of cos^2 */
-    object_list_add(l, a, m);
-    m.c = 1;
-    if (n > 0) object_list_add(l, a, m);
-}
-
 static void all_below(const struct object_radial *q, double top, struct arena *a, struct object_list *l)
 {
     const double step = 0.25;
@@ -204,7 +192,16 @@ static void all_below(const struct object_radial *q, double top, struct arena *a
             double f_high = q->zero(q, n, low + step);
             if ((f_low < 0.0) != (f_high < 0.0)) {
                 double lambda = close_in(q, n, low, low + step);
-                if (lambda < top) add_pair(q, n, s++, lambda, a, l);
+                if (lambda < top) {
+                    struct object_mode m = q->mode(q, n, lambda);
+                    m.a = n;
+                    m.b = s++;
+                    m.own = lambda;
+                    if (n > 0) m.mass *= 0.5; /* the mean of cos^2 */
+                    object_list_add(l, a, m);
+                    m.c = 1;
+                    if (n > 0) object_list_add(l, a, m);
+                }
             }
             f_low = f_high;
         }
@@ -397,17 +394,6 @@ void object_list_cut(struct object_list *l, const struct object_limit *limit)
 
 /* ------------------------------------------------------------------ its modes */
 
-static const struct object_kind *kind_of(int shape)
-{
-    static const struct object_kind *const kinds[] = {
-        [OBJECT_BAR] = &object_kinds_bar,       [OBJECT_ROD] = &object_kinds_bar,
-        [OBJECT_STRING] = &object_kinds_string, [OBJECT_PLATE] = &object_plate,
-        [OBJECT_DISK] = &object_kinds_disk,     [OBJECT_MEMBRANE] = &object_kinds_membrane,
-        [OBJECT_DRUM] = &object_kinds_drum,     [OBJECT_SHELL] = &object_kinds_shell,
-    };
-    return kinds[shape];
-}
-
 static double decay_of(const struct object_body *b, double w) { return material_decay(b->alpha, b->beta, b->loss, w); }
 
 /* Takes out those that do not ring; returns how many. */
@@ -554,8 +540,14 @@ bool object_make(const struct object_given *given, const struct object_ask *ask,
     const struct object_body *b = object_kinds_body(given, ask->key, a, e);
     if (!b) return false;
     struct object_inside *in = ARENA_TAKE(a, struct object_inside, 1);
+    static const struct object_kind *const kinds[] = {
+        [OBJECT_BAR] = &object_kinds_bar,       [OBJECT_ROD] = &object_kinds_bar,
+        [OBJECT_STRING] = &object_kinds_string, [OBJECT_PLATE] = &object_plate,
+        [OBJECT_DISK] = &object_kinds_disk,     [OBJECT_MEMBRANE] = &object_kinds_membrane,
+        [OBJECT_DRUM] = &object_kinds_drum,     [OBJECT_SHELL] = &object_kinds_shell,
+    };
     const struct object_limit limit = {2.0 * REAL_PI * ask->top, ask->most, 2.0 * REAL_PI * ask->low};
-    *in = (struct object_inside){.kind = kind_of(given->shape), .body = b};
+    *in = (struct object_inside){.kind = kinds[given->shape], .body = b};
     if (!list_ringing(in, &limit, a, e)) return false;
     if (in->list.n == 0)
         return err_set(

@@ -387,23 +387,10 @@ static double shapes(const struct object *o, double x, double y, double *phi)
     return off;
 }
 
-static void block_make(struct block *k, const struct class *c, int which, const struct object *o, struct arena *a)
-{
-    const struct object_mode *mode = object_inside(o)->list.mode;
-    k->n = c->n;
-    k->term = c->term;
-    k->to = ARENA_TAKE(a, int, o->n);
-    for (int i = 0; i < o->n; i++)
-        if (mode[i].a == which) k->to[k->modes++] = i;
-    k->c = ARENA_TAKE(a, double, k->n * k->modes);
-    for (int i = 0; i < k->modes; i++)
-        for (int t = 0; t < k->n; t++)
-            k->c[(size_t)t * k->modes + i] = 2.0 * c->vector[(size_t)mode[k->to[i]].b * c->n + t];
-}
-
 static void ritz_bind(struct arena *a, struct object *o)
 {
     const struct ritz *r = (const struct ritz *)object_inside(o)->list.work;
+    const struct object_mode *mode = object_inside(o)->list.mode;
     struct table *t = ARENA_TAKE(a, struct table, 1);
     t->x = r->x.functions;
     t->y = r->y.functions;
@@ -411,8 +398,18 @@ static void ritz_bind(struct arena *a, struct object *o)
     t->ny = r->y.n;
     o->terms = 0;
     for (int i = 0; i < CLASSES; i++) {
-        block_make(&t->block[i], &r->class[i], i, o, a);
-        o->terms += (double)t->block[i].n * t->block[i].modes;
+        const struct class *c = &r->class[i];
+        struct block *k = &t->block[i];
+        k->n = c->n;
+        k->term = c->term;
+        k->to = ARENA_TAKE(a, int, o->n);
+        for (int q = 0; q < o->n; q++)
+            if (mode[q].a == i) k->to[k->modes++] = q;
+        k->c = ARENA_TAKE(a, double, k->n * k->modes);
+        for (int q = 0; q < k->modes; q++)
+            for (int s = 0; s < k->n; s++)
+                k->c[(size_t)s * k->modes + q] = 2.0 * c->vector[(size_t)mode[k->to[q]].b * c->n + s];
+        o->terms += (double)k->n * k->modes;
     }
     o->shapes = shapes;
     object_set_table(o, a, t);

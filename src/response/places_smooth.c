@@ -221,18 +221,6 @@ static void make_smooth(struct arena *a, struct axis *x)
     arena_close(work);
 }
 
-static void find_edges(struct arena *a, struct places_lattice *l)
-{
-    int nx = l->axis[0].n, ny = l->axis[1].n;
-    l->edge = arena_take(a, 2 * (size_t)l->places, sizeof *l->edge);
-    for (int j = 0; j < ny; j++)
-        for (int i = 0; i < nx; i++) {
-            const int *at = l->place + j * nx + i;
-            if (i + 1 < nx) l->edge[l->edges][0] = at[0], l->edge[l->edges++][1] = at[1];
-            if (j + 1 < ny) l->edge[l->edges][0] = at[0], l->edge[l->edges++][1] = at[nx];
-        }
-}
-
 struct places_lattice *places_smooth_lattice_make(struct arena *a, const struct places_lattice_ask *ask)
 {
     struct places_lattice *l = ARENA_TAKE(a, struct places_lattice, 1);
@@ -253,7 +241,14 @@ struct places_lattice *places_smooth_lattice_make(struct arena *a, const struct 
         return NULL;
     for (int c = 0; c < 2; c++)
         make_smooth(a, &l->axis[c]);
-    find_edges(a, l);
+    int nx = l->axis[0].n, ny = l->axis[1].n;
+    l->edge = arena_take(a, 2 * (size_t)l->places, sizeof *l->edge);
+    for (int j = 0; j < ny; j++)
+        for (int i = 0; i < nx; i++) {
+            const int *k = l->place + j * nx + i;
+            if (i + 1 < nx) l->edge[l->edges][0] = k[0], l->edge[l->edges++][1] = k[1];
+            if (j + 1 < ny) l->edge[l->edges][0] = k[0], l->edge[l->edges++][1] = k[nx];
+        }
     return l;
 }
 

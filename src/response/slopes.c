@@ -335,19 +335,6 @@ static double lay_out(struct arena *a, struct work *w, int *most)
     return longest;
 }
 
-static void lay_grid(struct arena *a, struct work *w)
-{
-    w->grid = (int)((w->high - w->low) * PER_DECADE / 2.302585) + 2;
-    w->column = ARENA_TAKE(a, double, (size_t)w->grid * w->g.samples);
-    for (int g = 0; g < w->grid; g++)
-        exponentials(&w->g, grid_at(w, g), w->column + (size_t)g * w->g.samples);
-    for (int j = 0; j < SLOPES_MOST; j++) {
-        w->g.e[j] = ARENA_TAKE(a, double, w->g.samples);
-        w->g.q[j] = ARENA_TAKE(a, double, w->g.samples);
-        w->v[j] = ARENA_TAKE(a, double, w->g.samples);
-    }
-}
-
 /* The least number within a tenth of the smallest error: x of each number in all[number - 1]. */
 static int choose(struct work *w, int most, double total, double all[][SLOPES_MOST])
 {
@@ -372,7 +359,15 @@ struct slopes_fit slopes_fit(struct slopes_series *series, int count)
     double all[SLOPES_MOST][SLOPES_MOST] = {{0}};
     int most = SLOPES_MOST;
     double longest = lay_out(a, &w, &most), total = dot(w.g.a, w.g.a, w.g.samples);
-    lay_grid(a, &w);
+    w.grid = (int)((w.high - w.low) * PER_DECADE / 2.302585) + 2;
+    w.column = ARENA_TAKE(a, double, (size_t)w.grid *w.g.samples);
+    for (int g = 0; g < w.grid; g++)
+        exponentials(&w.g, grid_at(&w, g), w.column + (size_t)g * w.g.samples);
+    for (int j = 0; j < SLOPES_MOST; j++) {
+        w.g.e[j] = ARENA_TAKE(a, double, w.g.samples);
+        w.g.q[j] = ARENA_TAKE(a, double, w.g.samples);
+        w.v[j] = ARENA_TAKE(a, double, w.g.samples);
+    }
     int n = total > 0.0 ? choose(&w, most, total, all) : 0;
     f.n = n > 0 ? n : 1;
     gsl_sort(all[f.n - 1], 1, (size_t)f.n);

@@ -530,15 +530,6 @@ static void underlying_put(const struct relief_values *v, size_t n, double z, do
     if (v->xx) v->xx[n] += bend;
 }
 
-static void underlying_points(struct underlying *g, const struct relief_points *p, const struct relief_values *v)
-{
-    for (size_t n = 0; n < p->n; n++) {
-        const double *s = underlying_stretch(g, p->x[n]);
-        struct height_jet j = rolling_envelope_rest(&g->disc, s + STRETCH_TERMS, p->x[n] - s[STRETCH_AT]);
-        underlying_put(v, n, j.z, j.slope, j.bend);
-    }
-}
-
 /* The last group is filled up with the last place. */
 static void underlying_lanes(struct underlying *g, const struct relief_points *p, const struct relief_values *v,
                              size_t from)
@@ -561,7 +552,11 @@ static void underlying_add(struct relief_part *part, const struct relief_points 
 {
     struct underlying *g = part->state;
     if (g->disc.half == 0 || p->n < LANES)
-        underlying_points(g, p, v);
+        for (size_t n = 0; n < p->n; n++) {
+            const double *s = underlying_stretch(g, p->x[n]);
+            struct height_jet j = rolling_envelope_rest(&g->disc, s + STRETCH_TERMS, p->x[n] - s[STRETCH_AT]);
+            underlying_put(v, n, j.z, j.slope, j.bend);
+        }
     else
         for (size_t from = 0; from < p->n; from += LANES)
             underlying_lanes(g, p, v, from);

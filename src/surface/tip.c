@@ -53,23 +53,13 @@ static double share(long i, double step)
     return s - floor(s);
 }
 
-/* The box of the surface that the motion goes over, in the scene's coordinates (along a path: u). */
-static void tip_box(const struct relief *r, const struct trajectory *tr, double beyond, double box[2][2])
-{
-    for (int k = 0; k < 2; k++) {
-        box[k][0] = r->along == ALONG_PATH ? tr->reach[k] : tr->box[k][0];
-        box[k][1] = tr->box[k][1];
-    }
-    for (int axis = 0; axis < 2; axis++) {
-        box[0][axis] -= beyond;
-        box[1][axis] += beyond;
-    }
-}
-
 static double tip_scouted(const struct relief *r, const struct trajectory *tr, double beyond)
 {
     double x[SCOUT_BATCH], y[SCOUT_BATCH], z[SCOUT_BATCH], box[2][2], least = HUGE_VAL, most = -HUGE_VAL;
-    tip_box(r, tr, beyond, box);
+    for (int k = 0; k < 2; k++) {
+        box[k][0] = (r->along == ALONG_PATH ? tr->reach[k] : tr->box[k][0]) + (k ? beyond : -beyond);
+        box[k][1] = tr->box[k][1] + (k ? beyond : -beyond);
+    }
     for (long first = 0; first < SCOUTS; first += SCOUT_BATCH) {
         for (long i = 0; i < SCOUT_BATCH; i++) {
             double along = share(

@@ -375,29 +375,23 @@ struct circle {
     double center[2], radius, start, per_length; /* start: half turns; per_length: half turns per m */
 };
 
-static void circle_place(const struct circle *c, size_t i, size_t from, double sine, double cosine,
-                         const struct path_out *out)
-{
-    double sense = c->per_length < 0 ? -1 : 1;
-    const double at[2] = {cosine, sine}, ahead[2] = {-sense * sine, sense * cosine};
-    for (int xy = 0; xy < 2; xy++) {
-        if (out->p[xy]) out->p[xy][from + i] = c->center[xy] + c->radius * at[xy];
-        if (out->e[xy]) out->e[xy][from + i] = ahead[xy];
-        if (out->bend[xy]) out->bend[xy][from + i] = -at[xy] / c->radius;
-    }
-}
-
 static void circle_at(const struct path *p, size_t n, const double *s, const struct path_out *out)
 {
     const struct circle *c = p->state;
-    double sine[PATH_CHUNK], cosine[PATH_CHUNK];
+    double sine[PATH_CHUNK], cosine[PATH_CHUNK], sense = c->per_length < 0 ? -1 : 1;
     for (size_t from = 0; from < n; from += PATH_CHUNK) {
         size_t some = n - from < PATH_CHUNK ? n - from : PATH_CHUNK;
         for (size_t i = 0; i < some; i++)
             sine[i] = c->start + c->per_length * s[from + i];
         vecmath_sincospi(some, sine, sine, cosine);
-        for (size_t i = 0; i < some; i++)
-            circle_place(c, i, from, sine[i], cosine[i], out);
+        for (size_t i = 0; i < some; i++) {
+            const double at[2] = {cosine[i], sine[i]}, ahead[2] = {-sense * sine[i], sense * cosine[i]};
+            for (int xy = 0; xy < 2; xy++) {
+                if (out->p[xy]) out->p[xy][from + i] = c->center[xy] + c->radius * at[xy];
+                if (out->e[xy]) out->e[xy][from + i] = ahead[xy];
+                if (out->bend[xy]) out->bend[xy][from + i] = -at[xy] / c->radius;
+            }
+        }
     }
 }
 
@@ -609,17 +603,6 @@ static bool corner_plan(const struct motion *m, size_t k, const double e[2], con
     return true;
 }
 
-static void corner_put(struct polyline *l, const double *point, const double e[2], double room,
-                       const struct line_piece *corner)
-{
-    const double p[2] = {point[0] - room * e[0], point[1] - room * e[1]};
-    struct line_piece *w = piece_put(l, p, e);
-    w->turn = corner->turn;
-    w->length = corner->length;
-    w->x = corner->x;
-    w->y = corner->y;
-}
-
 /* One straight, and the corner at its end if there is one. taken: m of the straight that the corner before it has;
  * becomes that of the next. */
 static bool side_put(struct polyline *l, const struct motion *m, size_t k, double *taken, struct arena *a,
@@ -639,7 +622,14 @@ static bool side_put(struct polyline *l, const struct motion *m, size_t k, doubl
                        *taken + room, k + 1, k + 2, length);
     const double p[2] = {m->points[2 * k] + *taken * e[0], m->points[2 * k + 1] + *taken * e[1]};
     piece_put(l, p, e)->length = fmax(length - *taken - room, 0);
-    if (corner.turn != 0) corner_put(l, m->points + 2 * (k + 1), e, room, &corner);
+    if (corner.turn != 0) {
+        const double *point = m->points + 2 * (k + 1), begin[2] = {point[0] - room * e[0], point[1] - room * e[1]};
+        struct line_piece *w = piece_put(l, begin, e);
+        w->turn = corner.turn;
+        w->length = corner.length;
+        w->x = corner.x;
+        w->y = corner.y;
+    }
     *taken = room;
     return true;
 }

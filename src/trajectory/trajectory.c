@@ -409,19 +409,6 @@ static void whole_start(struct trajectory *tr)
         tr->state->path.at(&tr->state->path, 1, &zero, &(struct path_out){.e = {&tr->e[0], &tr->e[1]}});
 }
 
-static void whole_box(struct trajectory *tr)
-{
-    double range[2];
-    for (int xy = 0; xy < 2; xy++) {
-        double a = tr->from[xy] + tr->reach[0] * tr->e[xy], b = tr->from[xy] + tr->reach[1] * tr->e[xy];
-        range[0] = fmin(a, b);
-        range[1] = fmax(a, b);
-        if (!tr->straight) series_range(&(struct scan){xy ? scan_y : scan_x, tr}, 0, tr->duration, tr->detail, range);
-        tr->box[0][xy] = range[0];
-        tr->box[1][xy] = range[1];
-    }
-}
-
 static void whole(struct making *w)
 {
     struct trajectory *tr = w->tr;
@@ -437,7 +424,14 @@ static void whole(struct making *w)
     tr->lap = w->m->path == PATH_CIRCLE ? 2 * REAL_PI * w->m->radius : HUGE_VAL;
     tr->detail = detail_of(w);
     if (!tr->straight) whole_start(tr);
-    whole_box(tr);
+    for (int xy = 0; xy < 2; xy++) {
+        double a = tr->from[xy] + tr->reach[0] * tr->e[xy], b = tr->from[xy] + tr->reach[1] * tr->e[xy];
+        range[0] = fmin(a, b);
+        range[1] = fmax(a, b);
+        if (!tr->straight) series_range(&(struct scan){xy ? scan_y : scan_x, tr}, 0, tr->duration, tr->detail, range);
+        tr->box[0][xy] = range[0];
+        tr->box[1][xy] = range[1];
+    }
     tr->top_speed = law->top;
     if (w->s->timed) {
         series_range(&(struct scan){scan_du, tr}, 0, tr->duration, tr->detail, range);
