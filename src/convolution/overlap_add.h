@@ -31,7 +31,8 @@ struct overlap_add *overlap_add_open(const struct overlap_add_source *source);
 void overlap_add_close(struct overlap_add *o);
 
 /* Adds to y[frames] the sound of the next `frames` frames. f points at the force of the first of them; f[0 .. frames +
-   OVERLAP_ADD_BLOCK - 2] must be there (zeros after the end). The result does not depend on how the sound is cut into calls. */
+   OVERLAP_ADD_BLOCK - 2] must be there (zeros after the end). The result does not depend on how the sound is cut into
+   calls. */
 void overlap_add_run(struct overlap_add *o, const double *f, double *y, long frames);
 
 /* ------------------------------------------------------------------ a response that moves */

@@ -174,7 +174,7 @@ static void slope_cell(struct path_integral *s, const struct cells *p, int i)
     if (s->rising) s->height = slope_rise(s, p, i, a);
     s->slope = b * p->heading[i];
     if (s->cells.curved) {
-        /* what T varies by within a cell that turns goes partly to the side: T is taken along e half way, and e turns */
+        /* What T varies by within a cell that turns goes partly to the side: T is taken along e half way, e turns. */
         double turn = p->heading[i] * slope_turn(p, i);
         s->slope -= turn * p->moment[1][i];
         s->across += turn * p->moment[0][i];

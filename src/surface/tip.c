@@ -292,9 +292,9 @@ static double tip_work(const struct contact *c, const struct scene *s)
                                                     : 1;
     double length = motion_speed(m) / fmax(times, 1) / s->output.sample_rate; /* m of new surface per audio sample */
     double dense = s->accuracy.tip_heights, patch = c->scraper.patch;
-    double metre = patch == 0                      ? 2e2 * dense / likely_pitch(c)
+    double metre = patch == 0                       ? 2e2 * dense / likely_pitch(c)
                    : relief_along(c) == ALONG_PLANE ? plane_metre(c, dense)
-                                                   : 8e2 * dense / (patch / PATCH_POINTS);
+                                                    : 8e2 * dense / (patch / PATCH_POINTS);
     return length > 0 ? length * metre : 0;
 }
 
