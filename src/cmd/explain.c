@@ -137,7 +137,7 @@ static json_t *key_value(const struct key *k, struct arena *a)
 {
     const char *range = keys_text_range(k, a), *when = keys_text_applies(k, a),
                *all = arena_format(a, "%c%s.", toupper((unsigned char)k->meaning[0]), k->meaning + 1);
-    if (!k->choices) all = arena_format(a, "%s Type: %s.", all, keys_text_type(k));
+    if (!k->choices) all = arena_format(a, "%s Type: %s.", all, keys_text_type(k, a));
     if (range) all = arena_format(a, "%s Range: %s.", all, range);
     if (!k->standard || *k->standard)
         all = arena_format(a, "%s Default: %s.", all, k->standard ? k->standard : "none, it must be given");
@@ -469,7 +469,7 @@ static void explain_json(json_t *schema, const char *word, const char **names, s
         if (n && (strncmp(k->path, path, n) != 0 || (k->path[n] && k->path[n] != '.'))) continue;
         bool range = keys_text_range(k, a);
         report_set(&r, ":{ path:s meaning:s type:s unit:e low:n high:n must_be_given:b default:e only:e words:0",
-                   k->path, k->meaning, k->type == KEY_CHOICE ? "word" : keys_text_type(k),
+                   k->path, k->meaning, k->type == KEY_CHOICE ? "word" : keys_text_type(k, a),
                    keys_text_unit(k->dimension), range ? k->low : NAN, range ? k->high : NAN, !k->standard, k->standard,
                    keys_text_applies(k, a));
         if (k->choices) report_set(&r, "words:[");

@@ -165,34 +165,14 @@ struct force_table {
     struct roll_rows ball;
 };
 
-static int column_find(const char *name)
-{
-    const struct params *whose;
-    const struct params_column *c;
-    for (int k = 0; (c = params_column(k, &whose)); k++)
-        if (strcmp(c->name, name) == 0) return k;
-    return -1;
-}
-
-static bool column_exists(const struct contact *c, int k)
-{
-    const struct params *whose;
-    const bool exists[] = {
-#define COLUMN(id, name, exists, needs, meaning) exists,
-#include "scene/columns.def"
-#undef COLUMN
-    };
-    return k < COLUMNS ? exists[k] : params_column(k, &whose) && params_given(c, whose);
-}
-
 /* Does the scene ask for any column from `first` to `last`? */
 static bool column_asked(const struct contact *c, const struct scene *s, int first, int last)
 {
     const char **names = s->output.diagnostics.columns;
     for (int k = first; k <= last; k++) {
-        if (!names && column_exists(c, k)) return true;
+        if (!names && !*params_column_lacks(c, k)) return true;
         for (int i = 0; names && names[i]; i++)
-            if (column_find(names[i]) == k) return true;
+            if (params_column_find(names[i]) == k) return true;
     }
     return false;
 }
@@ -205,7 +185,8 @@ static unsigned force_table_asks(const struct contact *c, const struct scene *s)
         items |= ITEM_BIT(ITEM_LOAD);
     for (int k = 0; k < COLUMNS; k++)
         if (roll_rows_reads(c, (enum column)k) && column_asked(c, s, k, k)) items |= ITEM_BIT(ITEM_ROLL);
-    if (load_varies(c) && column_asked(c, s, ALPHA, ALPHA) && column_exists(c, ALPHA)) items |= ITEM_BIT(ITEM_ALPHA);
+    if (load_varies(c) && column_asked(c, s, ALPHA, ALPHA) && !*params_column_lacks(c, ALPHA))
+        items |= ITEM_BIT(ITEM_ALPHA);
     if (column_asked(c, s, MEAN, PEAK)) items |= ITEM_BIT(ITEM_FORCE);
     const struct params *whose;
     for (int k = COLUMNS; params_column(k, &whose); k++)
@@ -232,14 +213,14 @@ static bool columns_choose(struct force_table *t, const struct stage_run *r, str
     const char **names = r->scene->output.diagnostics.columns;
     const struct params *whose;
     while (t->n < MOST && (t->of[t->n] = params_column(t->n, &whose))) {
-        t->wanted[t->n] = !names && column_exists(r->contact, t->n);
+        t->wanted[t->n] = !names && !*params_column_lacks(r->contact, t->n);
         for (int i = 0; whose && i < r->board->n_stages; i++)
             if (r->board->stages[i].stage->params == whose) t->by[t->n] = &r->board->stages[i];
         t->n++;
     }
     for (int i = 0; names && names[i]; i++) {
-        int k = column_find(names[i]);
-        if (k < 0 || !column_exists(r->contact, k))
+        int k = params_column_find(names[i]);
+        if (k < 0 || *params_column_lacks(r->contact, k))
             return err_set(e, ERR_SCENE, "output.diagnostics.columns: contact '%s' has no column '%s'; take it out",
                            r->contact->name, names[i]);
         t->wanted[k] = true;

@@ -169,26 +169,9 @@ static void all_check(const struct scene_part *top)
 
 /* ------------------------------------------------------------------ the table of diagnostics */
 
-/* What a contact lacks for a column; "" if it lacks nothing. */
-static const char *column_needs(const struct contact *c, int column)
-{
-    const char *const lacking[] = {
-#define COLUMN(id, name, exists, needs, meaning) (exists) ? "" : needs,
-#include "scene/columns.def"
-#undef COLUMN
-    };
-    const struct params *whose;
-    params_column(column, &whose);
-    return !whose ? lacking[column] : params_given(c, whose) ? "" : whose->section;
-}
-
 static int column_find(const struct yaml_node *item)
 {
-    const struct params *whose;
-    const struct params_column *c;
-    for (int k = 0; item->kind == YAML_SCALAR && (c = params_column(k, &whose)); k++)
-        if (strcmp(c->name, item->text) == 0) return k;
-    return -1;
+    return item->kind == YAML_SCALAR ? params_column_find(item->text) : -1;
 }
 
 static const struct yaml_node *column_first(struct yaml_node *root)
@@ -221,7 +204,7 @@ static void columns_check(const struct scene_part *p, struct yaml_node *root, co
     const struct contact *c = p->to;
     for (const struct yaml_node *item = column_first(root); item && s->output.diagnostics.given; item = item->next) {
         int k = column_find(item);
-        const char *needs = k < 0 ? "" : column_needs(c, k);
+        const char *needs = k < 0 ? "" : params_column_lacks(c, k);
         if (*needs)
             diag_add(p->yaml->diag, item->at, "leave the column out, or give what it needs",
                      "output.diagnostics.columns: %s has no %s: it needs %s", scene_part_contact(p, c->name),

@@ -26,40 +26,16 @@ const struct keys_text_frame keys_text_frames[] = {
     {NULL, NULL, NULL},
 };
 
-static const struct {
-    const char *unit, *type;
-} dimensions[] = {
-    [KEY_NONE] = {"", "number"},
-    [KEY_LENGTH] = {"m", "length (a bare number is in m)"},
-    [KEY_TIME] = {"s", "time (a bare number is in s)"},
-    [KEY_FREQUENCY] = {"Hz", "frequency (a bare number is in Hz)"},
-    [KEY_MASS] = {"kg", "mass (a bare number is in kg)"},
-    [KEY_FORCE] = {"N", "force (a bare number is in N)"},
-    [KEY_SPEED] = {"m/s", "speed (a bare number is in m/s)"},
-    [KEY_ACCELERATION] = {"m/s^2", "acceleration (a bare number is in m/s^2)"},
-    [KEY_ANGLE] = {"rad", "angle (a bare number is in rad)"},
-    [KEY_PER_AREA] = {"/m^2", "number per area (a bare number is per m^2)"},
-    [KEY_DECIBEL] = {"dB", "level (a bare number is in dB)"},
-    [KEY_LUFS] = {"LUFS", "loudness (a bare number is in LUFS)"},
-    [KEY_FORCE_COEFFICIENT] = {"N (s/m)^beta2", "force coefficient (a bare number is in N (s/m)^beta2)"},
-    [KEY_OUTPUT] = {"", "length, speed, acceleration, pressure or force, as it is heard (a bare number is SI)"},
-    [KEY_PRESSURE] = {"Pa", "pressure or modulus (a bare number is in Pa)"},
-    [KEY_DENSITY] = {"kg/m^3", "density (a bare number is in kg/m^3)"},
-    [KEY_FORCE_PER_LENGTH] = {"N/m", "force per length (a bare number is in N/m)"},
-    [KEY_PER_TIME] = {"1/s", "rate (a bare number is per second)"},
-    [KEY_STIFFNESS] = {"", "stiffness (a bare number is SI: N/m, or N/m^1.5)"},
-    [KEY_STIFFNESS_PER_MASS] = {"N/(m^1.5 kg)", "stiffness per mass (a bare number is in N/(m^1.5 kg))"},
-    [KEY_PER_SPEED] = {"s/m", "number per speed (a bare number is in s/m)"},
-    [KEY_DISSIPATION] = {"N s/m^2.5", "dissipation (a bare number is in N s/m^2.5)"},
-};
+const char *keys_text_unit(enum key_dimension d)
+{
+    return d == KEY_STIFFNESS ? "" : d == KEY_FORCE_COEFFICIENT ? "N (s/m)^beta2" : units_si(d);
+}
 
-const char *keys_text_unit(enum key_dimension d) { return dimensions[d].unit; }
-
-const char *keys_text_type(const struct key *k)
+const char *keys_text_type(const struct key *k, struct arena *a)
 {
     switch (k->type) {
     case KEY_NUMBER:
-        return dimensions[k->dimension].type;
+        return units_type(k->dimension, a);
     case KEY_WHOLE:
         return "frequency, a whole number of Hz";
     case KEY_TIME_OR_AUTO:
@@ -185,18 +161,13 @@ const char **keys_text_names(struct arena *a)
     return names.all;
 }
 
-static bool is_known(const char *path)
-{
-    for (const struct key *k = keys_table; k->path; k++)
-        if (k->of == KEY_CONTACT && within(k->path, path)) return true;
-    return false;
-}
-
 const char *keys_text_plain(const char *path)
 {
     if (strncmp(path, "contacts.", 9) != 0) return path;
     const char *rest = path + 9, *dot = strchr(rest, '.');
-    return is_known(rest) || !dot ? rest : dot + 1;
+    for (const struct key *k = keys_table; k->path; k++)
+        if (k->of == KEY_CONTACT && within(k->path, rest)) return rest;
+    return dot ? dot + 1 : rest;
 }
 
 /* ------------------------------------------------------------------ `rasp explain KEY` */
@@ -210,15 +181,6 @@ static void print_fact(FILE *f, const char *name, const char *text)
     text_wrap(f, text, 12, MARGIN);
 }
 
-static void print_words(FILE *f, const struct choice *choices)
-{
-    fputs("  words\n", f);
-    for (const struct choice *c = choices; c->word; c++) {
-        int n = fprintf(f, "    %-16s", c->word);
-        text_wrap(f, c->meaning, n, "                    ");
-    }
-}
-
 static void print_choose(FILE *f, const char *path, struct arena *a)
 {
     for (const struct key_alternative *t = keys_alternatives; t->paths[0]; t++)
@@ -230,14 +192,18 @@ void keys_text_print_key(FILE *f, const struct key *k, struct arena *a)
 {
     int n = fprintf(f, "%s: ", k->path);
     text_wrap(f, k->meaning, n, MARGIN);
-    print_fact(f, "type", keys_text_type(k));
+    print_fact(f, "type", keys_text_type(k, a));
     print_fact(f, "range", keys_text_range(k, a));
     print_fact(f, "default", keys_text_default(k));
     print_fact(f, "applies", keys_text_applies(k, a));
     print_choose(f, k->path, a);
     print_fact(f, "belongs",
                k->of == KEY_SCENE ? "to the scene" : "to a contact: at the top level, or in each entry of contacts");
-    if (k->choices) print_words(f, k->choices);
+    if (k->choices) fputs("  words\n", f);
+    for (const struct choice *c = k->choices; c && c->word; c++) {
+        int wide = fprintf(f, "    %-16s", c->word);
+        text_wrap(f, c->meaning, wide, "                    ");
+    }
 }
 
 static const char *map_meaning(const char *path)
@@ -371,7 +337,7 @@ static void put_key(FILE *f, const struct key *k, struct arena *a)
     if (keys_same_words(k))
         put_sentence(f, arena_format(a, "Type: one of the words of %s", keys_same_words(k)->path));
     else
-        put_sentence(f, arena_format(a, "Type: %s", keys_text_type(k)));
+        put_sentence(f, arena_format(a, "Type: %s", keys_text_type(k, a)));
     if (range) put_sentence(f, arena_format(a, "Range: %s", range));
     put_sentence(f, arena_format(a, "Default: %s", k->standard ? keys_text_default(k) : "none, it must be given"));
     if (when) put_opening(f, arena_format(a, "only %s", when), a);
@@ -379,34 +345,19 @@ static void put_key(FILE *f, const struct key *k, struct arena *a)
     if (k->choices && !keys_same_words(k)) put_words(f, k->choices);
 }
 
-static void put_section(FILE *f, const struct key_section *s, struct arena *a)
-{
-    fprintf(f, ".It Ic %s\n", s->path);
-    put_opening(f, arena_format(a, "Section: %s", s->meaning), a);
-    put_rivals(f, s->path, a);
-}
-
-/* Does the section's item stand before this key: is the key the section's first? */
-static bool opens_section(const struct key *k, const struct key_section *s)
-{
-    size_t n = strlen(s->path);
-    if (strncmp(k->path, s->path, n) != 0 || k->path[n] != '.') return false;
-    return k == keys_table || strncmp(k[-1].path, s->path, n) != 0 || k[-1].path[n] != '.';
-}
-
-static bool same_group(const struct key *k, const char *map)
-{
-    size_t n = strcspn(k->path, ".");
-    return k->path[n] ? strlen(map) == n && !strncmp(k->path, map, n) : !*map;
-}
-
 static void put_group(FILE *f, const char *map, struct arena *a)
 {
     fprintf(f, ".Ss %s\n.Bl -tag -width Ds\n", *map ? map : "The scene itself");
     for (const struct key *k = keys_table; k->path; k++) {
-        if (!same_group(k, map)) continue;
-        for (const struct key_section *s = keys_sections; s->path; s++)
-            if (opens_section(k, s)) put_section(f, s, a);
+        size_t top = strcspn(k->path, ".");
+        if (k->path[top] ? strlen(map) != top || strncmp(k->path, map, top) != 0 : *map) continue;
+        for (const struct key_section *s = keys_sections; s->path; s++) {
+            bool first = within(k->path, s->path) && (k == keys_table || !within(k[-1].path, s->path));
+            if (!first) continue;
+            fprintf(f, ".It Ic %s\n", s->path);
+            put_opening(f, arena_format(a, "Section: %s", s->meaning), a);
+            put_rivals(f, s->path, a);
+        }
         put_key(f, k, a);
     }
     for (const struct keys_text_frame *p = keys_text_frames; !*map && p->path; p++) {

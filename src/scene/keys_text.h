@@ -14,7 +14,7 @@ struct keys_text_frame {
 extern const struct keys_text_frame keys_text_frames[];
 
 const char *keys_text_unit(enum key_dimension d);                    /* SI unit; "": none                        */
-const char *keys_text_type(const struct key *k);                     /* "length (a bare number is in m)"          */
+const char *keys_text_type(const struct key *k, struct arena *a);    /* "length (a bare number is in m)"          */
 const char *keys_text_range(const struct key *k, struct arena *a);   /* "1 nm to 1 cm"; NULL: no range           */
 const char *keys_text_default(const struct key *k);                  /* "4 um", "must be given", "not given"     */
 const char *keys_text_applies(const struct key *k, struct arena *a); /* "where motion.path is line"; NULL: always */

@@ -97,6 +97,27 @@ const struct params_column *params_column(int k, const struct params **whose)
     return NULL;
 }
 
+int params_column_find(const char *name)
+{
+    const struct params *whose;
+    const struct params_column *c;
+    for (int k = 0; (c = params_column(k, &whose)); k++)
+        if (strcmp(c->name, name) == 0) return k;
+    return -1;
+}
+
+const char *params_column_lacks(const struct contact *c, int k)
+{
+    const struct params *whose;
+    const char *const lacking[] = {
+#define COLUMN(id, name, exists, needs, meaning) (exists) ? "" : needs,
+#include "scene/columns.def"
+#undef COLUMN
+    };
+    params_column(k, &whose);
+    return !whose ? lacking[k] : params_given(c, whose) ? "" : whose->section;
+}
+
 /* ------------------------------------------------------------------ parts of the surface */
 
 /* The next that is given from number *i on; NULL: there are no more. */

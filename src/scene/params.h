@@ -97,4 +97,10 @@ void params_check(const struct scene_part *p, const struct contact *c);
  * effects; NULL: there are no more. */
 const struct params_column *params_column(int k, const struct params **whose);
 
+/* The number of the one of that name; -1: there is none. */
+int params_column_find(const char *name);
+
+/* What a contact lacks for that column; "": it has it. */
+const char *params_column_lacks(const struct contact *c, int k);
+
 #endif

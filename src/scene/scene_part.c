@@ -306,8 +306,8 @@ static const struct yaml_node *innermost(const struct scene_part *p, const char 
     return at;
 }
 
-/* "rate: 2 Hz", or "motion: {rate: 2 Hz}" where there is no motion yet. */
-static const char *line_for(const struct scene_part *p, const char *rest, const char *value)
+/* "add for instance: rate: 2 Hz", or "motion: {rate: 2 Hz}" where there is no motion yet. */
+static const char *add_cure(const struct scene_part *p, const char *rest, const char *value)
 {
     const char *line = value;
     char path[128];
@@ -316,12 +316,7 @@ static const char *line_for(const struct scene_part *p, const char *rest, const 
         line = arena_format(p->yaml->arena, "{%s: %s}", dot + 1, line);
         *dot = '\0';
     }
-    return arena_format(p->yaml->arena, "%s: %s", path, line);
-}
-
-static const char *add_cure(const struct scene_part *p, const char *rest, const char *value)
-{
-    return arena_format(p->yaml->arena, "add for instance: %s", line_for(p, rest, value));
+    return arena_format(p->yaml->arena, "add for instance: %s: %s", path, line);
 }
 
 static const char *example_of(const struct scene_part *p, const char *path)
@@ -344,15 +339,6 @@ static void missing(const struct scene_part *p, const char *path)
     scene_part_missing(p, path, example_of(p, path), "");
 }
 
-static bool in_absent_section(const struct scene_part *p, const char *path)
-{
-    for (const struct key_section *s = keys_sections; s->path; s++) {
-        size_t n = strlen(s->path);
-        if (strncmp(path, s->path, n) == 0 && path[n] == '.' && !yaml_find(p->map, s->path)) return true;
-    }
-    return false;
-}
-
 /* ------------------------------------------------------------------ keys */
 
 static void key_fill(const struct scene_part *p, const struct key *k)
@@ -366,19 +352,15 @@ static void key_fill(const struct scene_part *p, const struct key *k)
         scene_values_read(p, k, node);
     else if (a == APPLIES_YES && k->standard)
         scene_values_default(p, k);
-    else if (a == APPLIES_YES && !in_absent_section(p, k->path))
-        missing(p, k->path);
+    else if (a == APPLIES_YES) {
+        bool absent = false; /* is a section that it is in? */
+        for (const struct key_section *s = keys_sections; s->path; s++)
+            absent = absent || (under(k->path, s->path) && !yaml_find(p->map, s->path));
+        if (!absent) missing(p, k->path);
+    }
 }
 
 /* ------------------------------------------------------------------ alternatives */
-
-static enum key_struct owner_of(const char *path)
-{
-    const struct key *k = keys_find(path);
-    for (const struct key_section *s = keys_sections; !k && s->path; s++)
-        if (strcmp(s->path, path) == 0) return s->of;
-    return k ? k->of : KEY_CONTACT;
-}
 
 static void both_given(const struct scene_part *p, const struct yaml_node *const nodes[2], const char *const names[2])
 {
@@ -444,6 +426,11 @@ void scene_part_fill(const struct scene_part *p)
         if (k->of == p->of) key_fill(p, k);
     for (const struct key_section *s = keys_sections; s->path; s++)
         if (s->of == p->of) *keys_given(s, p->to) = yaml_find(p->map, s->path) != NULL;
-    for (const struct key_alternative *x = keys_alternatives; x->paths[0]; x++)
-        if (owner_of(x->paths[0]) == p->of) alternative_check(p, x);
+    for (const struct key_alternative *x = keys_alternatives; x->paths[0]; x++) {
+        const struct key *k = keys_find(x->paths[0]);
+        bool mine = k && k->of == p->of;
+        for (const struct key_section *s = keys_sections; !k && s->path; s++)
+            mine = mine || (strcmp(s->path, x->paths[0]) == 0 && s->of == p->of);
+        if (mine) alternative_check(p, x);
+    }
 }

@@ -41,6 +41,18 @@ static const struct {
     [KEY_DISSIPATION] = {"a dissipation of a Hunt-Crossley contact", "0.1 N s/m^2.5", {"N s/m^2.5"}},
 };
 
+/* What `rasp explain` says where it is not "length (a bare number is in m)". */
+static const char *const types[] = {
+    [KEY_NONE] = "number",
+    [KEY_PER_AREA] = "number per area (a bare number is per m^2)",
+    [KEY_DECIBEL] = "level (a bare number is in dB)",
+    [KEY_FORCE_COEFFICIENT] = "force coefficient (a bare number is in N (s/m)^beta2)",
+    [KEY_OUTPUT] = "length, speed, acceleration, pressure or force, as it is heard (a bare number is SI)",
+    [KEY_PER_TIME] = "rate (a bare number is per second)",
+    [KEY_STIFFNESS] = "stiffness (a bare number is SI: N/m, or N/m^1.5)",
+    [KEY_DISSIPATION] = "dissipation (a bare number is in N s/m^2.5)",
+};
+
 static const struct units_unit units[] = {
     {"m", KEY_LENGTH, 0, "numckMG"},
     {"s", KEY_TIME, 0, "numkMG"},
@@ -156,6 +168,14 @@ const char *units_pattern(enum key_dimension d, struct arena *a)
 }
 
 /* ------------------------------------------------------------------ reading */
+
+const char *units_si(enum key_dimension d) { return dimensions[d].common[0]; }
+
+const char *units_type(enum key_dimension d, struct arena *a)
+{
+    const char *name = dimensions[d].name, *type = types[d];
+    return type ? type : arena_format(a, "%s (a bare number is in %s)", strchr(name, ' ') + 1, units_si(d));
+}
 
 const char *units_name(enum key_dimension d) { return dimensions[d].name; }
 

@@ -24,6 +24,10 @@ bool units_read(const char *text, enum key_dimension d, double *x, struct arena 
 const char *units_name(enum key_dimension d);
 const char *units_example(enum key_dimension d);
 
+/* "frequency (a bare number is in Hz)"; "Hz". */
+const char *units_type(enum key_dimension d, struct arena *a);
+const char *units_si(enum key_dimension d);
+
 /* A value as a person would write it, such as 20 g, 1 nm or 50 us; reads back as the same double. */
 const char *units_text(double x, enum key_dimension d, struct arena *a);
 
