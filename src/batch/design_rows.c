@@ -114,12 +114,12 @@ static void cells_list(struct design_reading *r, const struct yaml_node *list, s
         int *level = entry_levels(r, entry, own);
         for (int f = 0; f < r->design->n_factors; f++) {
             const struct design_factor *factor = &r->design->factors[f];
-            const struct yaml_node *said = yaml_get(entry, factor->name);
-            if (!said)
+            const struct yaml_node *given = yaml_get(entry, factor->name);
+            if (!given)
                 diag_add(r->yaml->diag, entry->at, "name a level of every factor", "this cell says nothing of %s",
                          factor->name);
             else if (level[f] >= 0 && factor->levels[level[f]].recorded)
-                diag_add(r->yaml->diag, said->at, "list a recording under recordings:, or leave of: out of the level",
+                diag_add(r->yaml->diag, given->at, "list a recording under recordings:, or leave of: out of the level",
                          "'%s' of %s is a level that only recordings have",
                          diag_shown(r->yaml->diag, factor->levels[level[f]].label), factor->name);
         }

@@ -241,25 +241,22 @@ static int by_audio(const void *a, const void *b)
     return hashes ? hashes : (p->row > q->row) - (p->row < q->row);
 }
 
-static void compare(struct search *s, const struct sound *first, const struct sound *other)
-{
-    bool differ = false;
-    for (int k = 0; k < s->design->n_factors; k++)
-        if (strcmp(design_value(s->design, first->row, k), design_value(s->design, other->row, k)) != 0)
-            differ = s->factors[k] = true;
-    if (differ && (!s->found++ || first->row < s->pair[0]->row)) s->pair[0] = first, s->pair[1] = other;
-    if (!differ && (!s->replicates[0] || first->row < s->replicates[0]->row))
-        s->replicates[0] = first, s->replicates[1] = other;
-}
-
 static const char *find_no_effect(struct search *s, struct arena *a)
 {
     if (s->n) qsort(s->sounds, (size_t)s->n, sizeof *s->sounds, by_audio);
     for (int i = 1, first = 0; i < s->n; i++) {
-        if (strcmp(s->sounds[first].audio, s->sounds[i].audio) != 0)
+        const struct sound *one = &s->sounds[first], *other = &s->sounds[i];
+        bool differ = false;
+        if (strcmp(one->audio, other->audio) != 0) {
             first = i;
-        else
-            compare(s, &s->sounds[first], &s->sounds[i]);
+            continue;
+        }
+        for (int k = 0; k < s->design->n_factors; k++)
+            if (strcmp(design_value(s->design, one->row, k), design_value(s->design, other->row, k)) != 0)
+                differ = s->factors[k] = true;
+        if (differ && (!s->found++ || one->row < s->pair[0]->row)) s->pair[0] = one, s->pair[1] = other;
+        if (!differ && (!s->replicates[0] || one->row < s->replicates[0]->row))
+            s->replicates[0] = one, s->replicates[1] = other;
     }
     const struct design_stimulus *rows = s->design->stimuli;
     const char *factors = "", *text = "";
@@ -280,18 +277,6 @@ static const char *find_no_effect(struct search *s, struct arena *a)
 
 /* ------------------------------------------------------------------ the side-car */
 
-static json_t *factor_json(const struct design_factor *f)
-{
-    json_t *j = json_pack("{s:s, s:s, s:s*}", "LongName", f->name, "Description",
-                          f->meaning ? f->meaning : "a factor of the design", "Units", f->unit),
-           *levels = json_object();
-    for (int i = 0; i < f->n_levels; i++)
-        json_object_set_new(levels, f->levels[i].value,
-                            json_string(f->levels[i].text ? f->levels[i].text : f->levels[i].label));
-    json_object_set_new(j, "Levels", levels);
-    return j;
-}
-
 /* A BIDS data dictionary. */
 static json_t *dictionary(const struct design *d)
 {
@@ -301,8 +286,16 @@ static json_t *dictionary(const struct design *d)
             json_object_set_new(
                 j, c->name,
                 json_pack("{s:s, s:s, s:s*}", "LongName", c->title, "Description", c->meaning, "Units", c->unit));
-        for (int k = 0; !strcmp(c->name, "*") && k < d->n_factors; k++)
-            json_object_set_new(j, d->factors[k].column, factor_json(&d->factors[k]));
+        for (int k = 0; !strcmp(c->name, "*") && k < d->n_factors; k++) {
+            const struct design_factor *f = &d->factors[k];
+            json_t *levels = json_object();
+            for (const struct design_level *l = f->levels; l < f->levels + f->n_levels; l++)
+                json_object_set_new(levels, l->value, json_string(l->text ? l->text : l->label));
+            json_object_set_new(j, f->column,
+                                json_pack("{s:s, s:s, s:s*, s:o}", "LongName", f->name, "Description",
+                                          f->meaning ? f->meaning : "a factor of the design", "Units", f->unit,
+                                          "Levels", levels));
+        }
     }
     return j;
 }

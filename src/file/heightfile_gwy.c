@@ -71,18 +71,6 @@ static bool gwy_object(const struct gwy *g, struct gwy_part *p, const char **nam
     return true;
 }
 
-/* Passes over `count` texts or objects. */
-static bool gwy_pass(const struct gwy *g, struct gwy_part *p, const struct gwy_item *t)
-{
-    const char *name;
-    struct gwy_part inside;
-    bool text = t->type == 's' || t->type == 'S';
-    for (size_t i = 0; i < t->count; i++)
-        if (text ? !gwy_text(p) && !gwy_bad(g, p->at, "a text has no end") : !gwy_object(g, p, &name, &inside))
-            return false;
-    return true;
-}
-
 static bool gwy_item(const struct gwy *g, struct gwy_part *p, struct gwy_item *t)
 {
     const char *from = p->at;
@@ -100,7 +88,13 @@ static bool gwy_item(const struct gwy *g, struct gwy_part *p, struct gwy_item *t
     }
     /* 0: texts and objects, whose size their contents say */
     size_t size = strchr("bcC", t->type) ? 1 : strchr("iI", t->type) ? 4 : strchr("qQdD", t->type) ? 8 : 0;
-    if (size == 0 && !gwy_pass(g, p, t)) return false;
+    for (size_t i = 0; size == 0 && i < t->count; i++) { /* passes over texts, or objects */
+        const char *name;
+        struct gwy_part inside;
+        bool text = t->type == 's' || t->type == 'S';
+        if (text ? !gwy_text(p) && !gwy_bad(g, p->at, "a text has no end") : !gwy_object(g, p, &name, &inside))
+            return false;
+    }
     if ((size_t)(p->end - p->at) / (size ? size : 1) < (size ? t->count : 0))
         return gwy_bad(g, p->at, "a component is larger than its object: the file is cut short or damaged");
     p->at += size * t->count;
