@@ -353,20 +353,6 @@ static void along(struct cmd_call *c, const struct modes_ground *g, const double
         line(p, ends, n, c->arena);
 }
 
-static void standard(struct cmd_call *c, const struct modes_ground *g, struct modes_places *p)
-{
-    double middle = 0.5 * (g->low[1] + g->high[1]);
-    struct layout l = {.ground = g};
-    if (g->standard[0] == 1)
-        line(p, (double[4]){g->at[0], g->at[1], g->at[0], g->at[1]}, 1, c->arena);
-    else if (g->standard[1] == 1)
-        along(c, g, (double[4]){g->low[0], middle, g->high[0], middle}, g->standard[0], p);
-    else if (g->fit)
-        choose(g->fit, is_round(g, l.round) ? lay_rings : lay_grid, &l, false, p);
-    else
-        grid(p, g, g->standard, c->arena);
-}
-
 static bool read(struct cmd_call *c, double ends[4], long *places, int n[2], struct err *e)
 {
     static const long counts[2] = {2, PLACES};
@@ -443,8 +429,16 @@ bool modes_places(struct cmd_call *c, const struct modes_ground *g, struct modes
         line(p, ends, (int)places, c->arena);
     else if (args_given(&c->args, "line"))
         along(c, g, ends, (int)places, p);
-    else
-        standard(c, g, p);
+    else if (g->standard[0] == 1)
+        line(p, (double[4]){g->at[0], g->at[1], g->at[0], g->at[1]}, 1, c->arena);
+    else if (g->standard[1] == 1) {
+        double middle = 0.5 * (g->low[1] + g->high[1]);
+        along(c, g, (double[4]){g->low[0], middle, g->high[0], middle}, g->standard[0], p);
+    } else if (g->fit) {
+        struct layout l = {.ground = g};
+        choose(g->fit, is_round(g, l.round) ? lay_rings : lay_grid, &l, false, p);
+    } else
+        grid(p, g, g->standard, c->arena);
     int bad;
     return all_on(g, p, e) && modes_places_distinct(p, c->arena, &bad, e);
 }

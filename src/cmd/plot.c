@@ -619,29 +619,6 @@ static bool plot_spares(const struct plot_page *p, const char *target, struct er
     return true;
 }
 
-static int gallery_run(struct cmd_call *c, struct err *e)
-{
-    const char *panels = args_value(&c->args, "panels");
-    int svg = 0;
-    struct plot_gallery g = {.source = c->args.operands[0],
-                             .output = args_value(&c->args, "output"),
-                             .title = args_value(&c->args, "title"),
-                             .arena = c->arena,
-                             .call = c,
-                             .force = args_given(&c->args, "force")};
-    static const char *const others[] = {"from", "to", "channel"};
-    for (int k = 0; k < 3; k++)
-        if (args_given(&c->args, others[k]))
-            return err_set(e, ERR_USAGE, "--%s: not of a gallery, which shows whole sounds", others[k]), (int)e->kind;
-    if (!cmd_either(c, "format", formats, &svg, e)) return (int)e->kind;
-    g.svg = svg;
-    if (g.output && !text_ends(g.output, ".html"))
-        err_set(e, ERR_USAGE, "--output %s: a gallery is a page of HTML, its name must end in .html", g.output);
-    else if (plot_panels_read(panels ? panels : "waveform,spectrogram", &g.asked, c->arena, e))
-        plot_gallery(&g, e);
-    return (int)e->kind;
-}
-
 static int plot_run(struct cmd_call *c, struct err *e)
 {
     struct plot_page p = {.file = c->args.operands[0],
@@ -652,7 +629,7 @@ static int plot_run(struct cmd_call *c, struct err *e)
                           .call = c};
     const double range[2] = {0, 1e9};
     long channel = 1;
-    if (args_given(&c->args, "gallery")) return gallery_run(c, e);
+    if (args_given(&c->args, "gallery")) return plot_gallery_run(c, e);
     if (!text_ends(p.file, ".wav") && !text_ends(p.file, ".csv") && !text_ends(p.file, ".npy"))
         return err_set(e, ERR_USAGE,
                        "%s: neither a sound (.wav) nor a table of diagnostics (.csv, .npy) or modes (.csv); of a "

@@ -124,14 +124,7 @@ struct plot_place {
 };
 void plot_draw(void *page, struct gnuplot *g);
 
-/* plot_gallery.c: a page of HTML for a folder or manifest. */
-struct plot_gallery {
-    const char *source, *output, *title; /* NULL: default */
-    unsigned asked;
-    bool svg, force;
-    struct cmd_call *call;
-    struct arena *arena;
-};
-bool plot_gallery(const struct plot_gallery *g, struct err *e);
+/* plot_gallery.c: rasp plot --gallery, a page of HTML for a folder or manifest. */
+int plot_gallery_run(struct cmd_call *c, struct err *e);
 
 #endif

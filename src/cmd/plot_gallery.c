@@ -30,7 +30,11 @@ struct item {
 };
 
 struct page {
-    const struct plot_gallery *of;
+    const char *source, *title; /* title NULL: the folder's name */
+    unsigned asked;
+    int svg;
+    bool force;
+    struct cmd_call *call;
     struct arena *arena;
     const char *folder;         /* of the sounds: "" or "out/"                  */
     const char *output, *files; /* the page, and the folder of its pictures     */
@@ -80,7 +84,7 @@ static int is_sound(const struct dirent *entry) { return entry->d_name[0] != '.'
 /* The operand: a manifest, or a folder with or without one. */
 static bool gather(struct page *g, struct err *e)
 {
-    const char *source = g->of->source, *slash = strrchr(source, '/');
+    const char *source = g->source, *slash = strrchr(source, '/');
     struct stat st;
     if (text_ends(source, ".csv")) {
         g->folder = arena_format(g->arena, "%.*s", slash ? (int)(slash - source + 1) : 0, source);
@@ -119,17 +123,17 @@ static bool draw_item(struct page *g, struct item *item, struct err *e)
     char *flat = arena_text(g->arena, item->name);
     for (char *p = flat; *p; p++)
         *p = *p == '/' ? '=' : *p; /* which no name of a stimulus holds */
-    const char *target = arena_format(g->arena, "%s/%s.%s", g->files, flat, g->of->svg ? "svg" : "png");
+    const char *target = arena_format(g->arena, "%s/%s.%s", g->files, flat, g->svg ? "svg" : "png");
     struct plot_page p = {.file = item->file,
                           .title = item->name,
                           .from = NAN,
                           .to = NAN,
-                          .svg = g->of->svg,
+                          .svg = g->svg,
                           .channel = 1,
                           .arena = a,
-                          .call = g->of->call,
+                          .call = g->call,
                           .silent = item->kind == SILENT,
-                          .asked = g->of->asked,
+                          .asked = g->asked,
                           .length = NAN};
     if (p.silent) { /* the panels that need no sound; where that leaves none of them, whatever there is */
         int k = column(g, "duration_s");
@@ -140,7 +144,7 @@ static bool draw_item(struct page *g, struct item *item, struct err *e)
     bool ok = plot_data(&p, &why);
     if (!ok)
         item->why = arena_text(g->arena, why.text);
-    else if (mark_permits(target, NULL, g->of->force, e) && gnuplot_write(target, p.svg, plot_draw, &p, e))
+    else if (mark_permits(target, NULL, g->force, e) && gnuplot_write(target, p.svg, plot_draw, &p, e))
         item->picture = target;
     arena_close(a);
     return e->kind == ERR_NONE;
@@ -186,18 +190,6 @@ static const char *link_to(const struct page *g, const char *file)
     return out;
 }
 
-/* Over those that have it. */
-static bool varies(const struct page *g, int k)
-{
-    const char *first = NULL;
-    for (size_t row = 0; row < g->manifest.rows; row++) {
-        const char *here = is_there(cell(g, row, k)) ? cell(g, row, k) : first;
-        if (first && strcmp(here, first) != 0) return true;
-        first = here;
-    }
-    return false;
-}
-
 /* Factors stand between scene_sha256 and text; of the rest what helps to compare. */
 static void put_facts(const struct page *g, const struct item *item, FILE *f)
 {
@@ -212,8 +204,15 @@ static void put_facts(const struct page *g, const struct item *item, FILE *f)
         fprintf(f, "<dt>%s</dt><dd>%s</dd>", html(g, g->manifest.names[k]), html(g, cell(g, item->row, k)));
     for (int i = 0; i < 5; i++) {
         int k = column(g, more[i][0]);
-        double x; /* rounded: the manifest has all digits */
-        if (k < 0 || !(i > 0 || varies(g, k)) || !text_double(cell(g, item->row, k), &x)) continue;
+        double x;            /* rounded: the manifest has all digits */
+        bool varies = i > 0; /* replicates, over those that have one */
+        const char *one = NULL;
+        for (size_t row = 0; k >= 0 && !varies && row < g->manifest.rows; row++) {
+            const char *here = is_there(cell(g, row, k)) ? cell(g, row, k) : one;
+            varies = one && strcmp(here, one) != 0;
+            one = here;
+        }
+        if (k < 0 || !varies || !text_double(cell(g, item->row, k), &x)) continue;
         fprintf(f, "<dt>%s</dt><dd>", more[i][1]);
         fprintf(f, more[i][2], x);
         fputs("</dd>", f);
@@ -259,7 +258,7 @@ static const char *counted(const struct page *g)
 
 static void put_page(const struct page *g, FILE *f)
 {
-    const char *title = g->of->title ? g->of->title
+    const char *title = g->title     ? g->title
                         : *g->folder ? arena_format(g->arena, "%.*s", (int)strlen(g->folder) - 1, g->folder)
                                      : "sounds";
     fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" MARK_PAGE
@@ -283,15 +282,28 @@ static void put_page(const struct page *g, FILE *f)
     fputs("</main>\n</body>\n</html>\n", f);
 }
 
-bool plot_gallery(const struct plot_gallery *of, struct err *e)
+int plot_gallery_run(struct cmd_call *c, struct err *e)
 {
-    struct page g = {.of = of, .arena = of->arena};
+    static const char *const others[] = {"from", "to", "channel"}, *const formats[] = {"png", "svg"};
+    const char *panels = args_value(&c->args, "panels"), *output = args_value(&c->args, "output");
+    struct page g = {.source = c->args.operands[0],
+                     .title = args_value(&c->args, "title"),
+                     .force = args_given(&c->args, "force"),
+                     .call = c,
+                     .arena = c->arena};
     struct outfile o;
     int drawn = 0;
-    if (!gather(&g, e)) return false;
-    g.output = of->output ? of->output : arena_format(of->arena, "%sgallery.html", g.folder);
-    g.files = arena_format(of->arena, "%.*s_files", (int)strlen(g.output) - 5, g.output);
-    if (!mark_permits(g.output, NULL, of->force, e) || !outfile_open(&o, g.output, e)) return false;
+    for (int k = 0; k < 3; k++)
+        if (args_given(&c->args, others[k]))
+            err_set(e, ERR_USAGE, "--%s: not of a gallery, which shows whole sounds", others[k]);
+    if (e->kind || !cmd_either(c, "format", formats, &g.svg, e)) return (int)e->kind;
+    if (output && !text_ends(output, ".html"))
+        err_set(e, ERR_USAGE, "--output %s: a gallery is a page of HTML, its name must end in .html", output);
+    if (e->kind || !plot_panels_read(panels ? panels : "waveform,spectrogram", &g.asked, c->arena, e) || !gather(&g, e))
+        return (int)e->kind;
+    g.output = output ? output : arena_format(c->arena, "%sgallery.html", g.folder);
+    g.files = arena_format(c->arena, "%.*s_files", (int)strlen(g.output) - 5, g.output);
+    if (!mark_permits(g.output, NULL, g.force, e) || !outfile_open(&o, g.output, e)) return (int)e->kind;
     if (draw_all(&g, e)) {
         put_page(&g, o.stream);
         outfile_commit(&o, e);
@@ -301,5 +313,5 @@ bool plot_gallery(const struct plot_gallery *of, struct err *e)
         drawn += g.items[i].picture != NULL;
     if (e->kind == ERR_NONE)
         printf("%s  %s, %d picture%s in %s/\n", g.output, counted(&g), drawn, drawn == 1 ? "" : "s", g.files);
-    return e->kind == ERR_NONE;
+    return (int)e->kind;
 }

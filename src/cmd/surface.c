@@ -500,18 +500,6 @@ static bool read_size(struct synth *s, struct err *e)
                    text, s->pitch);
 }
 
-/* A word of --along, else the scene's, else what the size asks for. */
-static bool read_along(struct synth *s, struct err *e)
-{
-    static const char *const words[] = {"path", "x", "plane", NULL};
-    int own = s->scene.contacts[0].surface.along, word = -1;
-    if (!args_word(&s->c->args, "along", words, &word, e)) return false;
-    s->along = word >= 0 ? ALONG_PATH + word : own != ALONG_AUTO ? own : s->h.rows > 1 ? ALONG_PLANE : ALONG_PATH;
-    return s->h.rows == 1 || s->along == ALONG_PLANE ||
-           err_set(e, ERR_SCENE, "a surface along %s is a profile: give --size one length, or --along plane",
-                   words[s->along - ALONG_PATH]);
-}
-
 static bool read_surface(struct synth *s, struct err *e)
 {
     const char *file = s->c->args.operands[0];
@@ -578,7 +566,16 @@ static int surface_synth_run(struct cmd_call *c, struct err *e)
     const struct outputs_source *sources = outputs_sources(&s.scene, &n, c->arena);
     for (int i = 0; i < n; i++)
         if (!cmd_spares(out, "the heights", sources[i].file, "a file of another name", e)) return (int)e->kind;
-    if (!mark_absent(out, args_given(&c->args, "force"), e) || !read_along(&s, e) || !make(&s, e)) return (int)e->kind;
+    static const char *const words[] = {"path", "x", "plane", NULL};
+    int own = s.scene.contacts[0].surface.along, word = -1;
+    if (!mark_absent(out, args_given(&c->args, "force"), e) || !args_word(&c->args, "along", words, &word, e))
+        return (int)e->kind;
+    /* A word of --along, else the scene's, else what the size asks for. */
+    s.along = word >= 0 ? ALONG_PATH + word : own != ALONG_AUTO ? own : s.h.rows > 1 ? ALONG_PLANE : ALONG_PATH;
+    if (s.h.rows > 1 && s.along != ALONG_PLANE)
+        err_set(e, ERR_SCENE, "a surface along %s is a profile: give --size one length, or --along plane",
+                words[s.along - ALONG_PATH]);
+    if (e->kind || !make(&s, e)) return (int)e->kind;
     s.h.pitch_x = s.h.pitch_y = s.pitch;
     s.h.metric = true;
     s.h.title = s.scene.title;
