@@ -50,7 +50,7 @@ struct params {
     const struct params_column *columns; /* of a contact that has the section; ends with name NULL; NULL: none */
     void (*check)(const struct scene_part *, const struct contact *,
                   const void *own);   /* what no row says; may be NULL */
-    void (*settle)(struct contact *); /* sets what follows from the values given, before any check; may be NULL */
+    void (*derive)(struct contact *); /* sets what follows from the values given, before any check; may be NULL */
     /* Of the scene's own keys; contacts: all have been read, and nothing is wrong yet. May be NULL. */
     void (*check_scene)(const struct scene_part *top, bool contacts);
     /* Of each contact, what the scene asks of it; good: nothing is wrong with the contact itself. May be NULL. */

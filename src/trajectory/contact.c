@@ -107,7 +107,7 @@ const char *contact_ablation(const struct contact *c, struct arena *a)
     return text;
 }
 
-void contact_settle(struct contact *c)
+void contact_derive(struct contact *c)
 {
     const struct ball *b = &c->ball;
     c->motion.gravity = c->contact.gravity;
@@ -202,4 +202,4 @@ static void contact_check(const struct scene_part *p, const struct contact *c, c
     if (contact_rolls(c)) ball_check(p, &c->ball);
 }
 
-const struct params contact_params = {.section = "contact", .settle = contact_settle, .check = contact_check};
+const struct params contact_params = {.section = "contact", .derive = contact_derive, .check = contact_check};

@@ -30,7 +30,7 @@ static inline bool contact_rolls(const struct contact *c)
 /* What touches the surface, in keys and messages: "ball" or "scraper". */
 static inline const char *contact_tool(const struct contact *c) { return contact_rolls(c) ? "ball" : "scraper"; }
 
-/* Is a key's value a copy of what the ball's own key says (contact_settle)? */
+/* Is a key's value a copy of what the ball's own key says (contact_derive)? */
 static inline bool contact_copies(const struct contact *c, const char *path)
 {
     return contact_rolls(c) && strncmp(path, "scraper.", 8) == 0;
@@ -48,7 +48,7 @@ static inline long contact_first_frame(const struct contact *c, double rate) { r
 
 /* Of a filled contact, what follows from its keys: of one that rolls c->scraper, what touches the surface, from
  * c->ball: mass (NAN: nothing says it), weight, radius, patch, response; and what an ablation leaves out. */
-void contact_settle(struct contact *c);
+void contact_derive(struct contact *c);
 
 /* Acceleration of gravity along the normal of the surface, m/s^2: g cos(incline). */
 double contact_gravity(const struct contact *c);

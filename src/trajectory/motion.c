@@ -314,9 +314,9 @@ static void free_check(const struct scene_part *p, const struct motion *m)
     double known = m->start_speed + m->incline + m->rolling_friction + m->gravity;
     if (m->path != PATH_INCLINE || free_grip(p) || isnan(known) || !(i.length >= SHORTEST_PATH)) return;
     const char *cure, *why = i.over == INCLINE_STUCK ? stuck(m, &cure) : NULL;
-    bool said = scene_part_given(p, speed) || scene_part_given(p, slope);
+    bool given = scene_part_given(p, speed) || scene_part_given(p, slope);
     if (why)
-        diag_add(p->yaml->diag, said ? scene_part_later(p, speed, slope) : motion_place(p), cure, "%s: %s",
+        diag_add(p->yaml->diag, given ? scene_part_later(p, speed, slope) : motion_place(p), cure, "%s: %s",
                  scene_part_label(p, "motion"), why);
     else if (exits(&i, lasts))
         scene_part_refuse(p, duration, duration,
