@@ -231,24 +231,18 @@ const char *outfile_scratch_folder(void)
     return folder && *folder ? folder : "/tmp";
 }
 
-static int named_and_forgotten(const char *folder)
-{
-    char name[4096];
-    if (snprintf(name, sizeof name, "%s/rasp-XXXXXX", folder) >= (int)sizeof name) {
-        errno = ENAMETOOLONG;
-        return -1;
-    }
-    interrupt_hold();
-    int fd = mkostemp(name, O_CLOEXEC);
-    if (fd >= 0) unlink(name);
-    interrupt_go();
-    return fd;
-}
-
 FILE *outfile_scratch_open(void)
 {
     int fd = open(outfile_scratch_folder(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-    if (fd < 0) fd = named_and_forgotten(outfile_scratch_folder());
+    char name[4096];
+    bool fits = snprintf(name, sizeof name, "%s/rasp-XXXXXX", outfile_scratch_folder()) < (int)sizeof name;
+    if (fd < 0 && !fits) errno = ENAMETOOLONG;
+    if (fd < 0 && fits) { /* a name that is forgotten at once */
+        interrupt_hold();
+        fd = mkostemp(name, O_CLOEXEC);
+        if (fd >= 0) unlink(name);
+        interrupt_go();
+    }
     FILE *f = fd >= 0 ? fdopen(fd, "w+") : NULL;
     if (!f && errno == ENOMEM) memory_out("to open a temporary file");
     if (!f && fd >= 0) close(fd);

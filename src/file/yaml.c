@@ -117,18 +117,6 @@ struct diag_source *yaml_bytes_read(struct yaml *y, const char *file, struct dia
     return source;
 }
 
-/* YAML's printable characters and line breaks. */
-static bool printable(uint32_t c)
-{
-    return c == '\t' || c == '\n' || c == '\r' || (c >= 0x20 && c <= 0x7e) || c == 0x85 ||
-           (c >= 0xa0 && c != 0xfeff && c != 0xfffe && c != 0xffff);
-}
-
-static bool line_break(uint32_t c, char next)
-{
-    return c == '\n' || (c == '\r' && next != '\n') || c == 0x85 || c == 0x2028 || c == 0x2029;
-}
-
 /* UTF-8 without byte order mark, NUL or control characters, at most 4 MiB; else an error is told. */
 static bool text_good(struct yaml *y, const struct diag_source *s)
 {
@@ -146,10 +134,13 @@ static bool text_good(struct yaml *y, const struct diag_source *s)
         int length = text_utf8(s->text + i, s->size - i, &code);
         if (length == 0) return diag_add(y->diag, at, "save the file with the encoding UTF-8", "not valid UTF-8");
         if (code == 0) return diag_add(y->diag, at, "save the file as plain text in UTF-8", "a NUL byte");
-        if (!printable(code)) return diag_add(y->diag, at, "remove it", "control character U+%04X", (unsigned)code);
+        bool printable = code == '\t' || code == '\n' || code == '\r' || (code >= 0x20 && code <= 0x7e) ||
+                         code == 0x85 || (code >= 0xa0 && code != 0xfeff && code != 0xfffe && code != 0xffff);
+        if (!printable) return diag_add(y->diag, at, "remove it", "control character U+%04X", (unsigned)code);
         i += (size_t)length;
         at.column++;
-        if (line_break(code, i < s->size ? s->text[i] : '\0')) {
+        if (code == '\n' || (code == '\r' && (i == s->size || s->text[i] != '\n')) || code == 0x85 || code == 0x2028 ||
+            code == 0x2029) {
             at.line++;
             at.column = 1;
         }
@@ -199,23 +190,20 @@ static struct diag_place place_of(const struct parse *p, const yaml_mark_t *from
     return (struct diag_place){p->source, (int)from->line + 1, column_of(p, from), width};
 }
 
-static const char *syntax_cure(const char *problem)
-{
-    if (strstr(problem, "cannot start any token") || strstr(problem, "tab character"))
-        return "indent with spaces, not tabs; put quotes around a text that starts with @, ` or %";
-    if (strstr(problem, "mapping values")) return "check the indentation; put quotes around a text that holds ': '";
-    if (strstr(problem, "expected key") || strstr(problem, "block end") || strstr(problem, "expected ':'"))
-        return "check the indentation, and that each key is followed by ': ' with a space";
-    return "check quotes, brackets and indentation near here";
-}
-
 static void syntax_error(struct parse *p)
 {
     if (p->parser->error == YAML_MEMORY_ERROR) memory_out("for %.200s", p->source->name);
     const char *problem = p->parser->problem ? p->parser->problem : "cannot be read";
     struct diag_place at = {p->source, (int)p->parser->problem_mark.line + 1, column_of(p, &p->parser->problem_mark),
                             1};
-    diag_add(p->y->diag, at, syntax_cure(problem), "not valid YAML: %s", problem);
+    const char *cure = "check quotes, brackets and indentation near here";
+    if (strstr(problem, "cannot start any token") || strstr(problem, "tab character"))
+        cure = "indent with spaces, not tabs; put quotes around a text that starts with @, ` or %";
+    else if (strstr(problem, "mapping values"))
+        cure = "check the indentation; put quotes around a text that holds ': '";
+    else if (strstr(problem, "expected key") || strstr(problem, "block end") || strstr(problem, "expected ':'"))
+        cure = "check the indentation, and that each key is followed by ': ' with a space";
+    diag_add(p->y->diag, at, cure, "not valid YAML: %s", problem);
 }
 
 static const char *copy_of(struct parse *p, const yaml_char_t *s, size_t size)
