@@ -93,16 +93,17 @@ static void redraw(struct modal_block *b, const struct modal_block *was, uint64_
 {
     const struct modal_fit *f = b->fit;
     for (int s = 0; s < f->data->stretches; s++) {
-        long bins = b->to[s] - b->from[s];
+        const struct modal_window *w = &was->window[s];
+        const struct modal_bins *of = &f->bins[s];
+        long bins = w->to - w->from;
         if (bins <= 0) continue;
         struct arena *a = arena_open();
         double *x = ARENA_TAKE(a, double, 2 * bins);
         noise_normal(n, row + (uint64_t)s, (size_t)(2 * bins), x);
         for (long k = 0; k < bins; k++) {
-            const struct modal_bins *of = &f->bins[s];
-            double size = sqrt(0.5 * was->noise[s] * of->variance[b->from[s] + k]);
-            b->rest[s][k] = cplx_add(cplx_sub(was->rest[s][k], of->rest[b->from[s] + k]),
-                                     cplx_scale(size, (cplx){x[2 * k], x[2 * k + 1]}));
+            double size = sqrt(0.5 * w->noise * of->variance[w->from + k]);
+            b->window[s].rest[k] =
+                cplx_add(cplx_sub(w->rest[k], of->rest[w->from + k]), cplx_scale(size, (cplx){x[2 * k], x[2 * k + 1]}));
         }
         arena_close(a);
     }

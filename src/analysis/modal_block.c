@@ -14,16 +14,13 @@ static const double rounded = 1e-10; /* of a column's squares: what the others l
 struct sums {      /* columns: gains, smooth ones, gains times steps of poles if full, what is left */
     int n, linear; /* columns; gains and smooth ones */
     double a[MODAL_COLUMNS * MODAL_COLUMNS], scale[MODAL_COLUMNS];
-    bool swept[MODAL_COLUMNS];
 };
 
 /* a -> swept by its pivots from ... to - 1, the greatest over its scale first: of those rows and columns the inverse,
- * of the others what is left of them. */
-int modal_block_sweep(double *a, int n, int from, int to, const double *scale, bool *swept)
+ * of the others what is left of them. What is left of a pivot may be rounding: then its row and column are 0. */
+void modal_block_sweep(double *a, int n, int from, int to, const double *scale)
 {
-    int count = 0;
-    for (int k = from; k < to; k++)
-        swept[k] = false;
+    bool swept[MODAL_COLUMNS] = {false};
     for (;;) {
         int best = -1;
         double most = rounded;
@@ -32,10 +29,9 @@ int modal_block_sweep(double *a, int n, int from, int to, const double *scale, b
                 most = a[k * n + k] / scale[k];
                 best = k;
             }
-        if (best < 0) return count;
+        if (best < 0) break;
         double *row = a + best * n, pivot = 1.0 / row[best];
         swept[best] = true;
-        count++;
         row[best] = 1.0;
         for (int j = 0; j < n; j++)
             row[j] *= pivot;
@@ -47,6 +43,9 @@ int modal_block_sweep(double *a, int n, int from, int to, const double *scale, b
                 a[i * n + j] -= factor * row[j];
         }
     }
+    for (int k = from; k < to; k++)
+        for (int j = 0; j < n && !swept[k]; j++)
+            a[k * n + j] = a[j * n + k] = 0.0;
 }
 
 /* ------------------------------------------------------------------ sums over bins */
@@ -139,7 +138,8 @@ static void smooth_columns(const struct modal_bins *bins, const struct modal_blo
 static bool sums_make(struct modal_block *b, int s, bool full, struct sums *g)
 {
     static const long size = ROWS * (long)sizeof(double);
-    if (b->to[s] <= b->from[s]) return false;
+    const struct modal_window *w = &b->window[s];
+    if (w->to <= w->from) return false;
     g->linear = 2 * b->m + MODAL_SMOOTH;
     g->n = g->linear + (full ? 2 * b->m : 0) + 1;
     const struct modal_fit *f = b->fit;
@@ -151,13 +151,13 @@ static bool sums_make(struct modal_block *b, int s, bool full, struct sums *g)
     struct modal_line line[MODAL_BLOCK];
     for (int i = 0; i < b->m; i++)
         line[i] = modal_fit_line(f, s, b->part[i * stretches + s].pole);
-    for (long from = b->from[s]; from < b->to[s]; from += CHUNK) {
-        long n = from + CHUNK < b->to[s] ? CHUNK : b->to[s] - from;
+    for (long from = w->from; from < w->to; from += CHUNK) {
+        long n = from + CHUNK < w->to ? CHUNK : w->to - from;
         if (n < CHUNK) memset(columns, 0, (size_t)(g->n * size));
         for (long k = 0; k < n; k++) {
             weight[k] = sqrt(2.0 / bins->variance[from + k]);
-            r[k] = weight[k] * b->rest[s][from - b->from[s] + k].re;
-            r[CHUNK + k] = weight[k] * b->rest[s][from - b->from[s] + k].im;
+            r[k] = weight[k] * w->rest[from - w->from + k].re;
+            r[CHUNK + k] = weight[k] * w->rest[from - w->from + k].im;
         }
         for (int i = 0; i < b->m; i++) {
             modal_fit_basis(bins, &line[i], from, n, x);
@@ -175,45 +175,26 @@ static bool sums_make(struct modal_block *b, int s, bool full, struct sums *g)
     return true;
 }
 
-/* By how much gain times step (its two parts) of component i moves with omega and with log d: to[part][omega, log d].
- */
-static void steps_of(const struct modal_block *b, int i, int stretch, double to[2][2])
+/* Columns, then rows, of gain times pole's step -> of omega and log d. */
+static void turn_to_poles(const struct modal_block *b, int stretch, struct sums *g)
 {
-    const struct modal_part *part = &b->part[i * b->fit->data->stretches + stretch];
-    cplx gain = part->gain;
-    double decay = -part->pole.re;
-    to[0][0] = -gain.im;
-    to[0][1] = -decay * gain.re;
-    to[1][0] = gain.re;
-    to[1][1] = -decay * gain.im;
+    for (int i = 0; i < b->m; i++) {
+        const struct modal_part *part = &b->part[i * b->fit->data->stretches + stretch];
+        double re = part->gain.re, im = part->gain.im, decay = -part->pole.re;
+        int n = g->n, c = g->linear + 2 * i;
+        for (int rows = 0; rows < 2; rows++)
+            for (int j = 0; j < n; j++) {
+                double *p = g->a + (rows ? c * n + j : j * n + c), *q = p + (rows ? n : 1), u = *p, v = *q;
+                *p = re * v - im * u;
+                *q = -decay * (re * u + im * v);
+            }
+        double u = g->scale[c], v = g->scale[c + 1];
+        g->scale[c] = im * im * u + re * re * v;
+        g->scale[c + 1] = decay * decay * (re * re * u + im * im * v);
+    }
 }
 
-/* The poles' normal equations of a strike, its gains projected out. */
-static void normal_of(const struct modal_block *b, int stretch, const struct sums *g, struct modal_normal *to)
-{
-    int poles = 2 * b->m, n = g->n;
-    double part = 1.0 / (b->noise[stretch] * b->alike[stretch]);
-    for (int i = 0; i < b->m; i++) {
-        double u[2][2], v[2][2];
-        steps_of(b, i, stretch, u);
-        const double *row[2] = {g->a + (g->linear + 2 * i) * n + g->linear,
-                                g->a + (g->linear + 2 * i + 1) * n + g->linear};
-        for (int k = 0; k < b->m; k++) {
-            steps_of(b, k, stretch, v);
-            for (int p = 0; p < 2; p++)
-                for (int q = 0; q < 2; q++)
-                    to->a[(2 * i + p) * poles + 2 * k + q] =
-                        part * (u[0][p] * (row[0][2 * k] * v[0][q] + row[0][2 * k + 1] * v[1][q]) +
-                                u[1][p] * (row[1][2 * k] * v[0][q] + row[1][2 * k + 1] * v[1][q]));
-        }
-        for (int p = 0; p < 2; p++) {
-            to->right[2 * i + p] = part * (u[0][p] * row[0][poles] + u[1][p] * row[1][poles]);
-            to->scale[2 * i + p] = part * (u[0][p] * u[0][p] * g->scale[g->linear + 2 * i] +
-                                           u[1][p] * u[1][p] * g->scale[g->linear + 2 * i + 1]);
-        }
-    }
-    to->used = true;
-}
+enum { POLES = 2 * MODAL_BLOCK };
 
 /* How far a strike's own poles are from the shared ones (omega, log d), and what a square of that weighs in chi. */
 static void deviations_of(const struct modal_block *b, int stretch, double *deviation, double *weight)
@@ -229,31 +210,26 @@ static void deviations_of(const struct modal_block *b, int stretch, double *devi
     }
 }
 
-enum { POLES = 2 * MODAL_BLOCK };
-
-/* to[p][p + 1]: (N + W)^-1 of a strike and, last, times its gradient, N damped; returns what the step would take
-   off. */
-static double own_inverse(const struct modal_block *b, const struct modal_normal *g, const double *deviation,
-                          const double *weight, double damping, double *to)
+/* to[p][p + 1]: (N + W)^-1 of a strike and, last, times its gradient, N damped, the shared poles moved by step (NULL:
+   not); returns what the step would take off. */
+static double own_inverse(const struct modal_block *b, int stretch, double damping, const double *step,
+                          double *deviation, double *weight, double *to)
 {
+    const struct modal_window *g = &b->window[stretch];
     int p = 2 * b->m, n = p + 1;
     double scale[POLES] = {0}, fall = 0.0;
-    bool swept[POLES];
+    deviations_of(b, stretch, deviation, weight);
     for (int i = 0; i < p; i++) {
+        deviation[i] -= step ? step[i] : 0.0;
         memcpy(to + i * n, g->a + i * p, (size_t)p * sizeof *to);
         to[i * n + i] = (1.0 + damping) * to[i * n + i] + weight[i];
         scale[i] = (1.0 + damping) * g->scale[i] + weight[i];
         to[i * n + p] = to[p * n + i] = g->right[i] - weight[i] * deviation[i];
     }
     to[p * n + p] = 0.0;
-    modal_block_sweep(to, n, 0, p, scale, swept);
-    for (int i = 0; i < p; i++) {
-        for (int j = 0; j < n && !swept[i]; j++)
-            to[i * n + j] = 0.0;
-        for (int j = 0; j < p && !swept[i]; j++)
-            to[j * n + i] = 0.0;
+    modal_block_sweep(to, n, 0, p, scale);
+    for (int i = 0; i < p; i++)
         fall += to[i * n + p] * (g->right[i] - weight[i] * deviation[i]);
-    }
     return fall;
 }
 
@@ -266,12 +242,10 @@ static double solve(struct modal_block *b, double damping, double *step, double 
     struct arena *arena = arena_open();
     double *inverse = ARENA_TAKE(arena, double, n *n), *a = ARENA_TAKE(arena, double, n *n), deviation[POLES],
            weight[POLES], scale[POLES] = {0}, fall = 0.0;
-    bool swept[POLES];
     for (int g = 0; g < stretches; g++) {
-        const struct modal_normal *e = &b->each[g];
+        const struct modal_window *e = &b->window[g];
         if (!e->used) continue;
-        deviations_of(b, g, deviation, weight);
-        fall += own_inverse(b, e, deviation, weight, damping, inverse);
+        fall += own_inverse(b, g, damping, NULL, deviation, weight, inverse);
         for (int i = 0; i < p; i++) {
             double damped = weight[i] + damping * e->a[i * p + i];
             for (int j = 0; j < p; j++) {
@@ -293,18 +267,15 @@ static double solve(struct modal_block *b, double damping, double *step, double 
         a[i * n + i] *= 1.0 + damping;
     }
     a[p * n + p] = 0.0;
-    modal_block_sweep(a, n, 0, p, scale, swept);
+    modal_block_sweep(a, n, 0, p, scale);
     for (int i = 0; i < p; i++) {
         double right = step[i];
-        step[i] = swept[i] ? a[i * n + p] : 0.0;
+        step[i] = a[i * n + p];
         fall += step[i] * right;
     }
     for (int g = 0; g < stretches; g++) {
-        if (!b->each[g].used) continue;
-        deviations_of(b, g, deviation, weight);
-        for (int i = 0; i < p; i++)
-            deviation[i] -= step[i];
-        own_inverse(b, &b->each[g], deviation, weight, damping, inverse);
+        if (!b->window[g].used) continue;
+        own_inverse(b, g, damping, step, deviation, weight, inverse);
         for (int i = 0; i < p; i++)
             own[g * p + i] = inverse[i * n + p];
     }
@@ -322,22 +293,31 @@ static void pass(struct modal_block *b, bool full, struct sums *to)
     double deviation[POLES], weight[POLES], sum = 0.0;
     b->a = inner;
     for (int k = 0; k < d->stretches; k++, g += to ? 1 : 0) {
+        struct modal_window *w = &b->window[k];
         bool fitted = d->stretch[k].fitted;
-        if (full) b->each[k].used = false;
+        if (full) w->used = false;
         if (!sums_make(b, k, full, g)) {
             g->n = 0;
             continue;
         }
-        int n = g->n, last = n - 1;
-        modal_block_sweep(g->a, n, 0, g->linear, g->scale, g->swept);
-        b->noise[k] = (g->a[last * n + last] + known) / b->degrees[k];
-        sum += fitted ? b->degrees[k] / b->alike[k] * real_log(b->noise[k]) : 0.0;
-        for (int i = 0; i < 2 * b->m; i++)
-            if (g->swept[i]) {
-                cplx *gain = &b->part[i / 2 * d->stretches + k].gain;
-                *(i % 2 ? &gain->im : &gain->re) += g->a[i * n + last];
-            }
-        if (full && fitted) normal_of(b, k, g, &b->each[k]);
+        int n = g->n, last = n - 1, poles = 2 * b->m;
+        modal_block_sweep(g->a, n, 0, g->linear, g->scale);
+        w->noise = (g->a[last * n + last] + known) / w->degrees;
+        sum += fitted ? w->degrees / w->alike * real_log(w->noise) : 0.0;
+        for (int i = 0; i < b->m; i++) {
+            cplx *gain = &b->part[i * d->stretches + k].gain;
+            *gain = cplx_add(*gain, (cplx){g->a[2 * i * n + last], g->a[(2 * i + 1) * n + last]});
+        }
+        if (!full) continue;
+        turn_to_poles(b, k, g);
+        w->used = fitted;
+        for (int i = 0; i < poles; i++) {
+            const double *row = g->a + (g->linear + i) * n, part = 1.0 / (w->noise * w->alike);
+            for (int j = 0; j < poles; j++)
+                w->a[i * poles + j] = part * row[g->linear + j];
+            w->right[i] = part * row[last];
+            w->scale[i] = part * g->scale[g->linear + i];
+        }
     }
     for (int k = 0; k < d->stretches; k++) {
         deviations_of(b, k, deviation, weight);
@@ -382,8 +362,7 @@ struct modal_block *modal_block_room(const struct modal_fit *f, struct arena *a)
 {
     struct modal_block *b = ARENA_TAKE(a, struct modal_block, 1);
     b->part = ARENA_TAKE(a, struct modal_part, MODAL_BLOCK * f->data->stretches);
-    b->each = ARENA_TAKE(a, struct modal_normal, f->data->stretches);
-    b->noise = ARENA_TAKE(a, double, f->data->stretches);
+    b->window = ARENA_TAKE(a, struct modal_window, f->data->stretches);
     return b;
 }
 
@@ -397,8 +376,6 @@ struct modal_block *modal_block_open(const struct modal_fit *f, int m, const int
     b->a = a;
     b->fastest = f->fastest;
     b->m = m + extras;
-    b->degrees = ARENA_TAKE(a, double, d->stretches);
-    b->alike = ARENA_TAKE(a, double, d->stretches);
     for (int i = 0; i < m + extras; i++) {
         b->of[i] = i < m ? of[i] : -1;
         b->s[i] = i < m ? f->c[of[i]].s : extra[i - m];
@@ -412,34 +389,29 @@ struct modal_block *modal_block_open(const struct modal_fit *f, int m, const int
     }
     b->centre = 0.5 * (low + high);
     b->half = 0.5 * (high - low);
-    b->from = ARENA_TAKE(a, long, d->stretches);
-    b->to = ARENA_TAKE(a, long, d->stretches);
-    b->rest = arena_take(a, (size_t)d->stretches, sizeof *b->rest);
     for (int s = 0; s < d->stretches; s++) {
         const struct modal_bins *bins = &f->bins[s];
+        struct modal_window *w = &b->window[s];
         double from = ceil(low / bins->width) - (double)bins->first,
                to = floor(high / bins->width) - (double)bins->first + 1.0;
-        b->from[s] = from > 0.0 ? from < (double)bins->n ? (long)from : bins->n : 0;
-        b->to[s] = to > 0.0 ? to < (double)bins->n ? (long)to : bins->n : 0;
-        long n = b->to[s] - b->from[s];
+        w->from = from > 0.0 ? from < (double)bins->n ? (long)from : bins->n : 0;
+        w->to = to > 0.0 ? to < (double)bins->n ? (long)to : bins->n : 0;
+        long n = w->to - w->from;
+        w->alike = 1.0;
         if (d->stretch[s].strike < 0 || d->stretch[s].idle || n <= 0) {
-            b->to[s] = b->from[s];
+            w->to = w->from;
             continue;
         }
-        b->rest[s] = ARENA_TAKE(a, cplx, n);
-        memcpy(b->rest[s], bins->rest + b->from[s], (size_t)n * sizeof(cplx));
+        w->degrees = known - 2.0 * b->m - MODAL_SMOOTH - 2.0 * b->m / d->stretches;
+        w->degrees = fmax(w->degrees + 2.0 * (double)n, known);
+        if (!extras && n > 1) w->alike = alike(bins, w->from, n);
+        w->rest = ARENA_TAKE(a, cplx, n);
+        memcpy(w->rest, bins->rest + w->from, (size_t)n * sizeof(cplx));
         for (int i = 0; i < m; i++) {
             const struct modal_part *mine = &b->part[i * d->stretches + s];
             struct modal_line line = modal_fit_line(f, s, mine->pole);
-            modal_fit_add_line(bins, &line, mine->gain, b->from[s], n, b->rest[s]);
+            modal_fit_add_line(bins, &line, mine->gain, w->from, n, w->rest);
         }
-    }
-    for (int g = 0; g < d->stretches; g++) {
-        b->degrees[g] = known - 2.0 * b->m - MODAL_SMOOTH - 2.0 * b->m / d->stretches;
-        b->degrees[g] += 2.0 * (double)(b->to[g] - b->from[g]);
-        b->degrees[g] = fmax(b->degrees[g], known);
-        long n = b->to[g] - b->from[g];
-        b->alike[g] = extras || n < 2 ? 1.0 : alike(&f->bins[g], b->from[g], n);
     }
     return b;
 }
@@ -470,9 +442,9 @@ void modal_block_worth(struct modal_block *b, double *worth)
             const double *a = g[k].a + 2 * i * (g[k].n + 1), p = a[0], q = 0.5 * (a[1] + a[g[k].n]), r = a[g[k].n + 1],
                          det = p * r - q * q;
             cplx at = b->part[i * stretches + k].gain;
-            if (g[k].swept[2 * i] && g[k].swept[2 * i + 1] && det > 0.0)
+            if (det > 0.0)
                 worth[i] += (at.re * at.re * r - 2.0 * at.re * at.im * q + at.im * at.im * p) /
-                            (det * b->noise[k] * b->alike[k]);
+                            (det * b->window[k].noise * b->window[k].alike);
         }
     arena_close(inner);
 }
@@ -492,12 +464,10 @@ void modal_block_copy(struct modal_block *to, const struct modal_block *from)
 {
     size_t stretches = (size_t)from->fit->data->stretches;
     struct modal_part *part = to->part;
-    struct modal_normal *each = to->each;
-    double *noise = to->noise;
+    struct modal_window *window = to->window;
     *to = *from;
     to->part = memcpy(part, from->part, MODAL_BLOCK * stretches * sizeof *part);
-    to->each = memcpy(each, from->each, stretches * sizeof *each);
-    to->noise = memcpy(noise, from->noise, stretches * sizeof *noise);
+    to->window = memcpy(window, from->window, stretches * sizeof *window);
 }
 
 bool modal_block_polish(struct modal_block *b, int steps)
@@ -520,7 +490,7 @@ bool modal_block_polish(struct modal_block *b, int steps)
                 b->s[i] = stepped(b, b->s[i], step + 2 * i);
                 for (int g = 0; g < stretches; g++) {
                     struct modal_part *p = &b->part[i * stretches + g];
-                    p->pole = b->each[g].used ? stepped(b, p->pole, own + (g * b->m + i) * 2) : b->s[i];
+                    p->pole = b->window[g].used ? stepped(b, p->pole, own + (g * b->m + i) * 2) : b->s[i];
                 }
             }
             pass(b, true, NULL);
@@ -547,9 +517,8 @@ int modal_block_deviations(struct modal_block *b, int i, int q, double *by, doub
         memcpy(b->spread[j], modal_spread_stated, sizeof b->spread[j]);
     pass(b, true, NULL);
     for (int k = 0; k < b->fit->data->stretches; k++) {
-        if (!b->each[k].used) continue;
-        deviations_of(b, k, deviation, weight);
-        own_inverse(b, &b->each[k], deviation, weight, 0.0, inverse);
+        if (!b->window[k].used) continue;
+        own_inverse(b, k, 0.0, NULL, deviation, weight, inverse);
         double all = 1.0 / inverse[(2 * i + q) * (n + 1)], strike = all - weight[2 * i + q];
         if (!(strike > blind * all)) continue;
         by[strikes] = (deviation[2 * i + q] + inverse[(2 * i + q) * n + n - 1]) * all / (strike * value);
@@ -568,39 +537,31 @@ void modal_block_errors(struct modal_block *b, int i, double se[2], struct modal
     struct sums *g = ARENA_TAKE(inner, struct sums, stretches);
     double *all = ARENA_TAKE(inner, double, p *p), *inverse = ARENA_TAKE(inner, double, n *n), scale[POLES] = {0},
            step[POLES], *own = ARENA_TAKE(inner, double, stretches *p), deviation[POLES], weight[POLES];
-    bool swept[POLES], shared[POLES];
     pass(b, true, g);
     solve(b, 0.0, step, own);
     for (int k = 0; k < stretches; k++)
-        for (int j = 0; j < p && b->each[k].used; j++) {
+        for (int j = 0; j < p && b->window[k].used; j++) {
             for (int l = 0; l < p; l++)
-                all[j * p + l] += b->each[k].a[j * p + l];
-            scale[j] += b->each[k].scale[j];
+                all[j * p + l] += b->window[k].a[j * p + l];
+            scale[j] += b->window[k].scale[j];
         }
-    modal_block_sweep(all, p, 0, p, scale, swept);
-    modal_block_sweep(b->normal, p, 0, p, scale, shared);
+    modal_block_sweep(all, p, 0, p, scale);
+    modal_block_sweep(b->normal, p, 0, p, scale);
     for (int q = 0; q < 2; q++)
-        se[q] = swept[2 * i + q] ? sqrt(fmax(all[(2 * i + q) * (p + 1)], 0.0)) : HUGE_VAL;
+        se[q] = all[(2 * i + q) * (p + 1)] > 0.0 ? sqrt(all[(2 * i + q) * (p + 1)]) : HUGE_VAL;
     for (int k = 0; k < stretches; k++) {
         cplx at = b->part[i * stretches + k].gain;
         double size = fmax(cplx_abs(at), 1e-300), u[2] = {at.re / size, at.im / size}, sum = 0.0, row[POLES],
                through[POLES] = {0};
         int wide = g[k].n;
+        const double *re = g[k].a + 2 * i * wide, *im = re + wide;
         gain[k] = (struct modal_gain){.se = HUGE_VAL};
-        if (wide == 0 || !g[k].swept[2 * i] || !g[k].swept[2 * i + 1]) continue;
-        for (int c = 0; c < 2; c++)
-            for (int e = 0; e < 2; e++)
-                sum += u[c] * u[e] * g[k].a[(2 * i + c) * wide + 2 * i + e];
-        sum *= b->noise[k] * b->alike[k];
-        for (int j = 0; j < b->m; j++) {
-            const double *re = g[k].a + 2 * i * wide + g[k].linear + 2 * j, *im = re + wide;
-            double by[2][2];
-            steps_of(b, j, k, by);
-            for (int q = 0; q < 2; q++)
-                row[2 * j + q] = (u[0] * re[0] + u[1] * im[0]) * by[0][q] + (u[0] * re[1] + u[1] * im[1]) * by[1][q];
-        }
-        deviations_of(b, k, deviation, weight);
-        own_inverse(b, &b->each[k], deviation, weight, 0.0, inverse);
+        if (wide == 0 || !(re[2 * i] > 0.0 && im[2 * i + 1] > 0.0)) continue;
+        sum = u[0] * u[0] * re[2 * i] + u[0] * u[1] * (re[2 * i + 1] + im[2 * i]) + u[1] * u[1] * im[2 * i + 1];
+        sum *= b->window[k].noise * b->window[k].alike;
+        for (int j = 0; j < p; j++)
+            row[j] = u[0] * re[g[k].linear + j] + u[1] * im[g[k].linear + j];
+        own_inverse(b, k, 0.0, NULL, deviation, weight, inverse);
         for (int j = 0; j < p; j++) /* own poles: (N + W)^-1 by the strike, W (N + W)^-1 times the shared ones' error */
             for (int l = 0; l < p; l++) {
                 sum += row[j] * inverse[j * n + l] * row[l];
@@ -608,7 +569,7 @@ void modal_block_errors(struct modal_block *b, int i, double se[2], struct modal
             }
         for (int j = 0; j < p; j++)
             for (int l = 0; l < p; l++)
-                if (shared[j] && shared[l]) gain[k].shared += through[j] * b->normal[j * p + l] * through[l];
+                gain[k].shared += through[j] * b->normal[j * p + l] * through[l];
         gain[k].se = sqrt(fmax(sum, 0.0));
         gain[k].shared = sqrt(fmax(gain[k].shared, 0.0));
     }

@@ -181,8 +181,8 @@ static double loudness(const struct modal_fit *f, int i)
     struct modal_block *b = modal_block_open(f, 1, &i, NULL, 0, a);
     double mine = 0.0, all = 0.0;
     for (int s = 0; s < f->data->stretches; s++)
-        for (long k = b->from[s]; k < b->to[s]; k++) {
-            mine += cplx_square(cplx_sub(b->rest[s][k - b->from[s]], f->bins[s].rest[k]));
+        for (long k = b->window[s].from; k < b->window[s].to; k++) {
+            mine += cplx_square(cplx_sub(b->window[s].rest[k - b->window[s].from], f->bins[s].rest[k]));
             all += cplx_square(f->bins[s].y[k]);
         }
     arena_close(a);

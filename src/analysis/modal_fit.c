@@ -105,7 +105,6 @@ void modal_fit_take_smooth_off(const struct modal_bins *b, long from, long n, co
 {
     enum { TERMS = 3, N = TERMS + 2 };
     double a[N * N] = {0}, scale[TERMS];
-    bool swept[TERMS];
     for (long k = 0; k < n; k++) {
         cplx force = {b->fr[from + k], b->fi[from + k]}, product = cplx_mul(cplx_conj(force), x[k]);
         double power = cplx_square(force), u = 2.0 * (double)k / (double)n - 1.0, row[TERMS] = {1.0, u, u * u};
@@ -118,12 +117,12 @@ void modal_fit_take_smooth_off(const struct modal_bins *b, long from, long n, co
     }
     for (int i = 0; i < TERMS; i++)
         scale[i] = a[i * N + i];
-    modal_block_sweep(a, N, 0, TERMS, scale, swept);
+    modal_block_sweep(a, N, 0, TERMS, scale);
     for (long k = 0; k < n; k++) {
         double u = 2.0 * (double)k / (double)n - 1.0, row[TERMS] = {1.0, u, u * u};
         cplx c = {0};
         for (int i = 0; i < TERMS; i++)
-            if (swept[i]) c = cplx_add(c, cplx_scale(row[i], (cplx){a[i * N + TERMS], a[i * N + TERMS + 1]}));
+            c = cplx_add(c, cplx_scale(row[i], (cplx){a[i * N + TERMS], a[i * N + TERMS + 1]}));
         to[k] = cplx_sub(x[k], cplx_mul((cplx){b->fr[from + k], b->fi[from + k]}, c));
     }
 }

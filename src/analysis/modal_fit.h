@@ -38,8 +38,13 @@ enum {
     MODAL_COLUMNS = 4 * MODAL_BLOCK + MODAL_SMOOTH + 1
 };
 
-struct modal_normal { /* normal equations of the poles (omega, log d), gains and what is smooth projected out */
-    bool used;
+struct modal_window { /* of a block in a stretch */
+    long from, to;    /* bins, counted from bins.first */
+    cplx *rest;       /* [to - from] what is left of the recording without the block's modes */
+    double degrees;   /* of freedom, of the block as it was opened */
+    double alike;     /* bins of what is left that are as good as one: 1 of white noise */
+    double noise;     /* what the block leaves, over the variance: its noise, and what is no mode */
+    bool used;        /* it has normal equations of the poles (omega, log d), gains and what is smooth projected out */
     double a[2 * MODAL_BLOCK * 2 * MODAL_BLOCK], right[2 * MODAL_BLOCK];
     double scale[2 * MODAL_BLOCK]; /* the columns' squares before that: what is less than 1e-10 of them is rounding */
 };
@@ -101,17 +106,12 @@ struct modal_block {
     int of[MODAL_BLOCK]; /* components of the fit; -1: new */
     cplx s[MODAL_BLOCK];
     double spread[MODAL_BLOCK][2];
-    struct modal_part *part; /* [MODAL_BLOCK][stretches] */
-    double centre, half;     /* rad/s of the window */
-    long *from, *to;         /* [stretches] bins of it, counted from bins.first */
-    cplx **rest;             /* [stretches][to - from] */
-    double fastest;          /* 1/s */
+    struct modal_part *part;     /* [MODAL_BLOCK][stretches] */
+    struct modal_window *window; /* [stretches] */
+    double centre, half;         /* rad/s of the window */
+    double fastest;              /* 1/s */
     double chi; /* -2 log likelihood: sum of degrees log noise, and the squares of strikes' poles off the shared ones */
-    double *noise;   /* [stretches] what a strike's window leaves, over the variance: its noise, and what is no mode */
-    double *degrees; /* [stretches] of freedom, of the block as it was opened */
-    double *alike;   /* [stretches] bins of what is left that are as good as one: 1 of white noise */
     double normal[2 * MODAL_BLOCK * 2 * MODAL_BLOCK]; /* of the shared poles (omega, log d), all others projected out */
-    struct modal_normal *each;                        /* [stretches] of the strikes' own poles */
     struct arena *a;
 };
 
@@ -161,7 +161,7 @@ void modal_block_errors(struct modal_block *b, int i, double se[2], struct modal
 /* How far pole i of each strike is from the shared one by the strike alone (q 0: omega/omega, 1: log d), and the
  * variance of that; returns how many strikes there are. */
 int modal_block_deviations(struct modal_block *b, int i, int q, double *by, double *variance);
-int modal_block_sweep(double *a, int n, int from, int to, const double *scale, bool *swept);
+void modal_block_sweep(double *a, int n, int from, int to, const double *scale);
 
 /* modal_converge.c */
 int modal_converge_near(const struct modal_fit *f, int i, int most,
