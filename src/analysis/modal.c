@@ -226,58 +226,56 @@ struct energies {               /* of a stretch's rest */
     double all, ringing, noise; /* ringing: what does not follow the force at once */
 };
 
-static struct energies *energies(struct modal_fit *f, struct arena *a)
+static void energies(struct modal_fit *f, struct energies *to)
 {
-    struct energies *to = ARENA_TAKE(a, struct energies, f->data->stretches);
     modal_fit_noise(f, 0.0);
     for (int s = 0; s < f->data->stretches; s++) {
         const struct modal_bins *b = &f->bins[s];
+        to[s] = (struct energies){0};
         for (long k = 0; k < b->n; k++) {
             to[s].all += cplx_square(b->rest[k]);
             to[s].ringing += cplx_square(b->noise[k]);
             to[s].noise += b->variance[k];
         }
     }
-    return to;
 }
 
 /* Of the energy in the band, hums and noise off, what follows the force at once (direct; NULL: not wanted), and of the
  * others what the modes explain. What follows the force is fitted together with them, so that neither has an energy of
  * its own: what counts is what is left with modes and without. */
-static const struct energies *explain(struct modal_fit *f, double *explained, double *direct, struct arena *a)
+static void explain(struct modal_fit *f, double *explained, double *direct)
 {
+    struct energies none[MODAL_STRETCHES], fit[MODAL_STRETCHES];
     for (int i = 0; i < f->m; i++)
         if (!f->c[i].hum) modal_fit_put(f, i, 1.0);
-    const struct energies *none = energies(f, a);
+    energies(f, none);
     modal_fit_rest(f);
-    const struct energies *fit = energies(f, a);
+    energies(f, fit);
     for (int s = 0; s < f->data->stretches; s++) {
         double all = none[s].all - fit[s].noise, rings = none[s].ringing - fit[s].noise;
         if (direct) direct[s] = all > 0.0 ? (all - fmax(rings, 0.0)) / all : 0.0;
         explained[s] = rings > 0.0 ? 1.0 - fmax(fit[s].ringing - fit[s].noise, 0.0) / rings : 0.0;
     }
-    return fit;
 }
 
 /* The modes' sound, and the noise of each place. */
-static void sounds(struct modal_fit *f, const struct energies *fit, struct modal_result *r, struct arena *a)
+static void sounds(struct modal_fit *f, struct modal_result *r, struct arena *a)
 {
     const struct modal_data *d = f->data;
     double *count = ARENA_TAKE(a, double, d->places);
     for (int i = 0; i < f->m; i++)
         if (f->c[i].hum) modal_fit_put(f, i, 1.0);
     for (int s = 0; s < d->stretches; s++) {
+        bool counts = d->stretch[s].fitted || d->stretch[s].strike < 0;
         const struct modal_bins *b = &f->bins[s];
         const struct modal_stretch *st = &d->stretch[s];
         double *re = ARENA_TAKE(a, double, st->n / 2 + 1), *im = ARENA_TAKE(a, double, st->n / 2 + 1);
         for (long k = 0; k < b->n; k++) {
             re[b->first + k] = (b->y[k].re - b->rest[k].re) / sqrt((double)st->n);
             im[b->first + k] = (b->y[k].im - b->rest[k].im) / sqrt((double)st->n);
+            r->noise[st->place] += counts ? 2.0 * b->variance[k] : 0.0;
         }
-        if (st->fitted || st->strike < 0) {
-            r->noise[st->place] += 2.0 * fit[s].noise;
-            count[st->place] += (double)st->n;
-        }
+        count[st->place] += counts ? (double)st->n : 0.0;
         r->model[s] = ARENA_TAKE(a, double, st->n);
         struct fft *fft = fft_open((size_t)st->n);
         fft_inverse(fft, re, im, r->model[s]);
@@ -383,7 +381,8 @@ static void report(struct modal_fit *f, struct arena *a, struct modal_result *r)
         m->decay_between = sqrt(spread[1] * spread[1] * m->decay * m->decay + f->strikes * m->decay_se * m->decay_se);
     }
     number(r, a);
-    sounds(f, explain(f, r->explained, NULL, a), r, a);
+    explain(f, r->explained, NULL);
+    sounds(f, r, a);
     note_number(r, a, undamped, "line does not decay (hum) and is left out",
                 "lines do not decay (hum) and are left out");
 }
@@ -449,7 +448,7 @@ bool modal_find(const struct modal_data *d, const struct modal_options *o, struc
     r->explained = ARENA_TAKE(a, double, d->stretches);
     r->fitted = ARENA_TAKE(a, double, d->stretches);
     r->direct = ARENA_TAKE(a, double, d->stretches);
-    explain(&f, r->fitted, r->direct, inner);
+    explain(&f, r->fitted, r->direct);
     int more = modal_converge_drop_least(&f, surplus);
     report(&f, a, r);
     note_number(r, a, too_fast,

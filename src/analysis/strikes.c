@@ -62,7 +62,7 @@ static double mean(const double *x, long from, long to)
     double sum = 0.0;
     for (long i = from; i < to; i++)
         sum += x[i];
-    return sum / (double)(to - from);
+    return to > from ? sum / (double)(to - from) : 0.0;
 }
 
 /* The value that `below` of x[n] are not above. */
@@ -99,10 +99,7 @@ static struct levels levels(const double *x, const struct strikes_recording *r, 
     l.rms = ARENA_TAKE(a, double, l.n);
     for (long k = 0; k < l.n; k++) {
         const double *y = x + k * l.frame;
-        double middle = mean(y, 0, l.frame), square = 0.0;
-        for (long i = 0; i < l.frame; i++)
-            square += (y[i] - middle) * (y[i] - middle);
-        l.rms[k] = sqrt(square / (double)l.frame);
+        l.rms[k] = gsl_stats_sd_with_fixed_mean(y, 1, (size_t)l.frame, mean(y, 0, l.frame));
     }
     l.floor = ranked(l.rms, l.n, l.n / 50);
     return l;
@@ -210,7 +207,7 @@ static struct strikes_one pulse(const struct strikes_recording *r, long top)
     while (foot > 0 && x[foot] > 0.1 * x[top])
         foot--;
     long from = foot - early > 0 ? foot - early : 0;
-    struct strikes_one v = {.base = from < foot - late ? mean(x, from, foot - late) : 0.0};
+    struct strikes_one v = {.base = mean(x, from, foot - late)};
     v.peak = x[top] - v.base;
     for (v.onset = foot; v.onset > 0 && v.onset > foot - late && x[v.onset] - v.base > edge_share * v.peak;)
         v.onset--;
@@ -253,9 +250,7 @@ static long departs(const struct strikes_recording *r, long from, long to)
 {
     const double *x = r->sound.x;
     long before = (long)(0.002 * r->rate), first = from - before > 0 ? from - before : 0;
-    double middle = 0.0, swing = 0.0, peak = greatest(x, from, to);
-    for (long i = first; i < from; i++)
-        middle += x[i] / (double)(from - first);
+    double middle = mean(x, first, from), swing = 0.0, peak = greatest(x, from, to);
     for (long i = first; i < from; i++)
         swing = fmax(swing, fabs(x[i] - middle));
     while (from < to && fabs(x[from] - middle) <= fmax(1.5 * swing, 0.05 * peak))

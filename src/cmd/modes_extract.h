@@ -51,11 +51,6 @@ struct modes_extract_place {
     struct spectral_distance distance; /* from that strike to what its modes make of it */
 };
 
-struct modes_extract_gain { /* h(t) = Im A e^(s t) per N s, t from the strike; without force of a strike whose sound's
-                               peak is 1 */
-    double re, im, se;      /* se: of |A| */
-};
-
 struct modes_extract {
     struct cmd_call *c;
     struct arena *arena;
@@ -66,10 +61,11 @@ struct modes_extract {
     double rate, low, high;            /* Hz; the band that is searched */
     struct modal_data data;
     struct modal_result found;
-    struct modes_extract_gain *sound; /* [found.n][n] of the sound's channel */
-    struct modes_extract_gain *gain;  /* ... of the table's quantity */
-    int quantity;                     /* of the table */
-    const char *why_not;              /* what lacks for a physical level; NULL */
+    struct modal_gain *sound; /* [found.n][n] of the sound's channel per N s, t from the strike; without force
+                                         of a strike whose sound's peak is 1; se: of all */
+    struct modal_gain *gain;  /* ... of the table's quantity */
+    int quantity;             /* of the table */
+    const char *why_not;      /* what lacks for a physical level; NULL */
     const char *note[MODES_EXTRACT_NOTES];
     int notes;
     double median_decay;     /* 1/s, of all components alike */

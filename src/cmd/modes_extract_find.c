@@ -322,48 +322,44 @@ static bool explains(struct modes_extract *x, struct err *e)
 
 /* A of a component at a place: of its strikes that are fitted the mean of sizes, weighted by noise and by how far
  * strikes differ, and the phase of the most certain. */
-static struct modes_extract_gain place_gain(const struct modes_extract *x, const struct modal_mode *m,
-                                            const struct modes_extract_place *p)
+static struct modal_gain place_gain(const struct modes_extract *x, const struct modal_mode *m,
+                                    const struct modes_extract_place *p)
 {
-    struct {
-        double size, se, shared, phase; /* shared: error of all strikes alike */
-    } g[STRIKES];
-    int n = 0, best = 0;
+    double size[STRIKES], se[STRIKES], of_all[STRIKES], noise = 0.0, least = HUGE_VAL, phase = 0.0;
+    int n = 0;
     for (int k = p->first; k < p->first + p->stretches; k++) {
         const struct modal_stretch *st = &x->data.stretch[k];
-        double se = m->gain[k].se, back = 0.0, unit = x->given.impulse ? 1.0 : x->rate;
-        if (!st->fitted || !isfinite(se) || se <= 0.0) continue;
+        const struct modal_gain *g = &m->gain[k];
+        double back = 0.0, unit = x->given.impulse ? 1.0 : x->rate;
+        if (!st->fitted || !isfinite(g->se) || g->se <= 0.0) continue;
         if (!x->given.impulse && !x->given.force_channel) {
             back = (double)(st->pulse.at - p->strikes.strike[st->strike].onset) / x->rate;
             unit = 1.0 / p->strikes.strike[st->strike].peak;
         }
-        cplx a = cplx_mul(m->gain[k].a, cplx_exp((cplx){-m->decay, 2.0 * REAL_PI * m->frequency}, -back));
+        cplx a = cplx_mul(g->a, cplx_exp((cplx){-m->decay, 2.0 * REAL_PI * m->frequency}, -back));
         double scale = unit * real_exp(m->decay * back);
-        a = cplx_scale(unit, a);
-        g[n].size = cplx_abs(a);
-        g[n].se = scale * se;
-        g[n].shared = scale * m->gain[k].shared;
-        g[n++].phase = real_atan2(a.im, a.re);
+        size[n] = cplx_abs(cplx_scale(unit, a));
+        se[n] = scale * g->se;
+        of_all[n] = scale * g->shared;
+        if (se[n] / fmax(size[n], 1e-300) < least) phase = real_atan2(a.im, a.re);
+        least = fmin(least, se[n] / fmax(size[n], 1e-300));
+        noise += se[n] * se[n];
+        n++;
     }
-    double mean = 0.0, between = 0.0, noise = 0.0, weights = 0.0, size = 0.0, shared = 0.0;
-    for (int i = 0; i < n; i++)
-        mean += g[i].size / n;
+    if (n == 0) return (struct modal_gain){0};
+    double between = 0.0, weights = 0.0, mean = 0.0, shared = 0.0;
+    if (n > 2) /* of few strikes chance alone makes some */
+        between = fmax(gsl_stats_variance(size, 1, (size_t)n) - 2.0 * noise / n, 0.0);
     for (int i = 0; i < n; i++) {
-        between += n > 1 ? (g[i].size - mean) * (g[i].size - mean) / (n - 1) : 0.0;
-        noise += g[i].se * g[i].se / n;
-        best = g[i].se / fmax(g[i].size, 1e-300) < g[best].se / fmax(g[best].size, 1e-300) ? i : best;
-    }
-    between = n > 2 ? fmax(between - 2.0 * noise, 0.0) : 0.0; /* of few strikes chance alone makes some */
-    for (int i = 0; i < n; i++) {
-        double w = 1.0 / (g[i].se * g[i].se + between);
+        double w = 1.0 / (se[i] * se[i] + between);
         weights += w;
-        size += w * g[i].size;
-        shared += w * g[i].shared;
+        mean += w * size[i];
+        shared += w * of_all[i];
     }
-    if (n == 0) return (struct modes_extract_gain){0.0, 0.0, 0.0};
-    return (struct modes_extract_gain){size / weights * real_cos(g[best].phase),
-                                       size / weights * real_sin(g[best].phase),
-                                       sqrt(1.0 / weights + shared * shared / (weights * weights))};
+    mean /= weights;
+    shared /= weights;
+    return (struct modal_gain){.a = {mean * real_cos(phase), mean * real_sin(phase)},
+                               .se = sqrt(1.0 / weights + shared * shared)};
 }
 
 /* Of the sound, and of the table's quantity: a monopole's radiation is divided out, if its sizes are given. */
@@ -373,17 +369,16 @@ static void gains(struct modes_extract *x)
     bool divides = g->quantity == MODES_PRESSURE && !isnan(g->radius);
     struct radiator_monopole r = radiator_monopole(g->radius, g->distance, air_density, air_speed);
     x->quantity = g->quantity != MODES_PRESSURE ? g->quantity : divides ? MODES_VELOCITY : MODES_ACCELERATION;
-    x->sound = ARENA_TAKE(x->arena, struct modes_extract_gain, x->found.n * x->n);
-    x->gain = ARENA_TAKE(x->arena, struct modes_extract_gain, x->found.n * x->n);
+    x->sound = ARENA_TAKE(x->arena, struct modal_gain, x->found.n * x->n);
+    x->gain = ARENA_TAKE(x->arena, struct modal_gain, x->found.n * x->n);
     for (int i = 0; i < x->found.n * x->n; i++) {
         const struct modal_mode *m = &x->found.mode[i / x->n];
-        struct modes_extract_gain a = x->sound[i] = x->gain[i] = place_gain(x, m, &x->place[i % x->n]);
+        struct modal_gain a = x->sound[i] = x->gain[i] = place_gain(x, m, &x->place[i % x->n]);
         double h[2], s[2] = {-m->decay, 2.0 * REAL_PI * m->frequency};
         if (!divides) continue;
         radiator_monopole_at(&r, s, h);
-        double power = h[0] * h[0] + h[1] * h[1];
-        x->gain[i] = (struct modes_extract_gain){(a.re * h[0] + a.im * h[1]) / power,
-                                                 (a.im * h[0] - a.re * h[1]) / power, a.se / sqrt(power)};
+        cplx pressure = {h[0], h[1]};
+        x->gain[i] = (struct modal_gain){.a = cplx_div(a.a, pressure), .se = a.se / cplx_abs(pressure)};
     }
 }
 

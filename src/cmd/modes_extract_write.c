@@ -7,8 +7,6 @@
 #include "num/fft.h"
 #include "num/real.h"
 
-static double size(const struct modes_extract_gain *g) { return sqrt(g->re * g->re + g->im * g->im); }
-
 static double t60(const struct modal_mode *m) { return 3.0 * real_log(10.0) / m->decay; }
 
 /* ------------------------------------------------------------------ table */
@@ -66,12 +64,12 @@ void modes_extract_write_table(FILE *f, const struct modes_extract *x)
     for (int k = 0; k < x->n; k++)
         for (int i = 0; i < x->found.n; i++) {
             const struct modal_mode *m = &x->found.mode[i];
-            const struct modes_extract_gain *a = &x->gain[i * x->n + k];
-            double along = x->quantity == MODES_VELOCITY       ? a->im
-                           : x->quantity == MODES_ACCELERATION ? -a->re
-                                                               : a->re,
-                   sign = along < 0.0 ? -1.0 : 1.0, gain = sign * size(a),
-                   phase = gain != 0.0 ? real_atan2(sign * a->im, sign * a->re) : 0.0;
+            const struct modal_gain *a = &x->gain[i * x->n + k];
+            double along = x->quantity == MODES_VELOCITY       ? a->a.im
+                           : x->quantity == MODES_ACCELERATION ? -a->a.re
+                                                               : a->a.re,
+                   sign = along < 0.0 ? -1.0 : 1.0, gain = sign * cplx_abs(a->a),
+                   phase = gain != 0.0 ? real_atan2(sign * a->a.im, sign * a->a.re) : 0.0;
             fprintf(f, "%d,%.9g,%.9g,%d,%.9g,%.9g,%.9g,%.9g", k + 1, unsigned_zero(x->place[k].x),
                     unsigned_zero(x->place[k].y), m->mode, frequency(x, m), m->decay, unsigned_zero(gain),
                     unsigned_zero(phase));
@@ -140,7 +138,7 @@ static void report_place(struct report *r, const struct modes_extract *x, int k)
 static void report_mode(struct report *r, const struct modes_extract *x, int i)
 {
     const struct modal_mode *m = &x->found.mode[i];
-    const struct modes_extract_gain *gain = &x->gain[i * x->n], *most = gain;
+    const struct modal_gain *gain = &x->gain[i * x->n], *most = gain;
     report_object(r, NULL);
     report_set(r,
                "mode:i slope:i frequency_hz:n frequency_se:n frequency_se_between:n decay_per_s:n decay_se:n "
@@ -148,18 +146,18 @@ static void report_mode(struct report *r, const struct modes_extract *x, int i)
                m->mode, m->slope, m->frequency, m->frequency_se, m->frequency_between, m->decay, m->decay_se,
                m->decay_between, t60(m), m->share);
     report_list(r, "places");
-    for (const struct modes_extract_gain *g = gain; g < gain + x->n; g++) {
+    for (const struct modal_gain *g = gain; g < gain + x->n; g++) {
         report_object(r, NULL);
-        report_set(r, "gain:n gain_se:n phase_rad:n phase_se_rad:n", size(g), g->se, real_atan2(g->im, g->re),
-                   g->se / size(g));
+        report_set(r, "gain:n gain_se:n phase_rad:n phase_se_rad:n", cplx_abs(g->a), g->se,
+                   real_atan2(g->a.im, g->a.re), g->se / cplx_abs(g->a));
         report_end(r);
-        most = size(g) > size(most) ? g : most;
+        most = cplx_abs(g->a) > cplx_abs(most->a) ? g : most;
     }
     report_end(r);
     report_end(r);
     report_text(r, "%5d %13.7g %9.2g %10.2g %11.4g %9.2g %10.2g %12.5g %9.2g", m->mode, m->frequency, m->frequency_se,
                 m->frequency_between, t60(m), t60(m) * m->decay_se / m->decay, t60(m) * m->decay_between / m->decay,
-                size(most), most->se);
+                cplx_abs(most->a), most->se);
     report_text(r, x->found.n > x->found.modes ? "%7d\n" : "\n", m->slope);
 }
 
@@ -240,9 +238,10 @@ static void stems(struct gnuplot *g, const struct modes_extract *x)
     fputs("$m << END\n", g->in);
     for (int i = 0; i < x->found.n; i++) {
         const struct modal_mode *m = &x->found.mode[i];
-        const struct modes_extract_gain *a = &x->sound[i * x->n];
-        double gain = size(a), height = decibel(gain * gain / (4.0 * m->decay * m->decay)), off_gain = a->se / gain,
-               off_decay = m->decay_se / m->decay, off = 2.0 * sqrt(off_gain * off_gain + off_decay * off_decay);
+        const struct modal_gain *a = &x->sound[i * x->n];
+        double gain = cplx_abs(a->a), height = decibel(gain * gain / (4.0 * m->decay * m->decay)),
+               off_gain = a->se / gain, off_decay = m->decay_se / m->decay,
+               off = 2.0 * sqrt(off_gain * off_gain + off_decay * off_decay);
         fprintf(g->in, "%.7g %.5g %.5g %.5g %.5g %.5g %.5g\n", m->frequency, height,
                 height + 20.0 * real_log10(fmax(1.0 - off, 1e-3)), height + 20.0 * real_log10(1.0 + off), t60(m),
                 t60(m) / (1.0 + 2.0 * off_decay), t60(m) / fmax(1.0 - 2.0 * off_decay, 0.01));
