@@ -138,7 +138,7 @@ static int drop_unstable(struct modal_fit *f)
         if (modal_converge_rise(f, i) > sure || survives(f, i, limit)) {
             i++;
         } else {
-            modal_converge_drop(f, i);
+            modal_converge_drop(f, i, 11);
             dropped++;
         }
     if (dropped) modal_converge(f);
@@ -440,16 +440,16 @@ bool modal_find(const struct modal_data *d, const struct modal_options *o, struc
         while (drop_unstable(&f) > 0)
             ;
     }
-    int too_fast = modal_converge_drop_least(&f, fast), chance = 0;
+    int too_fast = modal_converge_drop_least(&f, fast, 9), chance = 0;
     for (int n = 1; n; chance += n) {
-        n = modal_converge_drop_least(&f, uncertain);
+        n = modal_converge_drop_least(&f, uncertain, 9);
         if (n) modal_converge_sweeps(&f, 8, 4);
     }
     r->explained = ARENA_TAKE(a, double, d->stretches);
     r->fitted = ARENA_TAKE(a, double, d->stretches);
     r->direct = ARENA_TAKE(a, double, d->stretches);
     explain(&f, r->fitted, r->direct);
-    int more = modal_converge_drop_least(&f, surplus);
+    int more = modal_converge_drop_least(&f, surplus, 9);
     report(&f, a, r);
     note_number(r, a, too_fast,
                 arena_format(a, "component that decays faster than %.4g/s is left out (--fastest)", o->fastest),

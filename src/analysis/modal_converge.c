@@ -132,9 +132,9 @@ double modal_converge_rise(struct modal_fit *f, int i)
     return rise;
 }
 
-void modal_converge_drop(struct modal_fit *f, int i)
+void modal_converge_drop(struct modal_fit *f, int i, int most)
 {
-    int of[MODAL_BLOCK], n = modal_converge_near(f, i, NEIGHBOURS + 1, of), others = 0;
+    int of[MODAL_BLOCK], n = modal_converge_near(f, i, most, of), others = 0;
     for (int k = 0; k < n; k++) {
         f->c[of[k]].rise = NAN;
         if (of[k] != i) of[others++] = of[k] - (of[k] > i);
@@ -143,7 +143,7 @@ void modal_converge_drop(struct modal_fit *f, int i)
     if (others) modal_converge_refine(f, others, of, 20);
 }
 
-int modal_converge_drop_least(struct modal_fit *f, double (*worth)(struct modal_fit *f, int i))
+int modal_converge_drop_least(struct modal_fit *f, double (*worth)(struct modal_fit *f, int i), int most)
 {
     for (int dropped = 0;; dropped++) {
         int which = -1;
@@ -154,7 +154,7 @@ int modal_converge_drop_least(struct modal_fit *f, double (*worth)(struct modal_
             least = fmin(least, mine);
         }
         if (which < 0) return dropped;
-        modal_converge_drop(f, which);
+        modal_converge_drop(f, which, most);
     }
 }
 
@@ -171,7 +171,7 @@ void modal_converge_eliminate(struct modal_fit *f)
     modal_fit_noise(f, 0.0);
     for (int i = 0; i < f->m; i++)
         f->c[i].rise = NAN;
-    modal_converge_drop_least(f, needless);
+    modal_converge_drop_least(f, needless, NEIGHBOURS + 1);
 }
 
 /* Energy of a component in its own window over that of what there is without it. */
@@ -196,7 +196,7 @@ static double runaway(struct modal_fit *f, int i)
     return -f->c[i].s.re > 0.99 * f->fastest || size > cancels ? -size : HUGE_VAL;
 }
 
-int modal_converge_runaways(struct modal_fit *f) { return modal_converge_drop_least(f, runaway); }
+int modal_converge_runaways(struct modal_fit *f) { return modal_converge_drop_least(f, runaway, NEIGHBOURS + 1); }
 
 void modal_converge(struct modal_fit *f)
 {

@@ -172,9 +172,9 @@ double modal_converge_refine(struct modal_fit *f, int n, const int *of,
                              int steps); /* fits them anew, the greatest move in standard errors */
 void modal_converge_sweeps(struct modal_fit *f, int most, int rounds);
 double modal_converge_rise(struct modal_fit *f, int i); /* of chi when i goes and its neighbours are fitted anew */
-void modal_converge_drop(struct modal_fit *f, int i);   /* the others beside it are fitted anew */
+void modal_converge_drop(struct modal_fit *f, int i, int most); /* the others of `most` are fitted anew */
 /* Drops the component of least worth until that is HUGE_VAL; returns how many went. */
-int modal_converge_drop_least(struct modal_fit *f, double (*worth)(struct modal_fit *f, int i));
+int modal_converge_drop_least(struct modal_fit *f, double (*worth)(struct modal_fit *f, int i), int most);
 void modal_converge_eliminate(struct modal_fit *f); /* what the others do without */
 void modal_converge(struct modal_fit *f);
 int modal_converge_runaways(struct modal_fit *f); /* components at the bound of decays, or far louder than there is */

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "analysis/modal_fit.h"
-#include "num/fft.h"
 
 enum { SAMPLES = 128, ROWS = 40, ORDER = 12, EDGE = 3, WEAKEST = 3, NEIGHBOURS = 8 };
 
@@ -14,63 +13,29 @@ static const double enter = 38.0; /* chi squared of 4 degrees, chance 1.1e-7 */
 
 /* ------------------------------------------------------------------ bands */
 
-struct residual { /* spectra of all stretches, padded to one length */
-    long n;
-    double **re, **im; /* [stretches][n/2 + 1] */
-};
-
-static void residual_make(const struct modal_fit *f, struct arena *a, struct residual *r)
+/* Samples of the complex envelope of what is left in a stretch within `half` of `at` rad/s, pi/half seconds apart, with
+ * cosine edges of a quarter at each side. */
+static int envelope(const struct modal_fit *f, int s, double at, double half, cplx *y)
 {
-    const struct modal_data *d = f->data;
-    long most = 0;
-    for (int s = 0; s < d->stretches; s++)
-        most = d->stretch[s].n > most ? d->stretch[s].n : most;
-    r->n = (long)fft_good_size((size_t)most + (size_t)most / 8 + 64);
-    r->re = arena_take(a, (size_t)d->stretches, sizeof *r->re);
-    r->im = arena_take(a, (size_t)d->stretches, sizeof *r->im);
-    struct fft *whole = fft_open((size_t)r->n);
-    double *x = ARENA_TAKE(a, double, r->n);
-    for (int s = 0; s < d->stretches; s++) {
-        const struct modal_stretch *st = &d->stretch[s];
-        const struct modal_bins *b = &f->bins[s];
-        if (!st->fitted) continue;
-        struct fft *own = fft_open((size_t)st->n);
-        double *re = ARENA_TAKE(a, double, st->n / 2 + 1), *im = ARENA_TAKE(a, double, st->n / 2 + 1);
-        for (long k = 0; k < b->n; k++) {
-            re[b->first + k] = b->rest[k].re;
-            im[b->first + k] = b->rest[k].im;
-        }
-        memset(x, 0, (size_t)r->n * sizeof *x);
-        fft_inverse(own, re, im, x);
-        r->re[s] = ARENA_TAKE(a, double, r->n / 2 + 1);
-        r->im[s] = ARENA_TAKE(a, double, r->n / 2 + 1);
-        fft_forward(whole, x, r->re[s], r->im[s]);
-        fft_close(own);
+    const struct modal_stretch *st = &f->data->stretch[s];
+    const struct modal_bins *b = &f->bins[s];
+    double step = REAL_PI / half, samples = step * f->data->rate;
+    long first = (long)ceil((double)st->ringing / samples) + EDGE, end = (long)floor((double)st->n / samples) - EDGE,
+         from = (long)ceil((at - half) / b->width) - b->first, to = (long)floor((at + half) / b->width) - b->first,
+         n = end < first             ? 0
+             : end < first + SAMPLES ? end - first
+                                     : SAMPLES;
+    memset(y, 0, (size_t)n * sizeof *y);
+    for (long k = from > 0 ? from : 0; k <= to && k < b->n; k++) {
+        double off = (double)(b->first + k) * b->width - at, edge = 2.0 * fabs(off) / half - 1.0,
+               w = edge > 0.0 ? 0.5 + 0.5 * real_cospi(edge) : 1.0;
+        cplx turn = cplx_exp((cplx){0.0, off}, step),
+             z = cplx_mul(b->rest[k], cplx_exp((cplx){0.0, off}, (double)first * step));
+        z = cplx_scale(w / sqrt((double)st->n), z);
+        for (long i = 0; i < n; i++, z = cplx_mul(z, turn))
+            y[i] = cplx_add(y[i], z);
     }
-    fft_close(whole);
-}
-
-/* Samples of the band's complex envelope about bin `centre`, `wide` bins, n/wide samples of the stretch apart, turn[k]
-   = e^(2 pi j k/wide); cosine edges of a quarter at each side. */
-static int envelope(const struct residual *r, int s, const struct modal_stretch *st, long centre, long wide,
-                    const cplx *turn, cplx *y)
-{
-    double step = (double)r->n / (double)wide;
-    long from = (long)ceil((double)st->ringing / step) + EDGE, to = (long)floor((double)st->n / step) - EDGE;
-    to = to < from + SAMPLES ? to : from + SAMPLES;
-    for (long i = from; i < to; i++) {
-        cplx sum = {0};
-        for (long k = -wide / 2; k < wide - wide / 2; k++) {
-            long bin = centre + k;
-            double edge = 4.0 * fabs((double)k) / (double)wide - 1.0,
-                   w = edge > 0.0 ? 0.5 + 0.5 * real_cospi(edge) : 1.0;
-            if (bin < 1 || bin >= r->n / 2) continue;
-            cplx bins = {w * r->re[s][bin], w * r->im[s][bin]};
-            sum = cplx_add(sum, cplx_mul(bins, turn[((k * i) % wide + wide) % wide]));
-        }
-        y[i - from] = sum;
-    }
-    return to > from ? (int)(to - from) : 0;
+    return (int)n;
 }
 
 /* ------------------------------------------------------------------ ESPRIT */
@@ -333,8 +298,7 @@ static int take(struct modal_fit *f, cplx *pole, int n, double low, double high,
 }
 
 struct band {
-    long centre; /* bin of the residual's spectra */
-    double power;
+    double centre, power; /* rad/s */
 };
 
 static int stronger(const void *x, const void *y)
@@ -344,24 +308,22 @@ static int stronger(const void *x, const void *y)
                                 : (a->centre > b->centre) - (a->centre < b->centre);
 }
 
-/* ESPRIT's poles of one band that may be modes of it. */
-static int candidates(const struct modal_fit *f, const struct residual *r, long centre, long wide, const cplx *turn,
-                      cplx (*y)[SAMPLES], cplx *pole)
+/* ESPRIT's poles of one band, within `half` of `at`, that may be modes of it. */
+static int candidates(const struct modal_fit *f, double at, double half, cplx (*y)[SAMPLES], cplx *pole)
 {
     const struct modal_data *d = f->data;
-    double bin = 2.0 * REAL_PI * d->rate / (double)r->n, at = (double)centre * bin, quarter = 0.25 * (double)wide * bin,
-           step = (double)r->n / (double)wide / d->rate;
+    double step = REAL_PI / half;
     int n[MODAL_STRETCHES], longest = 0, poles = 0;
     cplx z[ORDER];
     for (int s = 0; s < d->stretches; s++) {
-        n[s] = d->stretch[s].fitted ? envelope(r, s, &d->stretch[s], centre, wide, turn, y[s]) : 0;
+        n[s] = d->stretch[s].fitted ? envelope(f, s, at, half, y[s]) : 0;
         longest = n[s] > longest ? n[s] : longest;
     }
     int order = esprit(y, n, d->stretches, z);
     for (int i = 0; i < order; i++) {
         double size = cplx_abs(z[i]), omega = at + real_atan2(z[i].im, z[i].re) / step,
                decay = size > 0.0 ? -real_log(size) / step : HUGE_VAL;
-        if (fabs(omega - at) > 1.5 * quarter || omega <= f->low || omega >= f->high || decay > 2.0 * quarter ||
+        if (fabs(omega - at) > 0.75 * half || omega <= f->low || omega >= f->high || decay > half ||
             decay < -2.0 / (step * (double)longest))
             continue;
         decay = fmax(decay, 0.3 / (step * (double)longest));
@@ -383,34 +345,22 @@ static int fit_in(struct modal_fit *f, int from)
 
 int modal_search(struct modal_fit *f, double width, double least)
 {
-    const struct modal_data *d = f->data;
     struct arena *a = arena_open();
-    struct residual r;
-    cplx(*y)[SAMPLES] = arena_take(a, (size_t)d->stretches, sizeof *y);
+    cplx(*y)[SAMPLES] = arena_take(a, (size_t)f->data->stretches, sizeof *y);
     int bands = 0, came = 0;
-    double limit = modal_converge_limit(f, enter);
+    double limit = modal_converge_limit(f, enter), half = REAL_PI * width, middle = 0.5 * half;
+    struct band *band = ARENA_TAKE(a, struct band, (f->high - f->low) / half + 3.0);
     modal_fit_noise(f, 8.0 * width);
-    residual_make(f, a, &r);
-    long wide = (long)rint(width / d->rate * (double)r.n);
-    wide = wide < r.n / 2 ? wide : r.n / 2;
-    wide += wide % 2;
-    double bin = 2.0 * REAL_PI * d->rate / (double)r.n, quarter = 0.25 * (double)wide * bin;
-    struct band *band = ARENA_TAKE(a, struct band, 2 * r.n / wide + 4);
-    cplx *turn = ARENA_TAKE(a, cplx, wide);
-    for (long k = 0; k < wide; k++)
-        turn[k] = (cplx){real_cospi(2.0 * (double)k / (double)wide), real_sinpi(2.0 * (double)k / (double)wide)};
-    for (long centre = (long)(f->low / bin); (double)centre * bin < f->high + quarter; centre += wide / 2) {
-        band[bands] =
-            (struct band){centre, stands_out(f, (double)centre * bin - quarter, (double)centre * bin + quarter)};
+    for (double at = f->low; at < f->high + middle; at += half) {
+        band[bands] = (struct band){at, stands_out(f, at - middle, at + middle)};
         bands += band[bands].power > 0.0 && band[bands].power >= least;
     }
     qsort(band, (size_t)bands, sizeof *band, stronger);
     for (int k = 0; k < bands && f->m < f->most; k++) {
-        double at = (double)band[k].centre * bin, power = stands_out(f, at - quarter, at + quarter);
+        double at = band[k].centre;
         cplx pole[ORDER];
-        int poles = power > 0.0 && power >= least ? candidates(f, &r, band[k].centre, wide, turn, y, pole) : 0,
-            m = f->m;
-        if (poles && take(f, pole, poles, at - quarter, at + quarter, limit, least)) came += fit_in(f, m);
+        int poles = candidates(f, at, half, y, pole), m = f->m;
+        if (poles && take(f, pole, poles, at - middle, at + middle, limit, least)) came += fit_in(f, m);
     }
     arena_close(a);
     return came;
