@@ -116,14 +116,14 @@ static bool survives(struct modal_fit *f, int i, double limit)
     struct noise source = noise_make(1, "modes that survive");
     int at;
     struct modal_block *was = modal_converge_open(f, i, 8, &at, a);
-    modal_block_gains(was);
+    modal_block_polish(was, 0);
     for (int k = 0; k < DRAWS; k++) {
         struct modal_block *b = modal_converge_open(f, i, 8, &at, a);
         redraw(b, was, (uint64_t)k << 20 | (uint64_t)i << 32, source);
         modal_block_polish(b, 4);
         double chi = b->chi;
         modal_block_drop(b, at);
-        modal_block_polish(b, b->m ? 5 : 0);
+        modal_block_polish(b, 5);
         surviving += b->chi - chi >= limit;
     }
     arena_close(a);
@@ -293,7 +293,7 @@ static void fit_gains(struct modal_fit *f)
         struct arena *a = arena_open();
         int of[MODAL_BLOCK], n = modal_converge_near(f, i % f->m, 12, of);
         struct modal_block *b = modal_block_open(f, n, of, NULL, 0, a);
-        modal_block_gains(b);
+        modal_block_polish(b, 0);
         for (int k = 0; k < n; k++)
             modal_fit_replace(f, of[k], f->c[of[k]].s, b->part + k * d->stretches);
         arena_close(a);
@@ -372,7 +372,7 @@ static void report(struct modal_fit *f, struct arena *a, struct modal_result *r)
     }
     for (int j = 0; j < r->n; j++)
         r->mode[j].share /= all > 0.0 ? all : 1.0;
-    modal_spread(f);
+    modal_converge_spread(f);
     for (int j = 0; j < r->n; j++) { /* a strike's noise is between strikes, too */
         struct modal_mode *m = &r->mode[j];
         const double *spread = f->c[m->component].spread;
@@ -435,7 +435,7 @@ bool modal_find(const struct modal_data *d, const struct modal_options *o, struc
     modal_fit_noise(&f, 0.0);
     if (!o->spectrogram) {
         modal_converge_sweeps(&f, 8, 2);
-        modal_spread(&f);
+        modal_converge_spread(&f);
         modal_converge(&f);
         while (drop_unstable(&f) > 0)
             ;

@@ -416,8 +416,6 @@ struct modal_block *modal_block_open(const struct modal_fit *f, int m, const int
     return b;
 }
 
-void modal_block_gains(struct modal_block *b) { pass(b, false, NULL); }
-
 void modal_block_drop(struct modal_block *b, int i)
 {
     int stretches = b->fit->data->stretches;
@@ -514,7 +512,7 @@ int modal_block_deviations(struct modal_block *b, int i, int q, double *by, doub
     struct arena *inner = arena_open();
     double *inverse = ARENA_TAKE(inner, double, n *n), deviation[POLES], weight[POLES], value = q ? 1.0 : b->s[i].im;
     for (int j = 0; j < b->m; j++) /* not as they were found: what is 0 would stay it */
-        memcpy(b->spread[j], modal_spread_stated, sizeof b->spread[j]);
+        memcpy(b->spread[j], modal_converge_stated, sizeof b->spread[j]);
     pass(b, true, NULL);
     for (int k = 0; k < b->fit->data->stretches; k++) {
         if (!b->window[k].used) continue;

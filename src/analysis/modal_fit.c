@@ -172,7 +172,7 @@ void modal_fit_open(struct modal_fit *f, const struct modal_data *d, const struc
                             .a = a,
                             .low = 2.0 * REAL_PI * o->low,
                             .high = 2.0 * REAL_PI * o->high,
-                            .typical = {modal_spread_stated[0], modal_spread_stated[1]},
+                            .typical = {modal_converge_stated[0], modal_converge_stated[1]},
                             .tolerance = 1e-2};
     f->bins = ARENA_TAKE(a, struct modal_bins, d->stretches);
     for (int k = 0; k < d->stretches; k++) {

@@ -149,7 +149,6 @@ struct modal_block *modal_block_open(const struct modal_fit *f, int m, const int
 /* A block that modal_block_copy can make like another; both of one fit. */
 struct modal_block *modal_block_room(const struct modal_fit *f, struct arena *a);
 void modal_block_copy(struct modal_block *to, const struct modal_block *from);
-void modal_block_gains(struct modal_block *b); /* gains of its poles, noise, chi */
 void modal_block_worth(
     struct modal_block *b,
     double *worth); /* the same; worth[m]: by how much chi rises without each, its poles and the others' as they are */
@@ -183,9 +182,8 @@ double modal_converge_limit(const struct modal_fit *f,
                             double chi4); /* of chi squared of 2 + 2 stretches degrees, as likely
                                                                       as chi4 of four */
 
-/* modal_spread.c */
-extern const double modal_spread_stated[2]; /* spreads before they are measured, and where one strike is all */
-void modal_spread(struct modal_fit *f);
+extern const double modal_converge_stated[2]; /* spreads before they are measured, and where one strike is all */
+void modal_converge_spread(struct modal_fit *f);
 
 /* modal_search.c */
 void modal_spectrogram(struct modal_fit *f);

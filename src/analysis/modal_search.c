@@ -1,5 +1,6 @@
 /* Modes that are not in a fit yet: sub-band ESPRIT (Roy, Kailath 1989) on what it leaves, each band's poles polished
    together on the band's own bins with the smooth columns, and tested before they come in. */
+#include <gsl/gsl_blas.h>
 #include <gsl/gsl_complex_math.h>
 #include <gsl/gsl_eigen.h>
 #include <stdlib.h>
@@ -40,31 +41,32 @@ static int envelope(const struct modal_fit *f, int s, double at, double half, cp
 
 /* ------------------------------------------------------------------ ESPRIT */
 
-/* Eigenvalues of the complex a[n][n]. GSL has them of real matrices: [Re a, -Im a; Im a, Re a] has those of a and their
+/* Eigenvalues of a complex matrix. GSL has them of real ones: [Re a, -Im a; Im a, Re a] has those of a and their
    conjugates. With j times more than the norm of a added to all of them, a's own are those above the real axis. */
-static int eigenvalues(const cplx *a, int n, cplx *value)
+static int eigenvalues(const gsl_matrix_complex *a, cplx *value)
 {
-    double up = 1.0;
+    size_t m = a->size1;
     int found = 0;
-    if (n == 0) return 0;
-    for (int i = 0; i < n * n; i++)
-        up += cplx_abs(a[i]);
-    size_t m = (size_t)n;
+    double up = 1.0;
     gsl_matrix *real = gsl_matrix_alloc(2 * m, 2 * m);
     gsl_vector_complex *all = gsl_vector_complex_alloc(2 * m);
     gsl_eigen_nonsymm_workspace *w = gsl_eigen_nonsymm_alloc(2 * m);
+    for (size_t i = 0; i < m * m; i++) {
+        gsl_complex at = gsl_matrix_complex_get(a, i / m, i % m);
+        up += fabs(GSL_REAL(at)) + fabs(GSL_IMAG(at));
+    }
     for (size_t i = 0; i < m; i++)
         for (size_t j = 0; j < m; j++) {
-            cplx at = cplx_add(a[i * m + j], (cplx){0.0, i == j ? up : 0.0});
-            gsl_matrix_set(real, i, j, at.re);
-            gsl_matrix_set(real, m + i, m + j, at.re);
-            gsl_matrix_set(real, m + i, j, at.im);
-            gsl_matrix_set(real, i, m + j, -at.im);
+            gsl_complex at = gsl_complex_add_imag(gsl_matrix_complex_get(a, i, j), i == j ? up : 0.0);
+            gsl_matrix_set(real, i, j, GSL_REAL(at));
+            gsl_matrix_set(real, m + i, m + j, GSL_REAL(at));
+            gsl_matrix_set(real, m + i, j, GSL_IMAG(at));
+            gsl_matrix_set(real, i, m + j, -GSL_IMAG(at));
         }
     if (gsl_eigen_nonsymm(real, all, w) == GSL_SUCCESS)
-        for (size_t i = 0; i < 2 * m && found < n; i++) {
+        for (size_t i = 0; i < 2 * m && (size_t)found < m; i++) {
             gsl_complex at = gsl_vector_complex_get(all, i);
-            if (at.dat[1] > 0.0) value[found++] = (cplx){at.dat[0], at.dat[1] - up};
+            if (GSL_IMAG(at) > 0.0) value[found++] = (cplx){GSL_REAL(at), GSL_IMAG(at) - up};
         }
     gsl_eigen_nonsymm_free(w);
     gsl_vector_complex_free(all);
@@ -72,70 +74,57 @@ static int eigenvalues(const cplx *a, int n, cplx *value)
     return found;
 }
 
-/* psi of U_up psi = U_down by normal equations of orthonormal columns: (I - u u^H) is inverted in closed form, u the
- * last row. */
-static void shift_matrix(const gsl_matrix_complex *v, int rows, int order, cplx *psi)
+/* Eigenvalues of psi, U_up psi = U_down by normal equations of orthonormal columns: (I - u u^H) is inverted in closed
+ * form, u the last row. */
+static int shifts(const gsl_matrix_complex *v, size_t order, cplx *z)
 {
-    double last = 0.0;
-    cplx u[ORDER], *left = psi;
-    for (int i = 0; i < order; i++) {
-        gsl_complex w = gsl_matrix_complex_get(v, (size_t)rows - 1, (size_t)i);
-        u[i] = (cplx){w.dat[0], -w.dat[1]};
-        last += cplx_square(u[i]);
+    const gsl_complex one = {{1.0, 0.0}}, none = {{0.0, 0.0}};
+    size_t last = v->size1 - 1;
+    double square = 0.0;
+    if (order == 0) return 0;
+    gsl_matrix_complex_const_view above = gsl_matrix_complex_const_submatrix(v, 0, 0, last, order),
+                                  below = gsl_matrix_complex_const_submatrix(v, 1, 0, last, order);
+    gsl_matrix_complex *psi = gsl_matrix_complex_alloc(order, order);
+    gsl_vector_complex *u = gsl_vector_complex_alloc(order), *w = gsl_vector_complex_alloc(order);
+    for (size_t i = 0; i < order; i++) {
+        gsl_complex at = gsl_complex_conjugate(gsl_matrix_complex_get(v, last, i));
+        gsl_vector_complex_set(u, i, at);
+        square += gsl_complex_abs2(at);
     }
-    for (int i = 0; i < order; i++)
-        for (int j = 0; j < order; j++) {
-            cplx sum = {0};
-            for (int k = 0; k + 1 < rows; k++) {
-                gsl_complex x = gsl_matrix_complex_get(v, (size_t)k, (size_t)i),
-                            y = gsl_matrix_complex_get(v, (size_t)k + 1, (size_t)j);
-                sum = cplx_add(sum, cplx_mul((cplx){x.dat[0], -x.dat[1]}, (cplx){y.dat[0], y.dat[1]}));
-            }
-            left[i * order + j] = sum;
-        }
-    for (int j = 0; j < order && last < 1.0 - 1e-12; j++) {
-        cplx dot = {0};
-        for (int i = 0; i < order; i++)
-            dot = cplx_add(dot, cplx_mul(cplx_conj(u[i]), left[i * order + j]));
-        for (int i = 0; i < order; i++)
-            left[i * order + j] = cplx_add(left[i * order + j], cplx_scale(1.0 / (1.0 - last), cplx_mul(u[i], dot)));
-    }
+    gsl_blas_zgemm(CblasConjTrans, CblasNoTrans, one, &above.matrix, &below.matrix, none, psi);
+    gsl_blas_zgemv(CblasConjTrans, one, psi, u, none, w);
+    if (square < 1.0 - 1e-12) gsl_blas_zgerc((gsl_complex){{1.0 / (1.0 - square), 0.0}}, u, w, psi);
+    int found = eigenvalues(psi, z);
+    gsl_vector_complex_free(w);
+    gsl_vector_complex_free(u);
+    gsl_matrix_complex_free(psi);
+    return found;
 }
 
 /* Poles of a band from all its stretches' envelopes; z per sample of the envelope. */
 static int esprit(cplx (*y)[SAMPLES], const int *n, int stretches, cplx *z)
 {
-    int longest = 0, rows, vectors = 0, order = 0;
+    int longest = 0, vectors = 0, order = 0;
     for (int s = 0; s < stretches; s++)
         longest = n[s] > longest ? n[s] : longest;
-    rows = longest / 2 < ROWS ? longest / 2 : ROWS;
+    int rows = longest / 2 < ROWS ? longest / 2 : ROWS;
     if (rows < 6) return 0;
     gsl_matrix_complex *r = gsl_matrix_complex_calloc((size_t)rows, (size_t)rows),
                        *v = gsl_matrix_complex_alloc((size_t)rows, (size_t)rows);
     gsl_vector *value = gsl_vector_alloc((size_t)rows);
     gsl_eigen_hermv_workspace *w = gsl_eigen_hermv_alloc((size_t)rows);
     for (int s = 0; s < stretches; s++)
-        for (int t = 0; t + rows <= n[s]; t++, vectors++)
-            for (int i = 0; i < rows; i++)
-                for (int j = 0; j <= i; j++) {
-                    cplx p = cplx_mul(y[s][t + i], cplx_conj(y[s][t + j]));
-                    gsl_complex *at = gsl_matrix_complex_ptr(r, (size_t)i, (size_t)j);
-                    at->dat[0] += p.re;
-                    at->dat[1] += p.im;
-                }
+        for (int t = 0; t + rows <= n[s]; t++, vectors++) {
+            gsl_vector_complex_view x = gsl_vector_complex_view_array(&y[s][t].re, (size_t)rows);
+            gsl_blas_zher(CblasLower, 1.0, &x.vector, r);
+        }
     if (vectors >= rows / 2) {
-        for (int i = 0; i < rows; i++)
-            for (int j = 0; j < i; j++)
-                gsl_matrix_complex_set(r, (size_t)j, (size_t)i,
-                                       gsl_complex_conjugate(gsl_matrix_complex_get(r, (size_t)i, (size_t)j)));
         gsl_eigen_hermv(r, value, v, w);
         gsl_eigen_hermv_sort(value, v, GSL_EIGEN_SORT_VAL_DESC);
         double median = fmax(gsl_vector_get(value, (size_t)(rows - 1 - rows / 2)), 1e-13 * gsl_vector_get(value, 0));
         while (order < ORDER && order < rows / 2 && gsl_vector_get(value, (size_t)order) > 3.0 * median)
             order++;
-        cplx psi[ORDER * ORDER];
-        shift_matrix(v, rows, order, psi);
-        order = eigenvalues(psi, order, z);
+        order = shifts(v, (size_t)order, z);
     }
     gsl_eigen_hermv_free(w);
     gsl_vector_free(value);
@@ -233,7 +222,7 @@ static void needed_only(struct modal_block *b, double limit)
             if (b->of[i] >= 0 || worth[i] > 100.0 * limit || less >= WEAKEST) continue;
             modal_block_copy(try, b);
             modal_block_drop(try, i);
-            modal_block_polish(try, try->m ? 3 : 0);
+            modal_block_polish(try, 3);
             if (try->chi < least) modal_block_copy(best, try);
             least = fmin(least, try->chi);
         }

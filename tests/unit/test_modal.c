@@ -37,7 +37,7 @@ static void find(const struct known *m, int modes, double rms, unsigned seed, in
     for (long i = 0; i <= N; i++)
         y[i] = (double)(float)(y[i] + rms * noise[i]);
     for (int k = 0; k < flips; k++)
-        y[97 + 331 * k % N] *= 1.0 + 0x1p-24;
+        y[(97 + 331 * k) % N] *= 1.0 + 0x1p-24;
     struct modal_stretch s = {.y = y + 1, .first = 1, .n = modal_length(N), .fitted = true, .pulse = {0, 1, &one}};
     struct modal_data d = {.rate = RATE, .places = 1, .stretches = 1, .stretch = &s};
     struct modal_options o = {.most = 50, .low = 20, .high = 7800, .fastest = 0.02 * RATE};
