@@ -180,7 +180,7 @@ void modal_fit_open(struct modal_fit *f, const struct modal_data *d, const struc
         if (d->stretch[k].fitted) f->strikes++;
         if (d->stretch[k].fitted) f->longest = fmax(f->longest, (double)d->stretch[k].n / d->rate);
     }
-    f->most = o->most + o->most / 4 + 10;
+    f->most = (o->most > 50 ? o->most + o->most / 4 : 62) + 10; /* of few that are asked for, the strongest of many */
     f->slowest = 0.02 / f->longest;
     f->fastest = 1.5 * o->fastest; /* what stands for several fast modes until they are found may be faster than they */
     modal_fit_rest(f);

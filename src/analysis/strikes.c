@@ -18,7 +18,8 @@
 
    Clipping, in files that hold more than they were recorded with (floating point, or scaled afterwards): the greatest
    sample stands several times in a row, and the signal leaves it at once. A slow wave in few bits has such rows too,
-   but leaves them by single steps, which are the least difference between neighbours that there is. */
+   but leaves them by single steps, which are the least difference between neighbours that there is. In other files:
+   two neighbours are as large as the file can hold. One alone is what normalising to full scale makes. */
 #include "analysis/strikes.h"
 
 #include <gsl/gsl_statistics_double.h>
@@ -146,12 +147,31 @@ static bool stands(const double *x, long n, double extreme, double step)
     return false;
 }
 
+/* The least difference between neighbours that there is; infinite: there is none. */
+static double least_step(const double *x, long n)
+{
+    double step = INFINITY;
+    for (long i = 1; i < n; i++)
+        if (x[i] != x[i - 1]) step = fmin(step, fabs(x[i] - x[i - 1]));
+    return step;
+}
+
+/* The step that all differences are whole multiples of, as of 8 bits in a file of 16 or of floats; 0: there is none. */
+static double grain(const double *x, long n)
+{
+    double step = least_step(x, n);
+    if (isinf(step)) return 0.0;
+    for (long i = 1; i < n; i++) {
+        double steps = fabs(x[i] - x[i - 1]) / step;
+        if (!(fabs(steps - rint(steps)) < 1e-3)) return 0.0;
+    }
+    return step;
+}
+
 /* The levels at which a channel of n samples clips, though the file could hold more. */
 static void find_clip(struct strikes_channel *c, long n)
 {
-    double extreme[2], step = INFINITY;
-    for (long i = 1; i < n; i++)
-        if (c->x[i] != c->x[i - 1]) step = fmin(step, fabs(c->x[i] - c->x[i - 1]));
+    double extreme[2], step = least_step(c->x, n);
     gsl_stats_minmax(&extreme[0], &extreme[1], c->x, 1, (size_t)n);
     for (int k = 0; k < 2; k++)
         c->clip[k] = (k ? extreme[k] > 0.0 : extreme[k] < 0.0) && stands(c->x, n, extreme[k], step) ? extreme[k] : 0.0;
@@ -173,7 +193,7 @@ static void prepare(struct strikes_channel *c, const struct strikes_recording *r
     double least, most = 0.0, error, offset = offset_of(c->x, r, &error);
     for (long i = 0; i < r->n; i++)
         most = fmax(most, fabs(c->x[i] - offset));
-    if (fabs(offset) > fmax(considerable * most, 4.0 * error) && most > 0.0) {
+    if (fabs(offset) > fmax(considerable * most, 4.0 * error)) {
         change(c, r->n, 1.0, offset, a);
         c->offset = offset;
         NOTE(s, a, "the %s stands beside 0, by %.3g: that offset is taken off", force ? "force" : "sound", offset);
@@ -187,12 +207,15 @@ static void prepare(struct strikes_channel *c, const struct strikes_recording *r
     find_clip(c, r->n);
 }
 
+/* As large as the file can hold. */
+static bool full(const struct strikes_channel *c, long i) { return fabs(c->x[i] + c->offset) >= clip_share * c->full; }
+
 /* The sample after the last that clips; `from`: none does. */
 static long clips(const struct strikes_channel *c, long from, long to)
 {
     while (to > from &&
-           !(fabs(c->x[to - 1] + c->offset) >= clip_share * c->full ||
-             (c->clip[0] < 0.0 && c->x[to - 1] <= c->clip[0]) || (c->clip[1] > 0.0 && c->x[to - 1] >= c->clip[1])))
+           !((to > 1 && full(c, to - 1) && full(c, to - 2)) || (c->clip[0] < 0.0 && c->x[to - 1] <= c->clip[0]) ||
+             (c->clip[1] > 0.0 && c->x[to - 1] >= c->clip[1])))
         to--;
     return to;
 }
@@ -337,17 +360,14 @@ static bool no_gap(const struct strikes_recording *r, const struct strikes_one *
 }
 
 /* Enough of the file's steps to tell a mode from their rounding, which follows the sound where that is faint? */
-static bool high_enough(const struct strikes_recording *r, const struct strikes *s, struct err *e)
+static bool high_enough(const struct strikes_recording *r, double peak, const char *what, struct err *e)
 {
-    double peak = 0.0;
-    for (const struct strikes_one *v = s->strike; v < s->strike + s->n; v++)
-        if (!v->left_out) peak = fmax(peak, greatest(r->sound.x, v->onset, v->end));
     double steps = peak / (r->rounding * sqrt(12.0));
     return r->rounding == 0.0 || steps >= fewest_steps ||
            err_set(e, ERR_SCENE,
-                   "%s: the loudest strike is only %.0f of the file's steps high (%.0f are needed): what they "
+                   "%s: the loudest %s is only %.0f of the file's steps high (%.0f are needed): what they "
                    "round away would be taken for modes; record it with more bits, or louder",
-                   r->name, steps, fewest_steps);
+                   r->name, what, steps, fewest_steps);
 }
 
 bool strikes_find(struct strikes_recording *r, double threshold, struct arena *a, struct strikes *s, struct err *e)
@@ -359,12 +379,14 @@ bool strikes_find(struct strikes_recording *r, double threshold, struct arena *a
     if ((double)r->n < shortest * r->rate)
         return err_set(e, ERR_SCENE, "%s lasts %.3g ms; a strike and what rings after it take at least 10 ms", r->name,
                        1e3 * (double)r->n / r->rate);
-    if (greatest(r->sound.x, 0, r->n) == 0.0)
-        return err_set(e, ERR_SCENE, "%s: the sound is silent (all samples are 0): is --channel right?", r->name);
+    if (greatest(r->sound.x, 0, r->n) <= r->rounding)
+        return err_set(e, ERR_SCENE, "%s: the sound is silent (all samples are alike): is --channel right?", r->name);
     if (force && greatest(r->force.x, 0, r->n) == 0.0)
         return err_set(e, ERR_SCENE,
-                       "%s: the channel of the force is silent (all samples are 0): is --force-channel right?",
+                       "%s: the channel of the force is silent (all samples are alike): is --force-channel right?",
                        r->name);
+    r->rounding = fmax(r->rounding, grain(r->sound.x, r->n) / sqrt(12.0));
+    if (!high_enough(r, greatest(r->sound.x, 0, r->n), "sound", e)) return false;
     (force ? by_force : by_sound)(r, threshold, s, a);
     if (s->n && (double)(r->n - s->strike[s->n - 1].onset) < shortest * r->rate) {
         s->n--;
@@ -381,7 +403,11 @@ bool strikes_find(struct strikes_recording *r, double threshold, struct arena *a
         v->clear = clips(&r->sound, v->onset, v->end);
         v->clipped = v->clipped || v->clear > v->onset;
     }
-    bool ok = choose(r, s, a, e) && high_enough(r, s, e);
+    if (!choose(r, s, a, e)) return false;
+    double peak = 0.0;
+    for (const struct strikes_one *v = s->strike; v < s->strike + s->n; v++)
+        if (!v->left_out) peak = fmax(peak, greatest(r->sound.x, v->onset, v->end));
+    bool ok = high_enough(r, peak, "strike", e);
     for (int k = 0; k < s->n && ok; k++)
         ok = no_gap(r, &s->strike[k], e);
     return ok;
@@ -389,42 +415,50 @@ bool strikes_find(struct strikes_recording *r, double threshold, struct arena *a
 
 /* ------------------------------------------------------------------ a response */
 
-/* Samples before a response begins: what rises from the hundredth to the fifth of its greatest within 16 samples begins
- * there, if all before is fainter. One more stays, as sample 0. */
-static long begins(const double *h, long n)
+/* Samples before a response begins: what rises within 16 samples to a fifth of its greatest begins there, if all before
+   is fainter than a tenth. It begins where it is above the hundredth, and half as much again as whatever stands before
+   these 16. One more stays, as sample 0. *late: the first fifth, where no beginning is found. */
+static long begins(const double *h, long n, long *late)
 {
     double most = greatest(h, 0, n);
-    long at = 0, start, quiet = 0;
+    long at = 0;
     while (at < n && fabs(h[at]) < 0.2 * most)
         at++;
-    for (start = at; start > 0 && fabs(h[start - 1]) >= 0.01 * most;)
+    long start = at, lead = at > 16 ? at - 16 : 0;
+    double least = fmax(0.01 * most, 1.5 * greatest(h, 0, lead));
+    while (start > lead && fabs(h[start - 1]) >= least)
         start--;
-    while (quiet < start && fabs(h[quiet]) < 0.01 * most)
-        quiet++;
-    return quiet == start && start > 2 && at - start <= 16 ? start - 1 : 0;
+    bool found = start > 2 && least <= 0.1 * most && (start == lead || greatest(h, lead, start - 1) < least);
+    *late = found ? 0 : at;
+    return found && start > lead ? start - 1 : 0;
 }
 
 bool strikes_response(struct strikes_recording *r, double delay, struct arena *a, struct strikes *s, struct err *e)
 {
-    const double *x = r->sound.x;
     double length = (double)r->n / r->rate, behind = length - (isnan(delay) ? 0.0 : delay);
     if (behind < shortest)
         return err_set(e, ERR_SCENE, "%s lasts %.4g ms%s; a response takes at least 10 ms", r->name, 1e3 * length,
                        isnan(delay) ? ""
                                     : arena_format(a, ", of which --delay leaves %.3g ms", 1e3 * fmax(behind, 0.0)));
-    long shift = isnan(delay) ? begins(x, r->n) : (long)rint(delay * r->rate);
-    double most = greatest(x, shift, r->n);
     *s = (struct strikes){.n = 1, .used = 1, .strike = ARENA_TAKE(a, struct strikes_one, 1)};
+    prepare(&r->sound, r, s, a);
+    const double *x = r->sound.x;
+    long late = 0, shift = isnan(delay) ? begins(x, r->n, &late) : (long)rint(delay * r->rate);
+    double most = greatest(x, shift, r->n);
     *s->strike = (struct strikes_one){.onset = shift, .over = shift, .end = r->n, .peak = most, .momentum = NAN};
     if (isnan(delay) && shift)
         NOTE(s, a, "the response begins %.4g ms into the file: that is taken off (--delay 0 ms keeps it)",
              1e3 * (double)shift / r->rate);
+    if ((double)late > 0.0005 * r->rate)
+        NOTE(s, a,
+             "no clear onset is found: the impulse is taken to be at sample 0, though the response reaches a fifth of "
+             "its greatest %.4g ms later only; if it begins later, gains and phases are wrong: give --delay, or cut it",
+             1e3 * (double)late / r->rate);
     if ((double)(r->n - shift) < shortest * r->rate)
         return err_set(e, ERR_SCENE, "%s begins %.3g ms before its end; a response takes at least 10 ms", r->name,
                        1e3 * (double)(r->n - shift) / r->rate);
     if (most == 0.0)
         return err_set(e, ERR_SCENE, "%s: the response is silent (all samples are 0): is --channel right?", r->name);
-    find_clip(&r->sound, r->n);
     if (clips(&r->sound, 0, r->n) > 0) /* also before the delay: what is clipped at its onset rings wrongly */
         NOTE(s, a, "its greatest sample is as large as the file can hold, or stands in a row: it may be clipped");
     return true;

@@ -647,8 +647,7 @@ static const struct args_option options[] = {
      "extract: by which the sound's channel comes after the force's; default: of pressure, and with --impulse behind "
      "silence, found in the response, else 0"},
     {"impulse", 0, NULL, false, "extract: the recordings are impulse responses already, sample 0 at the strike"},
-    {"low", 0, "FREQUENCY", false,
-     "extract: modes are looked for from here on; default: where the sound stands out of the noise"},
+    {"low", 0, "FREQUENCY", false, "extract: modes are looked for from here on; default: 20 Hz"},
     {"high", 0, "FREQUENCY", false,
      "extract: ... up to here; default: as far as the hammer's force reaches, 40 dB below its greatest power"},
     {"fastest", 0, "RATE", false,
@@ -700,25 +699,25 @@ const struct command modes_command = {
         "Without --line, --circle, --grid, --at or --points they are a grid over what is seen (rings if round), a line "
         "along what is slender. A table that was made from the same inputs and has not been changed since is left as "
         "it is.\n"
-        "rasp modes extract RECORDING... -o FILE.csv: the modes of a real object from recordings in which it is "
-        "struck. RECORDING holds one strike or many on one place. It is fitted itself: every strike has gains of its "
-        "own; frequencies and decays are those of all, within what strikes differ by. A hammer's force (--force- "
-        "channel) drives the modes, else a strike is an impulse. No mode is reported that noise might have made; two "
-        "decays of one frequency are. A hum, which does not decay or was as loud before the first strike, is no mode. "
-        "Strikes that clip, are doubled by a bouncing hammer or 30 dB quieter than the loudest sound are left out; 8 "
-        "bits are mostly refused. Modes that explain less than nine tenths of what lags the force, or less than half "
-        "in a strike, make no table, nor do those of different objects. Without a force a second hit within 100 ms is "
-        "mostly not seen: listen, and cut it out. Several places are FILE@X,Y each, or one folder with index.csv "
-        "(columns file_name,x_m,y_m): they share frequencies and decays; without a force each has a level and an "
-        "onset of its own, so that places cannot be compared. The sound is a microphone's pressure unless --quantity "
-        "is given. Levels are physical where --scale and --force-scale are given and the sound is a vibration, or a "
+        "rasp modes extract RECORDING... -o FILE.csv: the modes of an object from recordings in which it is struck. "
+        "RECORDING holds one strike or many on one place. It is fitted itself: every strike has gains of its own; "
+        "frequencies and decays are those of all, within what strikes differ by. A hammer's force (--force- channel) "
+        "drives the modes, else a strike is an impulse. No mode is reported that noise might have made; two decays of "
+        "one frequency are. A hum, which does not decay or was as loud before the strikes, is no mode. Strikes that "
+        "clip or are 30 dB below the loudest sound are left out; of one doubled by a bouncing hammer the rest is "
+        "fitted; 8 bits are mostly refused. Modes that explain less than nine tenths of what lags the force, or less "
+        "than half in a strike, make no table, nor do those of different objects. Without a force a second hit within "
+        "100 ms is mostly not seen: cut it out. Several places are FILE@X,Y each, or one folder with index.csv "
+        "(columns file_name,x_m,y_m): they share frequencies and decays; without a force each has a level and an onset "
+        "of its own, so that places cannot be compared. The sound is a microphone's pressure unless --quantity is "
+        "given. Levels are physical where --scale and --force-scale are given and the sound is a vibration, or a "
         "pressure with --radius and --distance; else relative, and the table says why. Report and table give errors: "
         "se, by noise, and se_between, the standard deviation from strike to strike, of one strike a stated 0.02 % of "
         "frequency and 5 % of decay. Modes come by their share of the energy. Modes that overlap may as well be "
         "others: a small change of the recording may bring them out. The median decay counts all modes alike, that by "
-        "energy, to compare materials by, is what half of it is slower than.\n"
-        "rasp modes list FILE: the strongest modes of a mode table, recipe or scene: frequency, time of decay by 60 "
-        "dB, largest gain (in a table over its places, of an object over a grid of places, or at one place with --at).",
+        "energy, to compare materials by, is what half of it is slower than.\nrasp modes list FILE: the strongest "
+        "modes of a mode table, recipe or scene: frequency, time of decay by 60 dB, largest gain (in a table over its "
+        "places, of an object over a grid of places, or at one place with --at).",
     .operands = "ACTION FILE",
     .least = 1,
     .most = -1,

@@ -168,8 +168,15 @@ static bool operand(struct modes_extract *x, const char *text, struct err *e)
     struct units_fault fault = {NULL, NULL};
     char *name = arena_text(x->arena, text), *at = strrchr(name, '@'), *comma = at ? strchr(at, ',') : NULL;
     *p = (struct modes_extract_place){.file = name, .shown = name, .gain = 1.0};
-    if (!comma || access(text, F_OK) == 0) return true;
-    *at = *comma = '\0';
+    if (!at || access(text, F_OK) == 0) return true;
+    *at = '\0';
+    if (!comma && access(name, F_OK) == 0)
+        return err_set(e, ERR_USAGE, "%s: the place behind @ is X,Y, as in %s@1cm,2cm", text, name);
+    if (!comma) {
+        *at = '@';
+        return true;
+    }
+    *comma = '\0';
     p->placed = true;
     for (int k = 0; k < 2; k++) {
         const char *length = k ? comma + 1 : at + 1;

@@ -221,7 +221,10 @@ START_TEST(last_bit_is_no_strike)
     for (long i = 0; i < 40; i++)
         m.sound[3000 + LENGTH + 2000 + 90 * (i / 8) + i % 8] = i % 2 ? step : 0.0;
     m.r.force.x = NULL;
-    m.r.rounding = step / sqrt(12.0);
+    solve(&m, &s); /* a file of floats: the step is seen in the samples */
+    ck_assert_int_eq(s.n, 1);
+    ck_assert_double_eq_tol(m.r.rounding, step / sqrt(12.0), 1e-6 * step);
+    m.sound[3500] += 0.3 * step;
     solve(&m, &s);
     ck_assert_int_eq(s.n, 1);
     m.r.rounding = 0.0;
@@ -262,6 +265,50 @@ START_TEST(clipped_and_scaled)
                            : 0.3 * real_sin(2.0 * REAL_PI * 310.0 * (double)i / RATE);
     ck_assert(strikes_response(&r, 4000.0 / RATE, m.a, &s, &e) && strstr(s.note, "may be clipped"));
     arena_close(m.a);
+}
+END_TEST
+
+/* One sample as large as the file can hold is what normalising makes; two neighbours are clipped. */
+START_TEST(as_loud_as_can_be)
+{
+    struct made m = make(1, (const long[]){3000}, peaks, 0, 1e-6);
+    struct strikes s;
+    struct err e = {0};
+    long at = 0;
+    for (long i = 0; i < N; i++)
+        at = fabs(m.sound[i]) > fabs(m.sound[at]) ? i : at;
+    m.r.sound.full = fabs(m.sound[at]);
+    solve(&m, &s);
+    ck_assert_int_eq(used(&s), 1);
+    m.sound[at + 1] = m.sound[at];
+    ck_assert(!strikes_find(&m.r, 20.0, m.a, &s, &e) && strstr(e.text, "clipped"));
+    arena_close(m.a);
+}
+END_TEST
+
+/* An impulse response behind 20 ms of noise, 20 to 50 dB below its greatest sample, and an offset: its onset is found,
+   to the one sample that stays, from 30 dB on, and else it is said that it is not. */
+START_TEST(response_in_noise)
+{
+    for (int dB = 20; dB <= 50; dB += 5) {
+        struct made m = make(1, (const long[]){100}, peaks, 0, 0.0);
+        double *x = ARENA_TAKE(m.a, double, N), rms = real_exp10(-dB / 20.0);
+        struct strikes_recording r = {.name = "r", .sound = {.x = x, .full = INFINITY}, .n = N, .rate = RATE};
+        struct strikes s;
+        struct err e = {0};
+        unsigned state = 7;
+        for (long i = 0; i < N; i++)
+            x[i] = 0.05 + rms * sqrt(12.0) * noise(&state);
+        for (long i = 320; i < N; i++)
+            x[i] +=
+                real_exp(-40.0 * (double)(i - 320) / RATE) * real_cos(2.0 * REAL_PI * 310.0 * (double)(i - 320) / RATE);
+        ck_assert_msg(strikes_response(&r, NAN, m.a, &s, &e), "%s", e.text);
+        if (dB >= 30) ck_assert_int_eq(s.strike->onset, 319);
+        if (s.strike->onset == 0) ck_assert(s.note && strstr(s.note, "no clear onset"));
+        ck_assert(s.strike->onset == 0 || s.strike->onset == 319);
+        ck_assert_double_eq_tol(r.sound.offset, 0.05, 0.1 * rms + 1e-3);
+        arena_close(m.a);
+    }
 }
 END_TEST
 
@@ -345,4 +392,4 @@ START_TEST(ringing)
 END_TEST
 
 UNIT("test_strikes", not_good_enough, ringing, apart, overlapping, turned, late, clipped, without_force, offset_and_hum,
-     hum_is_no_offset, last_bit_is_no_strike, clipped_and_scaled, single, refused)
+     hum_is_no_offset, last_bit_is_no_strike, clipped_and_scaled, as_loud_as_can_be, response_in_noise, single, refused)
