@@ -458,7 +458,8 @@ bool strikes_response(struct strikes_recording *r, double delay, struct arena *a
         return err_set(e, ERR_SCENE, "%s begins %.3g ms before its end; a response takes at least 10 ms", r->name,
                        1e3 * (double)(r->n - shift) / r->rate);
     if (most == 0.0)
-        return err_set(e, ERR_SCENE, "%s: the response is silent (all samples are alike): is --channel right?", r->name);
+        return err_set(e, ERR_SCENE, "%s: the response is silent (all samples are alike): is --channel right?",
+                       r->name);
     if (clips(&r->sound, 0, r->n) > 0) /* also before the delay: what is clipped at its onset rings wrongly */
         NOTE(s, a, "its greatest sample is as large as the file can hold, or stands in a row: it may be clipped");
     return true;
