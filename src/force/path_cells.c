@@ -248,6 +248,7 @@ static bool curve_between(const struct instant *a, const struct instant *b, stru
 {
     double dx = b->x - a->x, dy = b->y - a->y, chord = sqrt(dx * dx + dy * dy), h = fabs(b->u - a->u);
     const struct instant *from = at_rest(a) ? b : a, *to = at_rest(b) ? a : b;
+    if (!(h > 0 && chord > 0)) return false;
     *c = (struct hermite){
         .x = {a->x, b->x}, .y = {a->y, b->y}, .length = h, .ex = {from->ex, to->ex}, .ey = {from->ey, to->ey}};
     if (at_rest(from)) c->ex[0] = c->ex[1] = dx / chord, c->ey[0] = c->ey[1] = dy / chord;
@@ -255,7 +256,7 @@ static bool curve_between(const struct instant *a, const struct instant *b, stru
         c->x[1] = a->x + h * c->ex[0], c->y[1] = a->y + h * c->ey[0];
         c->ex[1] = c->ex[0], c->ey[1] = c->ey[0];
     }
-    return h > 0 && chord > 0;
+    return true;
 }
 
 static void cut_between(struct path_cells *w, const struct instant *a, const struct instant *b, double alpha,
