@@ -300,7 +300,7 @@ static bool read_element_block(struct mesh_msh *g, size_t *left)
         end++;
     for (size_t i = 0; i < n; i++)
         if (!mesh_source_whole(s, 8, &tag, "the number of an element") || !element_nodes(g, type, 8, node) ||
-            !take_element(g, type, node, g->physical + first, end - first))
+            !take_element(g, type, node, end > first ? g->physical + first : NULL, end - first))
             return false;
     return true;
 }
