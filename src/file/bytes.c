@@ -99,12 +99,13 @@ double bytes_number(const void *bytes, char kind, size_t size)
  * (base/interrupt.h). */
 
 struct piped {
+    struct arena *arena; /* in which it lies */
     struct piped *next;
     const char *file;
     struct bytes text;
 };
 
-static struct piped *all; /* each in an arena of its own, as long as the program */
+static struct piped *all; /* as long as the program */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
 bool bytes_piped(const char *file)
@@ -128,6 +129,7 @@ static struct piped *take(const char *file, size_t most)
         errno = why;
         return NULL;
     }
+    k->arena = a;
     k->next = all;
     k->file = arena_text(a, file);
     k->text.n = k->text.n > most ? most + 1 : k->text.n;
