@@ -415,22 +415,22 @@ bool strikes_find(struct strikes_recording *r, double threshold, struct arena *a
 
 /* ------------------------------------------------------------------ a response */
 
-/* Samples before a response begins: what rises within 16 samples to a fifth of its greatest begins there, if all before
-   is fainter than a tenth. It begins where it is above the hundredth, and half as much again as whatever stands before
-   these 16. One more stays, as sample 0. *late: the first fifth, where no beginning is found. */
-static long begins(const double *h, long n, long *late)
+/* Samples before a response begins. It begins where what rises to a fifth of its greatest within 1.5 ms is above the
+   hundredth, and half as much again as whatever stands before these 1.5 ms, if that is less than a tenth. One more
+   stays, as sample 0. *late: the first fifth, where no beginning is found. */
+static long begins(const double *h, long n, double rate, long *late)
 {
     double most = greatest(h, 0, n);
-    long at = 0;
+    long at = 0, rise = (long)(0.0015 * rate);
     while (at < n && fabs(h[at]) < 0.2 * most)
         at++;
-    long start = at, lead = at > 16 ? at - 16 : 0;
+    long start = at, lead = at > rise ? at - rise : 0;
     double least = fmax(0.01 * most, 1.5 * greatest(h, 0, lead));
     while (start > lead && fabs(h[start - 1]) >= least)
         start--;
-    bool found = start > 2 && least <= 0.1 * most && (start == lead || greatest(h, lead, start - 1) < least);
+    bool found = start > lead && start > 2 && least <= 0.1 * most && greatest(h, lead, start) < least;
     *late = found ? 0 : at;
-    return found && start > lead ? start - 1 : 0;
+    return found ? start - 1 : 0;
 }
 
 bool strikes_response(struct strikes_recording *r, double delay, struct arena *a, struct strikes *s, struct err *e)
@@ -443,7 +443,7 @@ bool strikes_response(struct strikes_recording *r, double delay, struct arena *a
     *s = (struct strikes){.n = 1, .used = 1, .strike = ARENA_TAKE(a, struct strikes_one, 1)};
     prepare(&r->sound, r, s, a);
     const double *x = r->sound.x;
-    long late = 0, shift = isnan(delay) ? begins(x, r->n, &late) : (long)rint(delay * r->rate);
+    long late = 0, shift = isnan(delay) ? begins(x, r->n, r->rate, &late) : (long)rint(delay * r->rate);
     double most = greatest(x, shift, r->n);
     *s->strike = (struct strikes_one){.onset = shift, .over = shift, .end = r->n, .peak = most, .momentum = NAN};
     if (isnan(delay) && shift)

@@ -81,9 +81,9 @@ static bool has_files(const struct work *w)
         const char *file = arena_format(w->arena, "%s/%s", w->k->folder, f->path);
         char hex[HASH_TEXT];
         there = stat(file, &s) == 0 && S_ISREG(s.st_mode) && (double)s.st_size == f->size;
-        bool uncertain =
-            w->k->unfinished || is_later(&s.st_mtim, &record.st_ctim) || is_later(&s.st_ctim, &record.st_ctim);
-        if (!there || !uncertain) continue;
+        if (!there ||
+            !(w->k->unfinished || is_later(&s.st_mtim, &record.st_ctim) || is_later(&s.st_ctim, &record.st_ctim)))
+            continue;
         hashed = true;
         there = hash_file(file, hex, &(struct err){0}) && !strcmp(hex, f->sha256);
     }

@@ -312,6 +312,24 @@ START_TEST(response_in_noise)
 }
 END_TEST
 
+/* Behind silence, a mode that rises within a sample or within a millisecond begins at its first sample, to two. */
+START_TEST(response_that_rises)
+{
+    for (double f = 40.0; f < 4000.0; f *= 1.07) {
+        struct arena *a = arena_open();
+        double *x = ARENA_TAKE(a, double, N);
+        struct strikes_recording r = {.name = "r", .sound = {.x = x, .full = INFINITY}, .n = N, .rate = RATE};
+        struct strikes s;
+        struct err e = {0};
+        for (long i = 320; i < N; i++)
+            x[i] = real_exp(-20.0 * (double)(i - 320) / RATE) * real_sin(2.0 * REAL_PI * f * (double)(i - 320) / RATE);
+        ck_assert_msg(strikes_response(&r, NAN, a, &s, &e), "%s", e.text);
+        ck_assert_int_le(labs(s.strike->onset - 320), 2);
+        arena_close(a);
+    }
+}
+END_TEST
+
 /* A single strike, with its force and without. */
 START_TEST(single)
 {
@@ -392,4 +410,5 @@ START_TEST(ringing)
 END_TEST
 
 UNIT("test_strikes", not_good_enough, ringing, apart, overlapping, turned, late, clipped, without_force, offset_and_hum,
-     hum_is_no_offset, last_bit_is_no_strike, clipped_and_scaled, as_loud_as_can_be, response_in_noise, single, refused)
+     hum_is_no_offset, last_bit_is_no_strike, clipped_and_scaled, as_loud_as_can_be, response_in_noise,
+     response_that_rises, single, refused)
