@@ -1,5 +1,5 @@
-/* What fuzz targets share: the input as a file that has a path but no place on disk; or, for readers that look at names
-   or at neighbours, as a file in a folder that lasts as long as the process. */
+/* What fuzz targets share: the input as a file in a folder that lasts as long as the process. A path below /proc/self/fd
+   would be taken for a pipe, whose text is read once and kept by its name. */
 #ifndef FUZZ_H
 #define FUZZ_H
 #include <stddef.h>
@@ -7,24 +7,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include "base/arena.h"
 #include "base/err.h"
-
-struct fuzz_file {
-    int fd;
-    char path[64];
-};
-
-static inline struct fuzz_file fuzz_open(const uint8_t *data, size_t size)
-{
-    struct fuzz_file f = {.fd = memfd_create("input", MFD_CLOEXEC)};
-    if (f.fd < 0 || write(f.fd, data, size) != (ssize_t)size || lseek(f.fd, 0, SEEK_SET) != 0) abort();
-    snprintf(f.path, sizeof f.path, "/proc/self/fd/%d", f.fd);
-    return f;
-}
 
 static char fuzz_folder[40];
 static char fuzz_names[8][32]; /* in it */

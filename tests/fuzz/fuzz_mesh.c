@@ -70,9 +70,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     struct err e = {0};
     bool ok;
     if (size > 0 && data[0] == '$') {
-        struct fuzz_file f = fuzz_open(data, size);
-        ok = mesh_msh_read(f.path, 1, a, &m, &e);
-        close(f.fd);
+        char path[128];
+    fuzz_put(path, "input", data, size);
+        ok = mesh_msh_read(path, 1, a, &m, &e);
     } else
         ok = read_tetgen(data, size, a, &m, &e);
     fuzz_check(ok, &e);

@@ -53,12 +53,12 @@ static void speeds(const char *path, double fold)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    struct fuzz_file f = fuzz_open(data, size);
-    places(f.path, 0, NAN);
-    places(f.path, 10, NAN);
-    places(f.path, 0, 0.5);
-    speeds(f.path, NAN);
-    speeds(f.path, 0.03);
-    close(f.fd);
+    char path[128];
+    fuzz_put(path, "input", data, size);
+    places(path, 0, NAN);
+    places(path, 10, NAN);
+    places(path, 0, 0.5);
+    speeds(path, NAN);
+    speeds(path, 0.03);
     return 0;
 }

@@ -4,14 +4,14 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    struct fuzz_file f = fuzz_open(data, size);
+    char path[128];
+    fuzz_put(path, "input", data, size);
     struct arena *a = arena_open();
     struct scene s = {0};
     struct err e = {0};
     const struct scene_overrides none = {0};
     const char *messages = NULL;
-    fuzz_check(scene_read(f.path, &none, a, &s, &messages, &e), &e);
+    fuzz_check(scene_read(path, &none, a, &s, &messages, &e), &e);
     arena_close(a);
-    close(f.fd);
     return 0;
 }
