@@ -71,7 +71,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     bool ok;
     if (size > 0 && data[0] == '$') {
         char path[128];
-    fuzz_put(path, "input", data, size);
+        fuzz_put(path, "input", data, size);
         ok = mesh_msh_read(path, 1, a, &m, &e);
     } else
         ok = read_tetgen(data, size, a, &m, &e);
