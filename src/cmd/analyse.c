@@ -119,7 +119,7 @@ static bool impacts_take(struct analyse_source *s, const struct csv *t, struct a
    where steps change little by little, the one that drifted. */
 static bool evenly(const struct csv *t, const double *time, struct arena *a, struct err *e)
 {
-    size_t n = t->rows - 1, drifted = 0, bad = 1;
+    size_t n = t->rows - 1, drifted = 1, bad = 1;
     double step = (time[n] - time[0]) / (double)n, *steps = ARENA_TAKE(a, double, n);
     while (drifted <= n &&
            fabs(time[drifted] - time[0] - step * (double)drifted) <= 0.01 * step + 1e-9 * fabs(time[drifted]))

@@ -40,7 +40,6 @@ void report_set(struct report *r, const char *members, ...)
     va_end(list);
 }
 
-void report_value(struct report *r, const char *key, json_t *value) { report_set(r, "$:o", key, value); }
 void report_object(struct report *r, const char *key) { report_set(r, "$:{", key); }
 void report_list(struct report *r, const char *key) { report_set(r, "$:[", key); }
 void report_end(struct report *r) { report_set(r, "}"); }

@@ -29,9 +29,6 @@ bool report_close(struct report *r, int digits, struct err *e);
 /* Members as json_value_put has them; of JSON alone. */
 void report_set(struct report *r, const char *members, ...);
 
-/* A member of the object that is open, which JSON takes; of JSON alone. */
-void report_value(struct report *r, const char *key, json_t *value);
-
 /* A member of the object that is open (a later one of a list: key NULL), open until report_end. */
 void report_object(struct report *r, const char *key);
 void report_list(struct report *r, const char *key);

@@ -35,17 +35,6 @@ double load_constant(const struct contact *c);
    ball that is dropped comes down by itself. */
 double load_approach(const struct contact *c, bool release);
 
-/* The normal force in N where nothing makes it vary (load_varies): what load.constant says, else the weight; of a grip
-   whose variation is left out what it has without acceleration (papers/000 equations 8 and 9 with omega = 0). */
-double load_constant(const struct contact *c);
-
-#define LOAD_APPROACH 5e-3 /* s: contact is made and given up where the motion is at speed, unless the scene says */
-
-/* Seconds of approach (or release), as far as the scene alone shows them: at least what they will be. What strikes and
-   what is given is neither lowered nor raised. A scraper at rest makes no force; all others press at rest too, but a
-   ball that is dropped comes down by itself. */
-double load_approach(const struct contact *c, bool release);
-
 /* ERR_SCENE when the grip jams (mu tan theta >= 0.999), or the motion is shorter than approach and release; ERR_INPUT,
    ERR_SCENE for a recorded force. least and most are exact to rounding (series_range); those of a load that does
    not vary are `still`. */
