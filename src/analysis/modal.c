@@ -311,7 +311,7 @@ static bool is_hum(const struct modal_fit *f, int i, bool undamped)
     modal_fit_sizes(f, i, size);
     for (int s = 0; s < f->data->stretches; s++) {
         if (f->data->stretch[s].fitted) of[n++] = size[s];
-        if (f->data->stretch[s].strike < 0) lead = fmax(lead, modal_fit_lead(f, s, f->c[i].s));
+        if (f->data->stretch[s].strike < 0) lead = fmax(lead, modal_fit_lead(f, s, i));
     }
     gsl_sort(of, 1, (size_t)n);
     return (undamped && of[n - 1] < 4.0 * of[0]) || lead > 0.5 * of[n / 2];

@@ -8,6 +8,9 @@
 
 enum { GROUP = 8, PATCH = 256 };
 
+/* Spread of strikes' poles while modes are looked for, of omega/omega. What holds an object moves a mode by a few parts in
+ * a thousand (a steel plate that swings); with a narrower one each strike would have its own component for it. */
+static const double most_moved = 2e-3;
 static const double quietest = 1e-9; /* of a stretch's rms: no noise of a bin is less, as phases are not known better */
 
 /* ------------------------------------------------------------------ spectra */
@@ -144,7 +147,8 @@ void modal_fit_noise(struct modal_fit *f, double width)
     }
 }
 
-/* What the lead of a recording holds, smooth over 40 Hz, is noise in its other stretches, too. */
+/* What the lead of a recording holds, smooth over 40 Hz, is noise in its other stretches, too. It is seen through a Hann
+ * window, a sum over neighbouring bins, as the skirts of its hums are no noise. */
 static void floors_of_leads(struct modal_fit *f)
 {
     const struct modal_data *d = f->data;
@@ -153,7 +157,13 @@ static void floors_of_leads(struct modal_fit *f)
         if (d->stretch[l].strike >= 0 || lead->n < 100) continue;
         struct arena *a = arena_open();
         double *level = ARENA_TAKE(a, double, lead->n);
-        smooth_power(lead->y, lead->n, 6, level);
+        cplx *hann = ARENA_TAKE(a, cplx, lead->n);
+        for (long k = 1; k + 1 < lead->n; k++)
+            hann[k] = cplx_scale(1.0 / sqrt(1.5),
+                                 cplx_sub(lead->y[k], cplx_scale(0.5, cplx_add(lead->y[k - 1], lead->y[k + 1]))));
+        smooth_power(hann + 1, lead->n - 2, 6, level + 1);
+        level[0] = level[1];
+        level[lead->n - 1] = level[lead->n - 2];
         for (int s = 0; s < d->stretches; s++)
             for (long k = 0; d->stretch[s].place == d->stretch[l].place && s != l && k < f->bins[s].n; k++) {
                 long i = (long)rint((double)(f->bins[s].first + k) * f->bins[s].width / lead->width) - lead->first;
@@ -172,7 +182,7 @@ void modal_fit_open(struct modal_fit *f, const struct modal_data *d, const struc
                             .a = a,
                             .low = 2.0 * REAL_PI * o->low,
                             .high = 2.0 * REAL_PI * o->high,
-                            .typical = {modal_converge_stated[0], modal_converge_stated[1]},
+                            .typical = {most_moved, modal_converge_stated[1]},
                             .tolerance = 1e-2};
     f->bins = ARENA_TAKE(a, struct modal_bins, d->stretches);
     for (int k = 0; k < d->stretches; k++) {
@@ -181,7 +191,7 @@ void modal_fit_open(struct modal_fit *f, const struct modal_data *d, const struc
         if (d->stretch[k].fitted) f->longest = fmax(f->longest, (double)d->stretch[k].n / d->rate);
     }
     f->most = (o->most > 50 ? o->most + o->most / 4 : 62) + 10; /* of few that are asked for, the strongest of many */
-    f->slowest = 0.02 / f->longest;
+    f->slowest = 1e-3 / f->longest;
     f->fastest = 1.5 * o->fastest; /* what stands for several fast modes until they are found may be faster than they */
     modal_fit_rest(f);
     floors_of_leads(f);
@@ -343,13 +353,20 @@ void modal_fit_sizes(const struct modal_fit *f, int i, double *size)
         size[s] = cplx_abs(after[s]);
 }
 
-double modal_fit_lead(const struct modal_fit *f, int stretch, cplx s)
+double modal_fit_lead(const struct modal_fit *f, int stretch, int i)
 {
     const struct modal_bins *b = &f->bins[stretch];
-    double wide = 2.0 * b->width - s.re, sum = 0.0;
+    cplx s = f->c[i].s;
+    double wide = 2.0 * b->width - s.re, sum = 0.0, most = 0.0, at = s.im;
     long from = (long)ceil((s.im - wide) / b->width) - b->first, to = (long)floor((s.im + wide) / b->width) - b->first;
-    for (long k = from > 0 ? from : 0; k <= to && k < b->n; k++)
-        sum += cplx_square(b->y[k]) - b->variance[k];
+    for (long k = from > 0 ? from : 0; k <= to && k < b->n; k++) {
+        double power = cplx_square(b->y[k]);
+        sum += power - b->variance[k];
+        at = power > most ? (double)(b->first + k) * b->width : at;
+        most = fmax(most, power);
+    }
+    for (int k = 0; k < f->m; k++)
+        if (fabs(f->c[k].s.im - at) < fabs(s.im - at) - 0.5 * b->width) return 0.0;
     return 2.0 * sqrt(fmax(sum, 0.0) / (double)f->data->stretch[stretch].n);
 }
 
