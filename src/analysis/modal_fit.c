@@ -8,8 +8,8 @@
 
 enum { GROUP = 8, PATCH = 256 };
 
-/* Spread of strikes' poles while modes are looked for, of omega/omega. What holds an object moves a mode by a few parts in
- * a thousand (a steel plate that swings); with a narrower one each strike would have its own component for it. */
+/* Spread of strikes' poles while modes are looked for, of omega/omega. What holds an object moves a mode by a few parts
+ * in a thousand (a steel plate that swings); with a narrower one each strike would have its own component for it. */
 static const double most_moved = 2e-3;
 static const double quietest = 1e-9; /* of a stretch's rms: no noise of a bin is less, as phases are not known better */
 
@@ -147,8 +147,8 @@ void modal_fit_noise(struct modal_fit *f, double width)
     }
 }
 
-/* What the lead of a recording holds, smooth over 40 Hz, is noise in its other stretches, too. It is seen through a Hann
- * window, a sum over neighbouring bins, as the skirts of its hums are no noise. */
+/* What the lead of a recording holds, smooth over 40 Hz, is noise in its other stretches, too. It is seen through a
+ * Hann window, a sum over neighbouring bins, as the skirts of its hums are no noise. */
 static void floors_of_leads(struct modal_fit *f)
 {
     const struct modal_data *d = f->data;

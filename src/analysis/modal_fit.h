@@ -130,8 +130,8 @@ void modal_fit_drop(struct modal_fit *f, int i);
 void modal_fit_totals(const struct modal_fit *f, int i, struct modal_part *total);
 void modal_fit_replace(struct modal_fit *f, int i, cplx pole, const struct modal_part *total);
 void modal_fit_sizes(const struct modal_fit *f, int i, double *size); /* [stretches] |x B| at their pulses' ends */
-/* Amplitude of what a lead holds within a pole's half-width and two bins, noise off. 0 if another component is nearer to
- * the strongest of these bins: a mode beside a hum is none. */
+/* Amplitude of what a lead holds within a pole's half-width and two bins, noise off. 0 if another component is nearer
+ * to the strongest of these bins: a mode beside a hum is none. */
 double modal_fit_lead(const struct modal_fit *f, int stretch, int i);
 void modal_fit_put(struct modal_fit *f, int i, double sign); /* rest += sign (component i) */
 void modal_fit_rest(struct modal_fit *f);                    /* rest anew */
