@@ -56,17 +56,18 @@ static inline __attribute__((always_inline)) double lanes_sum(const double s[LAN
 }
 
 /* sum[i][j][lane] += column i times column j over the lane's rows, j <= i < n, by blocks of 4 x 2; x has three columns
-   of zeros behind its last, sum is [n + 3][n + 3][LANES]. */
+   of zeros behind its last, and of both halves of a column (re, im) the first `rows` rows, a multiple of LANES; sum is
+   [n + 3][n + 3][LANES]. */
 LANES_CLONES
-void modal_block_products(const double *x, int n, double *sum);
+void modal_block_products(const double *x, int n, long rows, double *sum);
 LANES_CLONES
-void modal_block_products(const double *x, int n, double *sum)
+void modal_block_products(const double *x, int n, long rows, double *sum)
 {
     for (int i = 0; i < n; i += 4)
         for (int j = 0; j < i + 4 && j < n; j += 2) {
             const double *p = x + i * ROWS, *q = x + j * ROWS;
             double s[8][LANES] = {{0}};
-            for (int k = 0; k < ROWS; k += LANES)
+            for (long k = 0; k < CHUNK + rows; k = k + LANES == rows ? CHUNK : k + LANES)
 #pragma omp simd
                 for (int l = 0; l < LANES; l++) {
                     double u = q[k + l], v = q[ROWS + k + l];
@@ -165,7 +166,7 @@ static bool sums_make(struct modal_block *b, int s, bool full, struct sums *g)
                                 full ? columns + (g->linear + 2 * i) * ROWS : NULL, r);
         }
         smooth_columns(bins, b, weight, from, n, columns + 2 * b->m * ROWS);
-        modal_block_products(columns, g->n, sum);
+        modal_block_products(columns, g->n, (n + LANES - 1) / LANES * LANES, sum);
     }
     for (int i = 0; i < g->n; i++) {
         for (int j = 0; j <= i; j++)
@@ -336,15 +337,15 @@ static double reach(const struct modal_fit *f, cplx s)
     return -MODAL_REACH * s.re + 4.0 * MODAL_REACH * REAL_PI / f->longest;
 }
 
-/* (1 + r)/(1 - r), r the correlation of what is left in neighbouring bins, as of an autoregressive series. Of white
-   noise |r|^2 n is exponential: what is less than chance makes it in one of 50 is taken for 0. */
-static double alike(const struct modal_bins *bins, long from, long n)
+/* (1 + r)/(1 - r), r the correlation of neighbours in x, what is left, as of an autoregressive series. Of white noise
+   |r|^2 n is exponential: what is less than chance makes it in one of 50 is taken for 0. */
+static double alike(const struct modal_bins *bins, long from, long n, const cplx *left)
 {
     static const double chance = 4.0, most = 0.9;
     struct arena *a = arena_open();
     double power = 0.0;
     cplx *x = ARENA_TAKE(a, cplx, n), product = {0};
-    modal_fit_take_smooth_off(bins, from, n, bins->rest + from, x);
+    modal_fit_take_smooth_off(bins, from, n, left, x);
     for (long k = 0; k < n; k++) {
         double weight = 1.0 / bins->variance[from + k];
         power += weight * cplx_square(x[k]);
@@ -356,6 +357,29 @@ static double alike(const struct modal_bins *bins, long from, long n)
     double square = power > 0.0 ? cplx_square(product) / (power * power) - chance / (double)n : 0.0,
            r = fmin(sqrt(fmax(square, 0.0)), most);
     return (1.0 + r) / (1.0 - r);
+}
+
+double modal_block_alike(const struct modal_block *b)
+{
+    const struct modal_data *d = b->fit->data;
+    double sum = 0.0, bins = 0.0;
+    for (int s = 0; s < d->stretches; s++) {
+        const struct modal_window *w = &b->window[s];
+        long n = w->to - w->from;
+        if (n < 2) continue;
+        struct arena *a = arena_open();
+        cplx *left = ARENA_TAKE(a, cplx, n);
+        memcpy(left, w->rest, (size_t)n * sizeof *left);
+        for (int i = 0; i < b->m; i++) {
+            const struct modal_part *mine = &b->part[i * d->stretches + s];
+            struct modal_line line = modal_fit_line(b->fit, s, mine->pole);
+            modal_fit_add_line(&b->fit->bins[s], &line, cplx_scale(-1.0, mine->gain), w->from, n, left);
+        }
+        sum += (double)n * alike(&b->fit->bins[s], w->from, n, left);
+        bins += (double)n;
+        arena_close(a);
+    }
+    return bins > 0.0 ? sum / bins : 1.0;
 }
 
 struct modal_block *modal_block_room(const struct modal_fit *f, struct arena *a)
@@ -404,7 +428,7 @@ struct modal_block *modal_block_open(const struct modal_fit *f, int m, const int
         }
         w->degrees = known - 2.0 * b->m - MODAL_SMOOTH - 2.0 * b->m / d->stretches;
         w->degrees = fmax(w->degrees + 2.0 * (double)n, known);
-        if (!extras && n > 1) w->alike = alike(bins, w->from, n);
+        if (f->found && !extras && n > 1) w->alike = alike(bins, w->from, n, bins->rest + w->from);
         w->rest = ARENA_TAKE(a, cplx, n);
         memcpy(w->rest, bins->rest + w->from, (size_t)n * sizeof(cplx));
         for (int i = 0; i < m; i++) {

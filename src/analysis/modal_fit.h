@@ -21,7 +21,8 @@
    An object does not decay quite as the model has it, and what the model leaves of it is no noise: neighbouring bins
    are alike. Once the search is over a strike's bins count as fewer, by (1 + r)/(1 - r), r the correlation of
    neighbours in what its modes leave: in chi squared, so that no component stays that only mends the model, and in
-   standard errors. Of white noise r is 0. */
+   standard errors. Of white noise r is 0. While modes are looked for, a new one in the window of a stronger one must be
+   worth that much more. */
 #ifndef ANALYSIS_MODAL_FIT_H
 #define ANALYSIS_MODAL_FIT_H
 #include <stdbool.h>
@@ -156,6 +157,7 @@ void modal_block_worth(
 void modal_block_drop(struct modal_block *b, int i);
 bool modal_block_polish(struct modal_block *b,
                         int steps); /* poles and gains; true: converged to 0.01 standard errors */
+double modal_block_alike(const struct modal_block *b); /* of what it leaves, mean over the stretches */
 /* Standard errors of omega and log d, and of each strike's |gain|. */
 void modal_block_errors(struct modal_block *b, int i, double se[2], struct modal_gain *gain);
 /* How far pole i of each strike is from the shared one by the strike alone (q 0: omega/omega, 1: log d), and the

@@ -184,10 +184,26 @@ static double stands_out(const struct modal_fit *f, double low, double high)
     return count > 0.0 && (most > 9.0 || excess > 3.0 * sqrt(count)) ? power : 0.0;
 }
 
-/* Drops at once what is too faint for this round, then one by one what the others do without, poles as they are. */
-static void rough_only(struct modal_block *b, double limit, double least)
+/* What each component must be worth: `alike` times as much in the window of a stronger one, as what the model leaves of
+ * that is no noise. */
+static void limits(const struct modal_block *b, double limit, double alike, double *to)
 {
-    double worth[MODAL_BLOCK];
+    double size[MODAL_BLOCK];
+    for (int i = 0; i < b->m; i++)
+        size[i] = power_of(b->fit, b->s[i], b->part + i * b->fit->data->stretches);
+    for (int i = 0; i < b->m; i++) {
+        to[i] = limit;
+        for (int k = 0; k < b->m; k++)
+            if (size[k] > size[i] &&
+                fabs(b->s[k].im - b->s[i].im) < MODAL_REACH * (-b->s[k].re + 4.0 * REAL_PI / b->fit->longest))
+                to[i] = alike * limit;
+    }
+}
+
+/* Drops at once what is too faint for this round, then one by one what the others do without, poles as they are. */
+static void rough_only(struct modal_block *b, double limit, double alike, double least)
+{
+    double worth[MODAL_BLOCK], needed[MODAL_BLOCK];
     for (bool again = true; again && b->m > 0;) {
         int weakest = -1, m = b->m;
         modal_block_worth(b, worth);
@@ -196,37 +212,42 @@ static void rough_only(struct modal_block *b, double limit, double least)
                 modal_block_drop(b, i);
                 memmove(worth + i, worth + i + 1, (size_t)(b->m - i) * sizeof *worth);
             }
+        limits(b, limit, alike, needed);
         for (int i = 0; i < b->m; i++)
-            weakest = b->of[i] < 0 && (weakest < 0 || worth[i] < worth[weakest]) ? i : weakest;
+            weakest =
+                b->of[i] < 0 && (weakest < 0 || worth[i] * needed[weakest] < worth[weakest] * needed[i]) ? i : weakest;
         again = b->m < m;
-        if (!again && weakest >= 0 && worth[weakest] < limit) {
+        if (!again && weakest >= 0 && worth[weakest] < needed[weakest]) {
             modal_block_drop(b, weakest);
             again = true;
         }
     }
 }
 
-/* Drops that of the weakest components without which chi rises least, the others fitted anew, until all are needed. */
-static void needed_only(struct modal_block *b, double limit)
+/* Drops that of the weakest components without which chi rises least, over what it must, the others fitted anew, until
+ * all are needed. */
+static void needed_only(struct modal_block *b, double limit, double alike)
 {
     struct arena *a = arena_open();
     struct modal_block *try = modal_block_room(b->fit, a), *best = modal_block_room(b->fit, a);
-    double worth[MODAL_BLOCK];
+    double worth[MODAL_BLOCK], needed[MODAL_BLOCK];
     while (b->m > 0) {
         double least = HUGE_VAL;
         modal_block_worth(b, worth);
+        limits(b, limit, alike, needed);
         for (int i = 0; i < b->m; i++) {
             int less = 0;
             for (int k = 0; k < b->m; k++)
-                less += b->of[k] < 0 && worth[k] < worth[i];
-            if (b->of[i] >= 0 || worth[i] > 100.0 * limit || less >= WEAKEST) continue;
+                less += b->of[k] < 0 && worth[k] * needed[i] < worth[i] * needed[k];
+            if (b->of[i] >= 0 || worth[i] > 100.0 * needed[i] || less >= WEAKEST) continue;
             modal_block_copy(try, b);
             modal_block_drop(try, i);
             modal_block_polish(try, 3);
-            if (try->chi < least) modal_block_copy(best, try);
-            least = fmin(least, try->chi);
+            double rise = (try->chi - b->chi) / needed[i];
+            if (rise < least) modal_block_copy(best, try);
+            least = fmin(least, rise);
         }
-        if (least - b->chi >= limit) break;
+        if (least >= 1.0) break;
         modal_block_copy(b, best);
         modal_block_polish(b, 5);
     }
@@ -268,10 +289,11 @@ static int take(struct modal_fit *f, cplx *pole, int n, double low, double high,
     b->fastest = fmin(f->fastest, high - low);
     for (int i = 0; i < there; i++) /* those that are there may be faster than the band lets new ones be */
         b->fastest = fmax(b->fastest, -f->c[of[i]].s.re);
-    rough_only(b, 0.3 * limit, least);
+    rough_only(b, 0.3 * limit, 1.0, least);
     if (new_ones(b)) modal_block_polish(b, 8);
-    rough_only(b, 0.3 * limit, least);
-    if (new_ones(b)) needed_only(b, limit);
+    double alike = new_ones(b) ? modal_block_alike(b) : 1.0;
+    rough_only(b, 0.3 * limit, alike, least);
+    if (new_ones(b)) needed_only(b, limit, alike);
     for (int i = 0; i < b->m; i++)
         came += accepted(b, i, low, high, least);
     for (int i = 0; i < b->m && came; i++) {
