@@ -68,7 +68,7 @@ void err_last_words(enum err_kind kind, const char *text)
 {
     char line[LONGEST], inner[LONGEST / 2];
     escaped(text, inner, sizeof inner);
-    const char *anew = isatty(STDERR_FILENO) ? "\r\033[K" : ""; /* where progress is told */
+    const char *anew = isatty(STDERR_FILENO) ? "\r\033[K" : ""; /* where progress is shown */
     if (as_json)
         snprintf(line, sizeof line,
                  "{\"severity\": \"error\", \"file\": null, \"line\": null, \"column\": null, \"width\": null, "

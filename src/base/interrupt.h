@@ -33,8 +33,8 @@ void interrupt_forget(const char *path); /* it is gone, or has another name */
 void interrupt_child(pid_t pid);
 pid_t interrupt_wait(pid_t pid, int *status, struct rusage *used);
 
-/* May the interruption be told? Only the first who asks may: in an orderly end or in the other, and then has 0.1 s for
- * its words. It does not return where the program is being ended. */
+/* May the interruption be reported? Only the first who asks may: in an orderly end or in the other, and then has 0.1 s
+   for its words. It does not return where the program is being ended. */
 void interrupt_report(void);
 
 #endif

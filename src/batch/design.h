@@ -66,7 +66,7 @@ struct design {
     const char **sources;   /* every text file that was read for the design; ends with NULL                   */
     char sha256[HASH_TEXT]; /* of what the design means: two designs that differ in comments alone share it   */
     const struct design_texts *texts; /* of design.c                                                          */
-    const struct diag *diag; /* what design_read told, as of struct scene; a stimulus's scene has its own     */
+    const struct diag *diag; /* what design_read reported, as of struct scene; a stimulus's scene has its own     */
 };
 
 /* Reads and checks a design: its form, its keys against the scene's (factors that are dotted keys must be keys of
@@ -75,16 +75,16 @@ struct design {
 bool design_read(const char *file, struct arena *a, struct design *d, const char **messages, struct err *e);
 
 /* The scene of stimulus i, with the design's level and length not yet laid over it (they may depend on the whole set):
-   base, set, levels, seed. Errors are told with the place in the design where what is wrong comes from. ERR_USAGE: a
-   recording has none. */
+   base, set, levels, seed. Errors are reported with the place in the design where what is wrong comes from. ERR_USAGE:
+   a recording has none. */
 bool design_scene(const struct design *d, int i, struct arena *a, struct scene *s, const char **messages,
                   struct err *e);
 
 /* Puts the place at which the design names recording i before an error that is about it; returns false. */
 bool design_scene_recording(const struct design *d, int i, struct err *e);
 
-/* Where the design's level and length stand, where it gives them, for a scene that they are laid over: errors are told
- * with those places. */
+/* Where the design's level and length stand, where it gives them, for a scene that they are laid over: errors are
+   reported with those places. */
 void design_scene_places(const struct design *d, struct scene *s, struct arena *a);
 
 /* A level's label in stimulus i, or what the manifest has in the factor's column; "n/a" where it has none. */

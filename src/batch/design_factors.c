@@ -2,7 +2,7 @@
    or maps; any other has maps alone.
 
    What a level, or `set`, changes of a scene are keys and values. A value is read here into a struct that nobody looks
-   at, so that what is wrong with it is told once, with the design's line, and not for each of the scenes that it is
+   at, so that what is wrong with it is reported once, with the design's line, and not for each of the scenes that it is
    laid over.
 
    Columns of the manifest are called lower_snake with the unit at the end (motion_rate_hz, speed_cm_per_s), as tables
@@ -421,7 +421,7 @@ static void scalar_read(const struct reading_level *l, const struct yaml_node *i
 {
     const struct key *k = design_changes_key(l->name->text);
     struct arena *a = l->r->arena;
-    if (!l->key) { /* told of the first such level: with a word that should be a key, all are */
+    if (!l->key) { /* reported at the first such level: with a word that should be a key, all are */
         const char *near = design_changes_near(l->r, l->name->text);
         if (l->index == 0 || l->r->factors[l->factor]->first->kind != YAML_SCALAR)
             diag_add(l->r->yaml->diag, item->at,

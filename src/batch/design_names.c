@@ -152,7 +152,7 @@ static const struct design_stimulus *continued(const struct design_stimulus **so
     return NULL;
 }
 
-/* One clash is told: they come in crowds. */
+/* One clash is reported: they come in crowds. */
 static void clashes(const struct design_reading *r)
 {
     const struct design *d = r->design;
@@ -298,7 +298,7 @@ static struct design_template template_default(const struct design_reading *r)
 
 /* ------------------------------------------------------------------ making */
 
-/* The name of stimulus i; one that is too long is cut, which is told later. */
+/* The name of stimulus i; one that is too long is cut, which is reported later. */
 static const char *expanded(const struct names *x, const struct design_template *t, int i)
 {
     char name[NAME_MAX_BYTES + 2], digits[24];

@@ -49,16 +49,16 @@ struct yaml_node *design_reading_value(const struct design_reading *r, const cha
 bool design_reading_must(const struct design_reading *r, const struct yaml_node *node, const char *label,
                          const char *be, const char *cure);
 
-/* Keys of a map that are none of these (NULL-terminated) are told; `in` follows: "unknown key 'x' in cells". */
+/* Keys of a map that are none of these (NULL-terminated) are reported; `in` follows: "unknown key 'x' in cells". */
 void design_reading_known(const struct design_reading *r, const struct yaml_node *map, const char *const *names,
                           const char *in);
 
 /* "a, b, c" */
 const char *design_reading_joined(const struct design_reading *r, const char *const *names);
 
-/* The factor of that name, of its key; -1: there is none, which has been told. */
+/* The factor of that name, of its key; -1: there is none, which has been reported. */
 int design_reading_factor(const struct design_reading *r, const struct yaml_node *key);
-/* The factor's level of that label, or with that text; -1: there is none, which has been told. */
+/* The factor's level of that label, or with that text; -1: there is none, which has been reported. */
 int design_reading_level(const struct design_reading *r, int factor, const struct yaml_node *label, bool recording);
 
 /* "wood, 2 Hz" */

@@ -94,7 +94,7 @@ static int *entry_levels(const struct design_reading *r, const struct yaml_node 
     return level;
 }
 
-/* Entries that are no maps are told here. */
+/* Entries that are no maps are reported here. */
 static bool is_list(const struct design_reading *r, const struct yaml_node *list, const char *label, const char *cure)
 {
     if (list->kind != YAML_LIST) return design_reading_must(r, list, label, "a list", cure);
@@ -191,7 +191,7 @@ static void recordings_add(struct design_reading *r, const struct yaml_node *lis
     }
 }
 
-/* Levels that are told to be of recordings, and are of none. */
+/* Levels that are said to be of recordings, and are of none. */
 static void recorded_check(const struct design_reading *r)
 {
     for (int f = 0; f < r->design->n_factors; f++) {

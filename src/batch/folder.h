@@ -48,7 +48,7 @@ bool folder_make_for(const char *folder, const char *name, struct err *e);
  * made. */
 const char *folder_seen(const char *folder, const char *text, struct arena *a);
 
-/* Bytes free for files in it; a great number when that cannot be told. */
+/* Bytes free for files in it; a great number when that is not known. */
 double folder_free(const char *folder);
 
 /* ------------------------------------------------------------------ inputs */

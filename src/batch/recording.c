@@ -188,7 +188,7 @@ bool recording_check_level(const char *file, const struct set *s, struct err *e)
     return isnan(s->level.lufs) || (recording_measure(file, &form, true, &m, e) && find_gain(s, file, &m, &gain, e));
 }
 
-/* A cut where the sound is less than 80 dB below its peak is told, as it is of a render. */
+/* A cut where the sound is less than 80 dB below its peak is reported, as it is of a render. */
 static const char **warnings_of(const struct measure *m, const struct wav_written *w, struct arena *a)
 {
     const char **all = ARENA_TAKE(a, const char *, 4);

@@ -52,7 +52,7 @@ struct stimulus { /* what became of one */
     const char *key;   /* in the arena that was given */
 };
 
-/* Only looks. ERR_INPUT, ERR_SCENE: it cannot be told */
+/* Only looks. ERR_INPUT, ERR_SCENE: it cannot be known */
 bool stimulus_look(const struct stimulus_set *k, int i, struct arena *a, struct stimulus *s, struct err *e);
 
 enum stimulus_how { STIMULUS_IF_NEEDED, STIMULUS_ANEW, STIMULUS_NEVER /* what is not there s->state tells */ };

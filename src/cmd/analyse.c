@@ -115,8 +115,8 @@ static bool impacts_take(struct analyse_source *s, const struct csv *t, struct a
     return true;
 }
 
-/* Rows must follow each other evenly: within 1 % of a row. Told is the first row whose step is not the usual one, or,
-   where steps change little by little, the one that drifted. */
+/* Rows must follow each other evenly: within 1 % of a row. Reported is the first row whose step is not the usual one,
+   or, where steps change little by little, the one that drifted. */
 static bool evenly(const struct csv *t, const double *time, struct arena *a, struct err *e)
 {
     size_t n = t->rows - 1, drifted = 1, bad = 1;

@@ -15,7 +15,7 @@
 #include "file/json_value.h"
 #include "scene/keys_yaml.h"
 
-enum { FAULTS_SHOWN = 20 /* failures that are told one by one */, STALE_NAMED = 6 /* files of earlier states */ };
+enum { FAULTS_SHOWN = 20 /* failures that are reported one by one */, STALE_NAMED = 6 /* files of earlier states */ };
 
 static const struct args_option batch_options[] = {
     {"output", 'o', "FOLDER", false, "where the set goes; it is made if its parent is there"},

@@ -26,7 +26,7 @@ struct promises {
     struct arena *arena;
 };
 
-/* Whether the promise of stimulus i can be kept; its error is told with its place. */
+/* Whether the promise of stimulus i can be kept; its error is reported with its place. */
 static bool look(void *context, int i)
 {
     struct promises *p = context;
@@ -66,7 +66,7 @@ static void took(void *context, int i)
 }
 
 /* Reads the design and the scene of every stimulus, as far as can be known before rendering. A fault that many stimuli
-   have is told once. *remark: what is worth knowing of a design without fault, or NULL. */
+   have is reported once. *remark: what is worth knowing of a design without fault, or NULL. */
 static bool check_design(struct cmd_call *c, const char *file, const char **remark, struct err *e)
 {
     if (args_given(&c->args, "set") || args_given(&c->args, "seed"))

@@ -20,7 +20,7 @@ struct cmd_call {
     struct arena *arena; /* lives until the command ends                       */
     int argc;            /* the words behind the command's name, as they came  */
     char **argv;
-    struct messages *messages; /* how errors and warnings are told; NULL: as text, at once */
+    struct messages *messages; /* how errors and warnings are reported; NULL: as text, at once */
 };
 
 struct action; /* below */

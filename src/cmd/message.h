@@ -1,4 +1,4 @@
-/* How errors and warnings are told: as text, or, with --diagnostics=json, as JSON on stderr, one object a line:
+/* How errors and warnings are reported: as text, or, with --diagnostics=json, as JSON on stderr, one object a line:
 
      {"severity": "error", "file": "scene.yaml", "line": 12, "column": 9, "width": 3, "message": "...", "help": "...",
    "code": 65}
@@ -8,7 +8,7 @@
    line says wrongly has "option", --set motion.rate say, and no file. What is about one stimulus of a set has
    "stimulus", its name, a warning of several "stimuli". A file that another names has "named_at", the places of its
    name, the nearest first. A warning of several scenes has "files". What is wrong with the command line itself has no
-   file; where no command is known yet it is told as text. */
+   file; where no command is known yet it is text. */
 #ifndef CMD_MESSAGE_H
 #define CMD_MESSAGE_H
 #include <jansson.h>
@@ -22,7 +22,7 @@
 /* Heeds --diagnostics. ERR_USAGE */
 bool message_begin(struct cmd_call *c, struct err *e);
 
-/* As though --diagnostics=json had been read already: what is wrong with the command line is told so, too. */
+/* As though --diagnostics=json had been read already: what is wrong with the command line is reported so, too. */
 void message_as_json(struct cmd_call *c);
 
 /* The errors in a scene's text; messages: the same as text. */
@@ -37,7 +37,7 @@ void message_stimulus(struct cmd_call *c, const char *command, const char *stimu
                       const struct err *e);
 
 /* A warning about a file. Where several scenes are processed (message_group) it waits, so that one that many scenes
-   have is told once, at the end; in text also one that they have with other numbers, which are the first one's. */
+   have is reported once, at the end; in text also one that they have with other numbers, which are the first one's. */
 void message_warning(struct cmd_call *c, const char *file, const char *text);
 /* The same about a stimulus of a set: in JSON the name is its "stimulus", of several "stimuli". */
 void message_stimulus_warning(struct cmd_call *c, const char *stimulus, const char *text);
@@ -46,7 +46,7 @@ void message_remark(struct cmd_call *c, const char *command, const char *text);
 void message_group(struct cmd_call *c);
 void message_end(struct cmd_call *c);
 
-/* What would be told of errors is kept from here on, an array of objects as above, until it is taken. */
+/* What would be reported of errors is kept from here on, an array of objects as above, until it is taken. */
 void message_collect(struct cmd_call *c);
 json_t *message_collected(struct cmd_call *c);
 

@@ -27,8 +27,8 @@ enum { REFERENCE, OWN };
 
    The preset reference, but of every knob at least twice as fine as what is verified, so that no more than a fraction
    of its error (2^-order of it) is left out of what is measured. Where that is beyond the knob's range, or a stage
-   refuses it (memory), the reference is as fine as it may be, and the knob is told. Ramps of one sample are as fine as
-   they go. */
+   refuses it (memory), the reference is as fine as it may be, and the knob is reported. Ramps of one sample are as fine
+   as they go. */
 
 static bool steps(int knob) { return keys_knobs[knob].scale == KEY_STEPS; }
 
@@ -124,7 +124,7 @@ static bool render_verify(struct cmd_call *c, const char *file, const struct sce
     if (!measure(&s, raised, e)) return false;
     double measured = -s.renders[OWN].error.snr;
     if (!summary_again(r, measured, c->arena, e)) return false;
-    /* Of which knobs there is nothing twice as fine: "" or what is told. */
+    /* Of which knobs there is nothing twice as fine: "" or what is reported. */
     const char *text = "";
     for (int k = 0; k < KNOBS; k++) {
         double own = accuracy_knob(&s.renders[OWN].set, (enum knob)k),

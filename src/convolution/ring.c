@@ -301,7 +301,7 @@ static bool voice_open(struct ring *g, struct stage_run *r, int channel, struct 
     return true;
 }
 
-/* ------------------------------------------------------------------ what the board is told */
+/* ------------------------------------------------------------------ what the board gets */
 
 /* The sound ends 60 s after the last force where output.tail is auto (pipeline/render.c). */
 static void note_warnings(const struct ring *g, const struct response *given, struct stage_run *r)

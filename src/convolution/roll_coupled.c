@@ -97,8 +97,8 @@ static double roll_curve_fastest(const struct roll_curve *c)
 }
 
 #define PAPER_SPEED 0.05   /* m/s */
-#define DEEP 0.1           /* of the radius: a rest deeper than that is told */
-#define STILL_BOUNCES 0.01 /* of the drop: a last flight higher than that is told */
+#define DEEP 0.1           /* of the radius: a rest deeper than that is reported */
+#define STILL_BOUNCES 0.01 /* of the drop: a last flight higher than that is reported */
 enum { LEG_STEPS = 4096, LEG_FRAMES = 128, SUBSTEPS_MOST = 1000, FEW_STEPS = 4 };
 
 struct rolling {
@@ -114,7 +114,7 @@ struct rolling {
     double mass, stiffness, gravity, drop;
     double rest;     /* m, height of the ball that lies where the motion starts           */
     double residual; /* J, greatest at the legs' ends                                */
-    bool over;       /* the end has been told                                        */
+    bool over;       /* the end has been reported                                   */
 };
 
 /* ------------------------------------------------------------------ opening */
@@ -415,17 +415,17 @@ static unsigned rolling_turns(const struct contact *c, const struct scene *s)
     return roll_coupled_ground_modes(c) > 0 && c->motion.path != PATH_STILL ? KNOB_BIT(gain_ramp) : 0;
 }
 
-/* Cycles of a step: 160 on rigid ground, 110 of its place on the curve, 2 a mode, of rk4 11. */
+/* Cycles of a step: 160 on rigid ground, 110 of its place on the curve, 2 a mode; of rk4 670 and 12 a mode. */
 static double rolling_work(const struct contact *c, const struct scene *s)
 {
     double k = contact_stiffness(c), rate = s->output.sample_rate * s->accuracy.oversampling;
     struct err unknown = {0};
     if (isnan(k) && !hertz_stiffness(c, &k, &unknown)) return 0;
-    double mode = c->contact.roll.integrator == INTEGRATOR_RK4 ? 11 : 2;
+    bool rk4 = c->contact.roll.integrator == INTEGRATOR_RK4;
     double time = coupled_contact_time(c->scraper.mass, k,
                                        fmax(PAPER_SPEED, sqrt(2 * contact_gravity(c) * c->contact.roll.drop)));
     return s->accuracy.oversampling * substeps_for(s->accuracy.contact_steps, time, rate) *
-           (270 + mode * roll_coupled_ground_modes(c));
+           (rk4 ? 670 + 12 * roll_coupled_ground_modes(c) : 270 + 2 * roll_coupled_ground_modes(c));
 }
 
 /* ------------------------------------------------------------------ what the scene must say */

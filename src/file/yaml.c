@@ -117,7 +117,7 @@ struct diag_source *yaml_bytes_read(struct yaml *y, const char *file, struct dia
     return source;
 }
 
-/* UTF-8 without byte order mark, NUL or control characters, at most 4 MiB; else an error is told. */
+/* UTF-8 without byte order mark, NUL or control characters, at most 4 MiB; else an error is reported. */
 static bool text_good(struct yaml *y, const struct diag_source *s)
 {
     struct diag_place at = {s, 1, 1, 1}, whole = {s, 0, 0, 0};

@@ -18,7 +18,7 @@ void hertz_check(const struct scene_part *p, const struct contact *c, const char
  * (N/m^1.5)? */
 bool hertz_unit(const struct yaml_node *node, bool linear);
 
-/* Of a ball's: that error. */
+/* Reports a contact.roll.stiffness in N/m, which is none of Hertz's. */
 void hertz_unit_check(const struct scene_part *p, const struct roll *r);
 
 /* The mean of Hertz's k xi^1.5 while the penetration goes in a straight line from xi to xi+: with a^2, b^2 = xi, xi+,

@@ -8,7 +8,7 @@
                 Z - s^2/2), Z = X_n / sqrt(V),
                 s^2 = ln(1 + V/M^2): the same M and V. Correlations become (exp(s^2 r_k) - 1)/(exp(s^2) - 1) of r_k, a
                   little less
-     floors     a value below is raised to it, and told so; X_n stays what it was
+     floors     a value below is raised to it, which is reported; X_n stays what it was
      modulation the amplitude times 1 + m sin(2 pi phase); the phase grows by nu times the interval: continuous whatever
        moves
      duration   zeta max(|A|, shortest)^-theta, of the modulated amplitude; then the amplitude becomes newtons

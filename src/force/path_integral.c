@@ -54,7 +54,6 @@ static void terms_leak(struct path_terms *t, const double *length, double leak, 
     }
 }
 
-/* at: NULL where the cells are chained, whose points are then loaded one after another. */
 LANES_CLONES
 static void terms_channel(struct path_terms *t, const struct cells *p, int channel)
 {

@@ -364,7 +364,7 @@ static double alpha_widest(const struct contact *c)
     return alpha_along_x(c) * fmax(1, c->contact.limiter.ratio_y); /* NAN: not the paper's force */
 }
 
-/* Told at the smoothing if it is given, else at the alpha that makes it wide. */
+/* Reported at the smoothing if it is given, else at the alpha that makes it wide. */
 static void smoothing_check(const struct scene_part *p, const struct contact *c, const void *own)
 {
     (void)own;

@@ -206,7 +206,7 @@ static double force_table_work(const struct contact *c, const struct scene *s)
     return 4 + (column_asked(c, s, MEAN, PEAK) ? row : 0.6 * row) * s->output.diagnostics.rate / s->output.sample_rate;
 }
 
-/* The reader has told unknown columns, and those that this contact cannot have, with their place: output/output.c.
+/* The reader has reported unknown columns, and those that this contact cannot have, with their place: output/output.c.
  */
 static bool columns_choose(struct force_table *t, const struct stage_run *r, struct err *e)
 {

@@ -1,5 +1,5 @@
 /* See error_budget.h. The parts: pilot runs (error_curve.h), how the budget is shared out; here the
-   plans, and what is told. Nothing here reads a clock but for the report: the same scene is given the same knobs
+   plans, and what is reported. Nothing here reads a clock but for the report: the same scene is given the same knobs
    everywhere. */
 #include "pipeline/error_budget.h"
 
@@ -54,7 +54,7 @@ static inline bool budget_used(const struct budgeting *m, int knob) { return m->
    doublings coarser than what is chosen. Where an error cannot be kept, curves that are not settled (error_curve.h)
    are piloted anew until they are: up to 64 times the first value, of contact_steps perhaps more. Measured, refusals
    of shipped scenes: 1.2 s (circle, basswood_scrape), 9 s (roll_coupled), 11 s (round_tip, most of it tip_heights).
-   What is told as the best is so the same whatever was asked.
+   What is reported as the best is so the same whatever was asked.
 
    A ramp of gains is piloted up to the sound, over the whole motion, two values side by side: what it misses lies at
    kinks, and grows with what rings.

@@ -26,8 +26,8 @@ struct missing {
     const char *contact, *key; /* of the first */
 };
 
-/* The place of the first is told with the whole (scene_places_report), those of the others here. What names a file is
- * given: it has a place. */
+/* The place of the first is reported with the whole (scene_places_report), those of the others here. What names a file
+   is given: it has a place. */
 static void add(struct missing *m, const char *contact, const char *key, const char *file)
 {
     const char *index = may_be_folder(key, file) ? arena_format(m->arena, "%s/index.csv", file) : NULL;

@@ -156,7 +156,7 @@ static void warn_contact(const struct contact *c, const struct run *r, struct re
 
 static double decibel(double x) { return x > 0 ? 20 * real_log10(x) : -HUGE_VAL; }
 
-/* A tail of its own ends 80 dB down; a cut that leaves more off is told. */
+/* A tail of its own ends 80 dB down; a cut that leaves more off is reported. */
 static void warn_cut(const struct scene *s, struct render_report *report, struct arena *a)
 {
     const struct sound_report *o = &report->sound;

@@ -32,7 +32,7 @@ static inline bool listener_in_pascals(const struct output *o)
 }
 
 /* The `listen` place (the object's coordinates) with which the channel's modes are to be made by object_modes before
-   listener_make gets them, and which listener_make is then to be told (ask->listen); false: with NULL. For the
+   listener_make gets them, and which listener_make then gets (ask->listen); false: with NULL. For the
    radiators point and plate, which are of objects only, true. */
 bool listener_place(const struct listener_ask *ask, const struct object *o, struct arena *a, double place[2]);
 

@@ -21,7 +21,7 @@ void scene_merge_set(struct yaml *y, struct yaml_node *root, const char *text);
 void scene_merge_seed(struct yaml *y, struct yaml_node *root, const char *number);
 
 /* Keys that another file than the scene says of it, such as a design of many scenes: laid over its tree as a file that
-   includes it would. Errors in them are told where they stand in that file. */
+   includes it would. Errors in them are reported where they stand in that file. */
 struct scene_layer_key {
     struct yaml_node **path;       /* the parts of "motion.rate" as scalars; ends with NULL                         */
     const struct yaml_node *value; /* null takes the key away; file names are seen from the folder of its source    */
@@ -36,7 +36,7 @@ struct scene_layer {
 /* Lays them over the tree. The layer is only read: several threads may use one. */
 void scene_merge_layer(struct yaml *y, struct yaml_node *root, const struct scene_layer *layer);
 
-/* A dotted path into its parts, each with its place. NULL: one of them is empty, which has been told at the key. */
+/* A dotted path into its parts, each with its place. NULL: one of them is empty, which has been reported at the key. */
 struct yaml_node **scene_merge_layer_path(struct yaml *y, const struct yaml_node *key);
 
 #endif

@@ -291,7 +291,8 @@ static void not_applicable(const struct scene_part *p, const struct key *k, cons
 
 /* ------------------------------------------------------------------ what is missing */
 
-/* The innermost map on the way to the path; NULL: something that is not a map is in the way (and told elsewhere). */
+/* The innermost map on the way to the path; NULL: something that is not a map is in the way (and reported elsewhere).
+   */
 static const struct yaml_node *innermost(const struct scene_part *p, const char *path, const char **rest)
 {
     const struct yaml_node *at = p->map;

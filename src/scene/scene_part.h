@@ -37,7 +37,7 @@ bool scene_part_given(const struct scene_part *p, const char *path);
 void scene_part_refuse(const struct scene_part *p, const char *path, const char *other, const char *cure,
                        const char *format, ...) __attribute__((format(printf, 5, 6)));
 
-/* Has the key one of its words, or is it left out? Else its error is told already, and what follows from it is not
+/* Has the key one of its words, or is it left out? Else its error is reported already, and what follows from it is not
  * known. */
 bool scene_part_known(const struct scene_part *p, const char *path);
 
@@ -58,8 +58,8 @@ void scene_part_names(struct yaml *y, const struct yaml_node *map, enum scene_pa
    missing, does not apply, or excludes another. */
 void scene_part_fill(const struct scene_part *p);
 
-/* Where the path is not there (not even in error): "PATH is missing" and BECAUSE, told at the innermost map on its way,
-   with the line that adds the value. */
+/* Where the path is not there (not even in error): "PATH is missing" and BECAUSE, reported at the innermost map on its
+   way, with the line that adds the value. */
 void scene_part_missing(const struct scene_part *p, const char *path, const char *value, const char *because);
 
 #endif

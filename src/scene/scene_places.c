@@ -287,7 +287,7 @@ static const char *labelled(const struct scene *s, const struct scene_place *p, 
     return arena_format(a, "%s: %s", p->label, rest);
 }
 
-/* Where in the text that was told its parts are. */
+/* Where in the text that was given its parts are. */
 static struct err_place parts_of(const struct scene *s, const struct scene_place *p, const char *place)
 {
     char shown[sizeof((struct err *)0)->text];

@@ -1,6 +1,6 @@
 /* From a scene's text to its struct: the tree with includes, overrides and recipes, unknown keys, values, what is
-   missing or contradicts. Each step tells its errors and goes on, so that all are told at once; only a tree that cannot
-   be read ends it early. */
+   missing or contradicts. Each step reports its errors and goes on, so that all are reported at once; only a tree that
+   cannot be read ends it early. */
 #include "scene/scene_read.h"
 
 #include <string.h>
@@ -135,8 +135,8 @@ static const char *name_of(const struct yaml_node *map)
     return name && name->kind == YAML_SCALAR ? name->text : NULL;
 }
 
-/* errors: how many had been told before this contact; -1: the scene's own keys are in error, so that nothing is known
- * to be missing. */
+/* errors: how many had been reported before this contact; -1: the scene's own keys are in error, so that nothing is
+   known to be missing. */
 static void contact_read(const struct tree *t, struct yaml_node *map, const char *prefix, int errors, struct contact *c)
 {
     struct scene_part part = {t->yaml, map, prefix, KEY_CONTACT, c};
@@ -158,7 +158,7 @@ static void contact_read(const struct tree *t, struct yaml_node *map, const char
         if (own->check_asked) own->check_asked(&part, t->root, t->scene, good);
 }
 
-/* Told at a contact whose name an earlier one has; a contact without a name is called "contact". */
+/* Reported at a contact whose name an earlier one has; a contact without a name is called "contact". */
 static void unique_check(struct yaml *y, const struct yaml_node *list, const struct yaml_node *map)
 {
     const char *name = name_of(map);

@@ -3,7 +3,7 @@
 #define SCENE_SCENE_VALUES_H
 #include "scene/scene_part.h"
 
-/* Reads the key's value from the node into its field; false: an error was told and the field says "not given". */
+/* Reads the key's value from the node into its field; false: an error was reported and the field says "not given". */
 bool scene_values_read(const struct scene_part *p, const struct key *k, const struct yaml_node *node);
 
 /* The key's default, or "not given" where there is none. */
@@ -20,7 +20,7 @@ bool scene_values_quantity(struct yaml *y, const struct yaml_node *node, const c
 bool scene_values_number(const struct scene_part *p, const struct key *k, const struct yaml_node *node,
                          const char *label, double *x);
 
-/* Index of the node's word in a table of choices, -1: it is none of them (nothing is told). */
+/* Index of the node's word in a table of choices, -1: it is none of them (nothing is reported). */
 int scene_values_choice(const struct choice *choices, const struct yaml_node *node);
 
 /* "a map", "a list", "the text 'x'". */

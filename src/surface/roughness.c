@@ -401,7 +401,7 @@ double roughness_bytes(const struct contact *c)
 
 /* Measured, in cycles: along a line 8 per point of its spline; in the plane per cell that is crossed, which has its
    coefficients made and is read at some 6 points, less where they are kept; 60 more per point for another distribution
-   of heights. What a tip reads in the plane is told with the tip. */
+   of heights. What a tip reads in the plane is reported with the tip. */
 static double roughness_work(const struct contact *c, const struct scene *s)
 {
     const struct roughness *r = roughness_of(c);
