@@ -4,6 +4,7 @@ data=$ROOT/../shared/data/impacts
 for name in steel ceramic polycarb wood; do
     [ -f "$data/$name.wav" ] || { echo "no recordings of strikes in ../shared/data/impacts"; exit 77; }
 done
+[ -z "${SANITIZED:-}" ] || { echo "the same code as in cli/modes-extract"; exit 77; } # minutes of it
 command -v python3 > /dev/null || { echo "no python3"; exit 77; }
 for name in ceramic polycarb wood; do
     rasp modes extract "$data/$name.wav" --force-channel 2 --strikes 2,3 --high 4kHz --modes 12 --json -o $name.csv > $name.json || exit
