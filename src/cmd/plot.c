@@ -28,13 +28,6 @@
 const char *const plot_panels_words[PLOT_PANELS] = {"waveform", "spectrogram", "force", "normal",
                                                     "motion",   "modes",       "decays"};
 
-/* Told apart by colour-blind people too (Okabe and Ito's set). */
-const char *plot_panels_colour(int i)
-{
-    static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7"};
-    return colours[i % (int)(sizeof colours / sizeof colours[0])];
-}
-
 bool plot_panels_read(const char *words, unsigned *asked, struct arena *a, struct err *e)
 {
     *asked = 0;
@@ -76,26 +69,6 @@ bool plot_panels_there(const struct plot_page *p, int panel)
 {
     bool wanted = p->asked ? p->asked >> panel & 1 : panel != PLOT_DECAYS || p->table_of_modes;
     return wanted && has_data(p, panel);
-}
-
-static bool plot_panels_check(const struct plot_page *p, struct err *e)
-{
-    static const char *const lacks[PLOT_PANELS] = {
-        "a sound (a WAV)",
-        "a sound (a WAV)",
-        "a table of diagnostics of the same render with contact forces (in the scene: output: {diagnostics: {rate: 1 "
-        "kHz}})",
-        "a table of diagnostics of the same render with the normal force or alpha (in the scene: output: {diagnostics: "
-        "{rate: 1 kHz}})",
-        "a contact that moves, by a table of diagnostics with x_m and y_m, or by the .scene.yaml and .json of the "
-        "render beside the sound",
-        "a mode table, or, beside a sound, the .scene.yaml and .json of its render, whose responses are modes",
-        NULL};
-    for (int k = 0; k < PLOT_PANELS; k++)
-        if (p->asked >> k & 1 && !has_data(p, k))
-            return err_set(e, ERR_SCENE, "%s: the panel %s needs %s", p->file, plot_panels_words[k],
-                           lacks[k == PLOT_DECAYS ? PLOT_MODES : k]);
-    return true;
 }
 
 static const char *text_of(const json_t *object, const char *key, struct arena *a)
@@ -547,7 +520,22 @@ bool plot_data(struct plot_page *p, struct err *e)
     bool anything = false;
     for (int k = 0; k < PLOT_PANELS; k++)
         anything = anything || plot_panels_there(p, k);
-    if (!plot_panels_check(p, e) || anything) return e->kind == ERR_NONE;
+    static const char *const lacks[PLOT_PANELS] = {
+        "a sound (a WAV)",
+        "a sound (a WAV)",
+        "a table of diagnostics of the same render with contact forces (in the scene: output: {diagnostics: {rate: 1 "
+        "kHz}})",
+        "a table of diagnostics of the same render with the normal force or alpha (in the scene: output: {diagnostics: "
+        "{rate: 1 kHz}})",
+        "a contact that moves, by a table of diagnostics with x_m and y_m, or by the .scene.yaml and .json of the "
+        "render beside the sound",
+        "a mode table, or, beside a sound, the .scene.yaml and .json of its render, whose responses are modes",
+        NULL};
+    for (int k = 0; k < PLOT_PANELS; k++)
+        if (p->asked >> k & 1 && !has_data(p, k))
+            return err_set(e, ERR_SCENE, "%s: the panel %s needs %s", p->file, plot_panels_words[k],
+                           lacks[k == PLOT_DECAYS ? PLOT_MODES : k]);
+    if (anything) return true;
     return p->silent
                ? err_set(e, ERR_SCENE, "no sound, and nothing else that can be drawn")
                : err_set(e, ERR_SCENE, "%s: has none of the columns that are drawn (%s, %s, %s, %s)", p->file,
@@ -576,20 +564,6 @@ static const struct args_option plot_options[] = {
     {"force", 0, NULL, false, "replaces a file that rasp did not draw, or writes through a link"},
     {0},
 };
-
-static const char *const formats[] = {"png", "svg"};
-
-static bool plot_format(struct cmd_call *c, struct plot_page *p, struct err *e)
-{
-    const char *o = args_value(&c->args, "output");
-    int svg = o && text_ends(o, ".svg");
-    if (!cmd_either(c, "format", formats, &svg, e)) return false;
-    if (o && !text_ends(o, ".png") && !text_ends(o, ".svg"))
-        return err_set(e, ERR_USAGE, "--output %s: must end in .png or .svg", o);
-    p->svg = svg;
-    return !o || text_ends(o, svg ? ".svg" : ".png") ||
-           err_set(e, ERR_USAGE, "--output %s: does not end in .%s, the format that is asked for", o, formats[svg]);
-}
 
 /* A picture takes the place of no file that the sound was made from. */
 static bool plot_spares(const struct plot_page *p, const char *target, struct err *e)
@@ -636,14 +610,22 @@ static int plot_run(struct cmd_call *c, struct err *e)
                        "folder --gallery makes a page",
                        p.file),
                (int)e->kind;
-    if (!plot_format(c, &p, e) || !plot_panels_read(args_value(&c->args, "panels"), &p.asked, c->arena, e) ||
+    static const char *const formats[] = {"png", "svg"};
+    const char *o = args_value(&c->args, "output");
+    int svg = o && text_ends(o, ".svg");
+    if (!cmd_either(c, "format", formats, &svg, e)) return (int)e->kind;
+    if (o && !text_ends(o, ".png") && !text_ends(o, ".svg"))
+        return err_set(e, ERR_USAGE, "--output %s: must end in .png or .svg", o), (int)e->kind;
+    if (o && !text_ends(o, svg ? ".svg" : ".png"))
+        return err_set(e, ERR_USAGE, "--output %s: does not end in .%s, the format that is asked for", o, formats[svg]),
+               (int)e->kind;
+    p.svg = svg;
+    if (!plot_panels_read(args_value(&c->args, "panels"), &p.asked, c->arena, e) ||
         !args_number(&c->args, "from", range, &p.from, e) || !args_number(&c->args, "to", range, &p.to, e) ||
         !args_whole(&c->args, "channel", (const long[2]){1, 1024}, &channel, e))
         return (int)e->kind;
     p.channel = (int)channel;
-    const char *o = args_value(&c->args, "output");
-    const char *target =
-        o ? o : arena_format(c->arena, "%.*s.%s", (int)strlen(p.file) - 4, p.file, p.svg ? "svg" : "png");
+    const char *target = o ? o : arena_format(c->arena, "%.*s.%s", (int)strlen(p.file) - 4, p.file, formats[svg]);
     if (!plot_data(&p, e) || !plot_spares(&p, target, e) ||
         !mark_permits(target, NULL, args_given(&c->args, "force"), e) ||
         !gnuplot_write(target, p.svg, plot_draw, &p, e))

@@ -114,7 +114,6 @@ bool plot_data_has(const struct plot_page *p, enum plot_column column);
 extern const char *const plot_panels_words[PLOT_PANELS];
 bool plot_panels_read(const char *words, unsigned *asked, struct arena *a, struct err *e);
 bool plot_panels_there(const struct plot_page *p, int panel); /* asked for, if anything is, and with data */
-const char *plot_panels_colour(int i);
 
 /* plot_draw.c: writes the whole page to gnuplot. One panel whose box is [left, right] x [bottom, top] in shares of a
    page of `size` pixels. */

@@ -45,33 +45,15 @@ static struct view view_of(const struct plot_page *p)
     return size_of(&all) > FAR * size_of(&path) ? path : all;
 }
 
-/* Edges as objects, behind all else. */
-static void put_edges(const struct plot_page *p, double unit, FILE *f)
-{
-    for (int i = 0; i < p->n_grounds; i++) {
-        const struct plot_ground *g = &p->grounds[i];
-        if (!g->box) continue;
-        if (g->round)
-            fprintf(f, "set object %d ellipse center %.9g,%.9g size %.9g,%.9g", i + 1,
-                    (g->low[0] + g->high[0]) / 2 / unit, (g->low[1] + g->high[1]) / 2 / unit,
-                    (g->high[0] - g->low[0]) / unit, (g->high[1] - g->low[1]) / unit);
-        else
-            fprintf(f, "set object %d rectangle from %.9g,%.9g to %.9g,%.9g", i + 1, g->low[0] / unit, g->low[1] / unit,
-                    g->high[0] / unit, g->high[1] / unit);
-        fputs(" behind fillcolor rgb '#f4efe6' fillstyle solid 1.0 border linecolor rgb '#9a8f7a'\n", f);
-    }
-}
-
 static void put_curves(const struct plot_page *p, FILE *f)
 {
-    bool first = true, named = false;
+    bool first = true;
     fputs("plot ", f);
     for (int i = 0; i < p->n_grounds; i++)
         if (p->grounds[i].n) {
             fprintf(f, "%s$places%d using 1:2 with points pointtype 2 pointsize 0.6 linecolor rgb '#707070' %s",
-                    first ? "" : ", ", i, named ? "notitle" : "title 'places'");
+                    first ? "" : ", ", i, first ? "title 'places'" : "notitle");
             first = false;
-            named = true;
         }
     for (int i = 0; i < p->n_ways; i++) {
         fprintf(f, "%s$way%d using 1:2:3 with lines linewidth 2.5 linecolor palette notitle", first ? "" : ", ", i);
@@ -137,7 +119,19 @@ static void plot_motion(const struct plot_page *p, const struct plot_place *at, 
           "(m/s)'\nset cbtics auto\n",
           g->in);
     put_scale(at, " maxrows 1", g->in);
-    put_edges(p, unit, g->in);
+    for (int i = 0; i < p->n_grounds; i++) { /* edges as objects, behind all else */
+        const struct plot_ground *ground = &p->grounds[i];
+        const double *low = ground->low, *high = ground->high;
+        if (!ground->box) continue;
+        if (ground->round)
+            fprintf(g->in, "set object %d ellipse center %.9g,%.9g size %.9g,%.9g", i + 1,
+                    (low[0] + high[0]) / 2 / unit, (low[1] + high[1]) / 2 / unit, (high[0] - low[0]) / unit,
+                    (high[1] - low[1]) / unit);
+        else
+            fprintf(g->in, "set object %d rectangle from %.9g,%.9g to %.9g,%.9g", i + 1, low[0] / unit, low[1] / unit,
+                    high[0] / unit, high[1] / unit);
+        fputs(" behind fillcolor rgb '#f4efe6' fillstyle solid 1.0 border linecolor rgb '#9a8f7a'\n", g->in);
+    }
     put_curves(p, g->in);
     fputs("unset colorbox\nunset object\nset key default\nset key noenhanced top right inside horizontal samplen 2 "
           "spacing 1.0\n",
@@ -222,6 +216,9 @@ static void modes_data(const struct plot_page *p, double most, FILE *f)
 
 static const int marks[] = {7, 5, 9, 13};
 
+/* Told apart by colour-blind people too (Okabe and Ito's set). */
+static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7"};
+
 static void put_name(const struct plot_page *p, int i, struct gnuplot *g)
 {
     fputs(p->n_bodies > 1 ? " title " : " notitle ", g->in);
@@ -278,7 +275,7 @@ static void plot_modes_decays(const struct plot_page *p, const struct plot_place
     fputs("set grid xtics ytics linecolor rgb '#d8d8d8'\n", g->in);
     for (int i = 0; i < p->n_bodies; i++) {
         fprintf(g->in, "%s $modes%d using 1:3 with points pointtype %d pointsize 0.8 linecolor rgb '%s'",
-                i ? "," : "plot", i, marks[i % 4], plot_panels_colour(i));
+                i ? "," : "plot", i, marks[i % 4], colours[i % 4]);
         put_name(p, i, g);
     }
     fputs("\nunset logscale\nset xtics autofreq\nset ytics autofreq\nunset grid\n", g->in);
@@ -317,8 +314,6 @@ static int page_height(const struct plot_page *p)
     height += has_row(p) ? KEY + heights[PLOT_MOTION] + BOTTOM : 0;
     return height + (plot_panels_there(p, PLOT_DECAYS) ? KEY + heights[PLOT_DECAYS] + BOTTOM : 0);
 }
-
-/* ------------------------------------------------------------------ data */
 
 /* ------------------------------------------------------------------ panels */
 
@@ -367,7 +362,7 @@ static bool draw_put_curves(const struct plot_page *p, enum plot_column column, 
     for (int i = 0; i < p->n_tables; i++) {
         if (!p->tables[i].x[column] || p->tables[i].n == 0) continue;
         fprintf(g->in, "%s $table%d using 1:%d with ", *any ? "," : "plot", i, (int)column + 2);
-        fprintf(g->in, style, plot_panels_colour(column == PLOT_ALPHA && p->n_tables == 1 ? 1 : i));
+        fprintf(g->in, style, colours[(column == PLOT_ALPHA && p->n_tables == 1 ? 1 : i) % 4]);
         /* Name of a curve in the key: what it is, and of which contact if there are several. */
         const char *name = p->tables[i].name;
         fputs(" title ", g->in);
@@ -421,24 +416,6 @@ static void draw_timed(const struct plot_page *p, int panel, const double place[
     fputs("unset label 1\n", g->in);
 }
 
-/* Returns how far down the page it came, in pixels from the top. */
-static double draw_all_timed(const struct plot_page *p, double whole, struct gnuplot *g)
-{
-    double top = whole - TOP;
-    int last = -1;
-    for (int k = 0; k < PLOT_MOTION; k++)
-        last = plot_panels_there(p, k) ? k : last;
-    if (last >= 0) fprintf(g->in, "set xrange [%.9g:%.9g]\n", p->from, p->to);
-    for (int k = 0; k <= last; k++) {
-        if (!plot_panels_there(p, k)) continue;
-        fputs(k == last ? "set format x '%g'\nset xlabel 'time / s'\n" : "set format x ''\nunset xlabel\n", g->in);
-        draw_timed(p, k, (const double[2]){(top - heights[k]) / whole, heights[k] / whole}, g);
-        top -= heights[k] + (k == last ? BOTTOM : GAP);
-    }
-    fputs("unset y2tics\nunset y2label\nset autoscale y2\nset key tmargin\n", g->in);
-    return top;
-}
-
 /* A panel with axes of its own, from pixel to pixel; top: of the page's pixels, from below. */
 static void draw_untimed(const struct plot_page *p,
                          void (*draw)(const struct plot_page *, const struct plot_place *, struct gnuplot *),
@@ -457,7 +434,7 @@ static void draw_untimed(const struct plot_page *p,
 void plot_draw(void *page, struct gnuplot *g)
 {
     const struct plot_page *p = page;
-    double whole = page_height(p), top;
+    double whole = page_height(p), top = whole - TOP; /* how far down the page is drawn, in pixels from below */
     const struct plot_sound *o = p->sound;
     if (o) fputs("$sound << END\n", g->in);
     for (int c = 0; o && c < o->n; c++)
@@ -488,7 +465,17 @@ void plot_draw(void *page, struct gnuplot *g)
     gnuplot_put_text(g, p->title);
     fprintf(g->in, " at screen %.5f, screen %.5f noenhanced font ',13'\n", (double)LEFT / WIDTH,
             1 - 0.5 * TOP / height);
-    top = draw_all_timed(p, whole, g);
+    int last = -1; /* of the panels over time */
+    for (int k = 0; k < PLOT_MOTION; k++)
+        last = plot_panels_there(p, k) ? k : last;
+    if (last >= 0) fprintf(g->in, "set xrange [%.9g:%.9g]\n", p->from, p->to);
+    for (int k = 0; k <= last; k++) {
+        if (!plot_panels_there(p, k)) continue;
+        fputs(k == last ? "set format x '%g'\nset xlabel 'time / s'\n" : "set format x ''\nunset xlabel\n", g->in);
+        draw_timed(p, k, (const double[2]){(top - heights[k]) / whole, heights[k] / whole}, g);
+        top -= heights[k] + (k == last ? BOTTOM : GAP);
+    }
+    fputs("unset y2tics\nunset y2label\nset autoscale y2\nset key tmargin\n", g->in);
     if (has_row(p)) { /* alone each takes the whole width */
         bool motion = plot_panels_there(p, PLOT_MOTION), modes = plot_panels_there(p, PLOT_MODES);
         double high = top - KEY, low = high - heights[PLOT_MOTION], right = WIDTH - RIGHT, middle = (LEFT + right) / 2;

@@ -325,35 +325,27 @@ static int surface_info_run(struct cmd_call *c, struct err *e)
 
 /* ------------------------------------------------------------------ convert: in another format, or a part of it */
 
-struct convert {
-    struct cmd_call *c;
-    struct heightfile h;
-    double crop[4]; /* m: left, top, width, height */
-    bool cropped;
-};
-
-/* X,Y,W,H, or X,W, each a length. */
-static bool read_crop(struct convert *v, struct err *e)
+/* X,Y,W,H, or X,W, each a length, into m: left, top, width, height (INFINITY of X,W). */
+static bool read_crop(struct cmd_call *c, double crop[4], struct err *e)
 {
-    const char *text = args_value(&v->c->args, "crop");
+    const char *text = args_value(&c->args, "crop");
     double x[4];
     int n = 0;
-    v->cropped = text != NULL;
     if (!text) return true;
-    for (char *rest = arena_text(v->c->arena, text), *p; (p = strsep(&rest, ","));) {
+    for (char *rest = arena_text(c->arena, text), *p; (p = strsep(&rest, ","));) {
         struct units_fault fault = {NULL, NULL};
-        if (n == 4 || !units_read(p, KEY_LENGTH, &x[n++], v->c->arena, &fault))
+        if (n == 4 || !units_read(p, KEY_LENGTH, &x[n++], c->arena, &fault))
             return err_set(e, ERR_USAGE, "--crop: '%s': %s %s", text, fault.text ? p : "has",
                            fault.text ? fault.text : "more than four lengths");
     }
     if (n != 4 && n != 2)
         return err_set(e, ERR_USAGE,
                        "--crop: '%s' is not of the form X,Y,W,H (of a profile X,W), as in 1mm,1mm,5mm,5mm", text);
-    v->crop[0] = x[0];
-    v->crop[1] = n == 4 ? x[1] : 0;
-    v->crop[2] = n == 4 ? x[2] : x[1];
-    v->crop[3] = n == 4 ? x[3] : HUGE_VAL;
-    return (v->crop[0] >= 0 && v->crop[1] >= 0 && v->crop[2] > 0 && v->crop[3] > 0) ||
+    crop[0] = x[0];
+    crop[1] = n == 4 ? x[1] : 0;
+    crop[2] = n == 4 ? x[2] : x[1];
+    crop[3] = n == 4 ? x[3] : HUGE_VAL;
+    return (crop[0] >= 0 && crop[1] >= 0 && crop[2] > 0 && crop[3] > 0) ||
            err_set(e, ERR_USAGE, "--crop: '%s': a part begins at 0 or later and is larger than 0", text);
 }
 
@@ -387,39 +379,22 @@ static void crop_to(struct heightfile *h, const size_t x[2], const size_t y[2])
         h->holes += isnan(h->z[i]);
 }
 
-static bool crop(struct convert *v, struct err *e)
+static bool crop(struct heightfile *h, const double part[4], struct err *e)
 {
-    struct heightfile *h = &v->h;
     size_t x[2], y[2] = {0, 1};
-    if (!v->cropped) return true;
-    if (h->rows == 1 && isfinite(v->crop[3])) return err_set(e, ERR_USAGE, "--crop: a profile has no height: give X,W");
-    if (h->rows > 1 && isinf(v->crop[3])) return err_set(e, ERR_USAGE, "--crop: a map needs X,Y,W,H");
-    if (!crop_range("width", v->crop[0], v->crop[2], h->pitch_x, h->columns, x, e) ||
-        (h->rows > 1 && !crop_range("height", v->crop[1], v->crop[3], h->pitch_y, h->rows, y, e)))
+    if (h->rows == 1 && isfinite(part[3])) return err_set(e, ERR_USAGE, "--crop: a profile has no height: give X,W");
+    if (h->rows > 1 && isinf(part[3])) return err_set(e, ERR_USAGE, "--crop: a map needs X,Y,W,H");
+    if (!crop_range("width", part[0], part[2], h->pitch_x, h->columns, x, e) ||
+        (h->rows > 1 && !crop_range("height", part[1], part[3], h->pitch_y, h->rows, y, e)))
         return false;
     crop_to(h, x, y);
     return true;
 }
 
-static bool take_row(struct convert *v, struct err *e)
-{
-    static const long range[2] = {0, 0x7fffffff};
-    long k = -1;
-    size_t x[2] = {0, v->h.columns}, y[2] = {0, 1};
-    if (!args_whole(&v->c->args, "row", range, &k, e)) return false;
-    if (k < 0) return true;
-    if ((size_t)k >= v->h.rows)
-        return err_set(e, ERR_SCENE, "--row: row %ld is asked for, and the map has rows 0 to %zu", k, v->h.rows - 1);
-    y[0] = (size_t)k;
-    crop_to(&v->h, x, y);
-    return true;
-}
-
 /* One line: what was written, and what a reader of it has to know. */
-static void report(const struct convert *v, const char *out, enum heightfile_format format,
+static void report(const struct heightfile *h, const char *out, enum heightfile_format format,
                    const struct heightfile_written *w)
 {
-    const struct heightfile *h = &v->h;
     printf("%s: ", out);
     if (h->rows > 1)
         printf("%zu x %zu samples, pitch %.9g um x %.9g um", h->columns, h->rows, h->pitch_x * 1e6, h->pitch_y * 1e6);
@@ -438,10 +413,12 @@ static void report(const struct convert *v, const char *out, enum heightfile_for
 
 static int surface_convert_run(struct cmd_call *c, struct err *e)
 {
-    struct convert v = {.c = c};
+    struct heightfile h;
     struct heightfile_options o;
     struct heightfile_written w;
     enum heightfile_format format;
+    double part[4] = {0};
+    long row = -1;
     const char *in = c->args.operands[0], *out = c->args.operands[1];
     if (!heightfile_write_format(out, &format, e)) return (int)e->kind;
     if (args_given(&c->args, "text") && format != HEIGHTFILE_SDF)
@@ -449,10 +426,16 @@ static int surface_convert_run(struct cmd_call *c, struct err *e)
     if (args_given(&c->args, "text")) format = HEIGHTFILE_SDF_TEXT;
     if (!cmd_spares(out, "the heights", in, "a file of another name", e) ||
         !mark_absent(out, args_given(&c->args, "force"), e) || !surface_options(c, HEIGHTFILE_REFUSE, &o, e) ||
-        !read_crop(&v, e) || !heightfile_load(in, &o, c->arena, &v.h, e) || !crop(&v, e) || !take_row(&v, e) ||
-        !heightfile_write(out, &v.h, format, &w, e))
+        !read_crop(c, part, e) || !heightfile_load(in, &o, c->arena, &h, e) ||
+        (args_given(&c->args, "crop") && !crop(&h, part, e)) ||
+        !args_whole(&c->args, "row", (const long[2]){0, 0x7fffffff}, &row, e))
         return (int)e->kind;
-    if (!args_given(&c->args, "quiet")) report(&v, out, format, &w);
+    if (row >= (long)h.rows)
+        return err_set(e, ERR_SCENE, "--row: row %ld is asked for, and the map has rows 0 to %zu", row, h.rows - 1),
+               (int)e->kind;
+    if (row >= 0) crop_to(&h, (const size_t[2]){0, h.columns}, (const size_t[2]){(size_t)row, 1});
+    if (!heightfile_write(out, &h, format, &w, e)) return (int)e->kind;
+    if (!args_given(&c->args, "quiet")) report(&h, out, format, &w);
     return 0;
 }
 

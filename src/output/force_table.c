@@ -53,47 +53,6 @@ static const struct {
                {RESIDUAL, ROLL_RESIDUAL}};
 enum { SAMPLED = sizeof sampled / sizeof sampled[0] };
 
-static void roll_rows_make(struct roll_rows *r, const struct contact *c)
-{
-    *r = (struct roll_rows){0};
-    if (contact_rolls(c)) r->spin = spin_make(c);
-}
-
-/* The column's value comes from ITEM_ROLL. */
-static bool roll_rows_reads(const struct contact *c, enum column k)
-{
-    bool reads = k == CONTACT_SHARE || k == LIFT_OFFS;
-    for (int i = 0; i < SAMPLED; i++)
-        reads = reads || sampled[i].column == k;
-    return reads && contact_rolls(c);
-}
-
-/* One more frame of the row; `first`: it is the row's first. */
-static void roll_rows_frame(struct roll_rows *r, const double values[ROLL_VALUES], bool first)
-{
-    if (first) memcpy(r->first, values, sizeof r->first);
-    r->contact += values[ROLL_CONTACT];
-    r->lift_offs += values[ROLL_LIFT_OFFS];
-}
-
-/* Into value[COLUMNS], of a row of so many frames; the next row begins empty. */
-static void roll_rows_take(struct roll_rows *r, long frames, double *value)
-{
-    for (int i = 0; i < SAMPLED; i++)
-        value[sampled[i].column] = r->first[sampled[i].value];
-    value[CONTACT_SHARE] = frames > 0 ? r->contact / (double)frames : 0;
-    value[LIFT_OFFS] = r->lift_offs;
-    r->contact = r->lift_offs = 0;
-}
-
-/* theta at an instant, from u (m) and du (m/s). */
-static double roll_rows_angle(const struct roll_rows *r, double u, double du)
-{
-    double theta;
-    spin_at(&r->spin, 1, &u, &du, NULL, &(struct spin_out){.theta = &theta});
-    return theta;
-}
-
 /* Instants are read ROW_MOTION_SOME at a time: at the audio rate that takes a third of what one by one does. alpha is
  * that of the force without approach and release. */
 
@@ -134,19 +93,11 @@ static void row_motion_fill(struct row_motion *m, const struct stage_run *r, lon
     if (r->board->limiter && m->wanted[ALPHA]) limiter_alpha(r->board->limiter, (size_t)m->n, load, m->value[ALPHA]);
 }
 
-/* Values of a row, which comes behind the one before. */
-static void row_motion_take(struct row_motion *m, const struct stage_run *r, long row, double value[COLUMNS])
-{
-    if (row >= m->first + m->n) row_motion_fill(m, r, row);
-    for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
-        value[columns[k]] = m->value[columns[k]][row - m->first];
-}
-
 /* The stage that writes diagnostics rows. Row k belongs to [t, t + T), t = k T after the contact's first frame, T =
    1/rate: kinematics, normal force and alpha are those at t; forces are the mean, rms and largest magnitude (with its
    sign) of the audio-rate force over the samples in the interval; events are counted in it. Of a ball see
-   roll_rows_take. Rows end with the motion. Numbers are printed with %.9g, lines end in LF; as NPY (file/npy.h) they
-   are doubles, and how many rows there will be is known when the header is written. */
+   the top of this file. Rows end with the motion. Numbers are printed with %.9g, lines end in LF; as NPY
+   (file/npy.h) they are doubles, and how many rows there will be is known when the header is written. */
 
 struct force_table {
     bool wanted[MOST], npy;
@@ -183,8 +134,10 @@ static unsigned force_table_asks(const struct contact *c, const struct scene *s)
     if (load_varies(c) &&
         (column_asked(c, s, NORMAL, NORMAL) || (column_asked(c, s, LIFT_OFFS, LIFT_OFFS) && !contact_rolls(c))))
         items |= ITEM_BIT(ITEM_LOAD);
-    for (int k = 0; k < COLUMNS; k++)
-        if (roll_rows_reads(c, (enum column)k) && column_asked(c, s, k, k)) items |= ITEM_BIT(ITEM_ROLL);
+    bool ball = column_asked(c, s, CONTACT_SHARE, CONTACT_SHARE) || column_asked(c, s, LIFT_OFFS, LIFT_OFFS);
+    for (int i = 0; i < SAMPLED; i++)
+        ball = ball || column_asked(c, s, (int)sampled[i].column, (int)sampled[i].column);
+    if (ball && contact_rolls(c)) items |= ITEM_BIT(ITEM_ROLL);
     if (load_varies(c) && column_asked(c, s, ALPHA, ALPHA) && !*params_column_lacks(c, ALPHA))
         items |= ITEM_BIT(ITEM_ALPHA);
     if (column_asked(c, s, MEAN, PEAK)) items |= ITEM_BIT(ITEM_FORCE);
@@ -228,24 +181,6 @@ static bool columns_choose(struct force_table *t, const struct stage_run *r, str
     return true;
 }
 
-/* The law of a varying load is on the board; a constant one's is needed for approach and release. */
-static bool load_find(struct force_table *t, const struct stage_run *r, struct err *e)
-{
-    if (r->contact->contact.model != CONTACT_SCRAPE && r->contact->contact.model != CONTACT_ROLL) return true;
-    struct load_law *own = ARENA_TAKE(r->arena, struct load_law, 1);
-    t->motion.load = r->board->load ? r->board->load : own;
-    return r->board->load || load_make(r->contact, r->board->trajectory, r->arena, own, e);
-}
-
-static bool impacts_find(struct force_table *t, const struct stage_run *r, struct err *e)
-{
-    if (!t->wanted[IMPACTS]) return true;
-    if (r->contact->contact.model == CONTACT_IMPACTS) return impact_series_train(r, &t->series, e);
-    if (!strike_make(r->contact, r->board->trajectory->duration, &t->train, e)) return false;
-    t->struck = strike_next(&t->train, &t->impact);
-    return true;
-}
-
 static bool force_table_open(struct stage_run *r, struct err *e)
 {
     struct force_table *t = ARENA_TAKE(r->arena, struct force_table, 1);
@@ -258,8 +193,21 @@ static bool force_table_open(struct stage_run *r, struct err *e)
                        "output.diagnostics.rate: %.9g Hz is above output.sample_rate, %.9g Hz: some rows would have no "
                        "samples of the force; lower it",
                        o->diagnostics.rate, o->sample_rate);
-    if (!columns_choose(t, r, e) || !load_find(t, r, e) || !impacts_find(t, r, e)) return false;
-    roll_rows_make(&t->ball, r->contact);
+    if (!columns_choose(t, r, e)) return false;
+    /* The law of a varying load is on the board; a constant one's is needed for approach and release. */
+    int model = r->contact->contact.model;
+    if (model == CONTACT_SCRAPE || model == CONTACT_ROLL) {
+        struct load_law *own = ARENA_TAKE(r->arena, struct load_law, 1);
+        t->motion.load = r->board->load ? r->board->load : own;
+        if (!r->board->load && !load_make(r->contact, r->board->trajectory, r->arena, own, e)) return false;
+    }
+    if (t->wanted[IMPACTS] && model == CONTACT_IMPACTS) {
+        if (!impact_series_train(r, &t->series, e)) return false;
+    } else if (t->wanted[IMPACTS]) {
+        if (!strike_make(r->contact, r->board->trajectory->duration, &t->train, e)) return false;
+        t->struck = strike_next(&t->train, &t->impact);
+    }
+    if (contact_rolls(r->contact)) t->ball.spin = spin_make(r->contact);
     t->motion.alpha = limiter_constant(r->contact);
     t->motion.wanted = t->wanted;
     t->rows = t->motion.rows = (long)ceil(r->board->trajectory->duration * r->scene->output.diagnostics.rate - 1e-9);
@@ -275,28 +223,6 @@ static bool force_table_open(struct stage_run *r, struct err *e)
     return true;
 }
 
-/* Those that begin (of a series: whose middle comes) before the row ends, and have not been counted; of those before
- * the start, none. */
-static void row_impacts(struct force_table *t, double end)
-{
-    t->value[IMPACTS] = 0;
-    while (t->series.any && t->series.next.time < end)
-        t->value[IMPACTS] += impact_series_take(&t->series).time >= 0;
-    while (t->struck && t->impact.start < end) {
-        t->value[IMPACTS]++;
-        t->struck = strike_next(&t->train, &t->impact);
-    }
-}
-
-static void row_put_npy(const struct force_table *t, FILE *out)
-{
-    double row[MOST];
-    size_t n = 0;
-    for (int k = 0; k < t->n; k++)
-        if (t->wanted[k]) row[n++] = t->value[k] + 0.0;
-    fwrite(row, sizeof *row, n, out);
-}
-
 static void row_write(struct force_table *t, const struct board *b)
 {
     double n = t->samples > 0 ? (double)t->samples : 1;
@@ -304,10 +230,20 @@ static void row_write(struct force_table *t, const struct board *b)
     t->value[RMS] = sqrt(t->squares / n);
     t->value[PEAK] = t->peak;
     t->value[LIFT_OFFS] = (double)t->lift_offs;
-    if (board_has(b, ITEM_ROLL)) roll_rows_take(&t->ball, t->samples, t->value);
-    if (t->npy)
-        row_put_npy(t, b->table->stream);
-    else {
+    if (board_has(b, ITEM_ROLL)) {
+        for (int i = 0; i < SAMPLED; i++)
+            t->value[sampled[i].column] = t->ball.first[sampled[i].value];
+        t->value[CONTACT_SHARE] = t->samples > 0 ? t->ball.contact / (double)t->samples : 0;
+        t->value[LIFT_OFFS] = t->ball.lift_offs;
+        t->ball.contact = t->ball.lift_offs = 0;
+    }
+    if (t->npy) {
+        double row[MOST];
+        size_t some = 0;
+        for (int k = 0; k < t->n; k++)
+            if (t->wanted[k]) row[some++] = t->value[k] + 0.0;
+        fwrite(row, sizeof *row, some, b->table->stream);
+    } else {
         /* -0 is written as 0. */
         char text[MOST * (DECIMAL_ROOM + 1) + 1], *end = text;
         for (int k = 0; k < t->n; k++)
@@ -330,7 +266,12 @@ static void row_frame(struct force_table *t, const struct board *b, long n)
         t->squares += f * f;
         t->peak = fabs(f) > fabs(t->peak) ? f : t->peak;
     }
-    if (board_has(b, ITEM_ROLL)) roll_rows_frame(&t->ball, board_at(b, ITEM_ROLL, n), t->samples == 0);
+    if (board_has(b, ITEM_ROLL)) {
+        const double *values = board_at(b, ITEM_ROLL, n);
+        if (t->samples == 0) memcpy(t->ball.first, values, sizeof t->ball.first);
+        t->ball.contact += values[ROLL_CONTACT];
+        t->ball.lift_offs += values[ROLL_LIFT_OFFS];
+    }
     t->samples++;
     if (board_has(b, ITEM_LOAD) && t->wanted[LIFT_OFFS]) {
         const double *load = board_at(b, ITEM_LOAD, n);
@@ -341,14 +282,26 @@ static void row_frame(struct force_table *t, const struct board *b, long n)
 
 static void rows_before(struct force_table *t, const struct stage_run *r, long end)
 {
+    double rate = r->scene->output.diagnostics.rate, *v = t->value;
     for (; t->row < end; t->row++) {
-        double *v = t->value;
-        row_motion_take(&t->motion, r, t->row, v);
-        if (t->wanted[ROLL_ANGLE]) v[ROLL_ANGLE] = roll_rows_angle(&t->ball, v[STROKE], v[VELOCITY]);
+        struct row_motion *m = &t->motion;
+        if (t->row >= m->first + m->n) row_motion_fill(m, r, t->row);
+        for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
+            v[columns[k]] = m->value[columns[k]][t->row - m->first];
+        if (t->wanted[ROLL_ANGLE])
+            spin_at(&t->ball.spin, 1, &v[STROKE], &v[VELOCITY], NULL, &(struct spin_out){.theta = &v[ROLL_ANGLE]});
         for (int k = COLUMNS; k < t->n; k++)
-            if (t->wanted[k])
-                v[k] = t->by[k] ? t->of[k]->at(t->by[k], (double)t->row / r->scene->output.diagnostics.rate) : 0;
-        row_impacts(t, (double)(t->row + 1) / r->scene->output.diagnostics.rate);
+            if (t->wanted[k]) v[k] = t->by[k] ? t->of[k]->at(t->by[k], (double)t->row / rate) : 0;
+        /* Impacts that begin (of a series: whose middle comes) before the row ends, and have not been counted; of those
+           before the start, none. */
+        double behind = (double)(t->row + 1) / rate;
+        v[IMPACTS] = 0;
+        while (t->series.any && t->series.next.time < behind)
+            v[IMPACTS] += impact_series_take(&t->series).time >= 0;
+        while (t->struck && t->impact.start < behind) {
+            v[IMPACTS]++;
+            t->struck = strike_next(&t->train, &t->impact);
+        }
         row_write(t, r->board);
     }
 }
@@ -359,16 +312,6 @@ static long row_of(const struct stage_run *r, long n)
     return (long)floor((double)n * r->scene->output.diagnostics.rate / r->board->rate);
 }
 
-/* The first sample behind a row. */
-static long row_behind(const struct stage_run *r, long row)
-{
-    long n = (long)((double)(row + 1) * r->board->rate / r->scene->output.diagnostics.rate) -
-             1; /* that one or one or two before */
-    while (row_of(r, n) <= row)
-        n++;
-    return n;
-}
-
 /* A row is written when the first sample behind it comes, the last ones with the motion's last sample. */
 static bool force_table_run(struct stage_run *r, long from, long to, struct err *e)
 {
@@ -377,7 +320,10 @@ static bool force_table_run(struct stage_run *r, long from, long to, struct err 
         if (n >= t->behind) {
             long row = row_of(r, n);
             rows_before(t, r, row < t->rows ? row : t->rows);
-            t->behind = row_behind(r, row);
+            /* the first sample behind the row: this one, or one or two later */
+            t->behind = (long)((double)(row + 1) * r->board->rate / r->scene->output.diagnostics.rate) - 1;
+            while (row_of(r, t->behind) <= row)
+                t->behind++;
         }
         row_frame(t, r->board, n);
         if (n == r->board->moving - 1) rows_before(t, r, t->rows);

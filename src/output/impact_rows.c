@@ -7,12 +7,6 @@
 #include "stage.h"
 #include "trajectory/contact.h"
 
-static bool impact_rows_add(struct impact_sink *k, const double row[4], struct err *e)
-{
-    return fprintf(k->stream, "%.17g,%.17g,%.17g,%.17g\n", row[0], row[1], row[2], row[3]) >= 0 ||
-           err_set(e, ERR_IO, "the series of impacts cannot be written (is the disk full?)");
-}
-
 static bool rows_wanted(const struct contact *c, const struct scene *s) { return impact_rows_listed(c, &s->output); }
 
 static double rows_work(const struct contact *c, const struct scene *s)
@@ -37,9 +31,9 @@ static bool rows_run(struct stage_run *r, long from, long to, struct err *e)
     (void)from;
     while (t->any && t->next.time < (double)to / rate) {
         struct impact i = impact_series_take(t);
-        if (!impact_rows_add(r->board->listing, (const double[4]){start + i.time, i.amplitude, i.interval, i.duration},
-                             e))
-            return false;
+        if (fprintf(r->board->listing->stream, "%.17g,%.17g,%.17g,%.17g\n", start + i.time, i.amplitude, i.interval,
+                    i.duration) < 0)
+            return err_set(e, ERR_IO, "the series of impacts cannot be written (is the disk full?)");
     }
     return true;
 }

@@ -39,12 +39,6 @@ static bool is_sound(const struct ends *x)
     return false;
 }
 
-static bool is_picture(const struct ends *x)
-{
-    return begins(x, "\x89PNG") ? memmem(x->tail, x->n_tail, png_mark, sizeof png_mark)
-                                : memmem(x->tail, x->n_tail, svg_mark, sizeof svg_mark - 1);
-}
-
 /* ------------------------------------------------------------------ summaries */
 
 /* Is it one? It lists the files of a render, and the effective scene is always one of them. */
@@ -141,22 +135,19 @@ static bool read_ends(const char *path, struct ends *x)
     return ok;
 }
 
-static bool is_summary_file(const struct ends *x, const char *path)
-{
-    json_t *whole = begins(x, "{") ? json_load_file(path, 0, NULL) : NULL;
-    bool is = is_summary(whole);
-    json_decref(whole);
-    return is;
-}
-
 /* Does the file bear the mark, or does the summary (NULL: there is none) beside it list its bytes? */
 static bool mark_is(const char *path, const char *summary)
 {
     struct ends x;
-    return read_ends(path, &x) &&
-           (is_sound(&x) || is_picture(&x) ||
-            (begins((&x), "<!DOCTYPE html>") && memmem(x.head, x.n_head, MARK_PAGE, sizeof MARK_PAGE - 1)) ||
-            is_summary_file(&x, path) || is_listed(path, summary));
+    if (!read_ends(path, &x)) return false;
+    bool picture = begins(&x, "\x89PNG") ? memmem(x.tail, x.n_tail, png_mark, sizeof png_mark)
+                                         : memmem(x.tail, x.n_tail, svg_mark, sizeof svg_mark - 1);
+    bool page = begins(&x, "<!DOCTYPE html>") && memmem(x.head, x.n_head, MARK_PAGE, sizeof MARK_PAGE - 1);
+    if (picture || page || is_sound(&x)) return true;
+    json_t *whole = begins(&x, "{") ? json_load_file(path, 0, NULL) : NULL;
+    bool is = is_summary(whole);
+    json_decref(whole);
+    return is || is_listed(path, summary);
 }
 
 bool mark_links(const char *path, bool force, struct err *e)

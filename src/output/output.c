@@ -137,18 +137,6 @@ static void audible_check(const struct scene_part *p, struct yaml_node *root, co
                  diag_shown(p->yaml->diag, file), name);
 }
 
-/* Has some contact what the stem is of? */
-static bool is_there(const struct scene *s, const char *stem)
-{
-    for (int i = 0; i < s->n_contacts; i++) {
-        const struct contact *c = &s->contacts[i];
-        bool tool = strcmp(stem, contact_tool(c)) == 0 && response_tool_rings(c);
-        bool surface = strcmp(stem, "surface") == 0 && response_surface_rings(c);
-        if (c->gain != 0 && (strcmp(stem, "force") == 0 || surface || tool)) return true;
-    }
-    return false;
-}
-
 /* Of all contacts. */
 static void all_check(const struct scene_part *top)
 {
@@ -156,10 +144,18 @@ static void all_check(const struct scene_part *top)
     const char *path = "output.impacts";
     const struct yaml_node *list = yaml_find(top->map, "output.stems");
     bool listed = s->output.impacts != LISTING_TABLE;
-    for (const struct yaml_node *item = s->output.stems ? list->first : NULL; item; item = item->next)
-        if (!is_there(s, item->text))
+    for (const struct yaml_node *item = s->output.stems ? list->first : NULL; item; item = item->next) {
+        bool there = false;
+        for (int i = 0; i < s->n_contacts; i++) {
+            const struct contact *c = &s->contacts[i];
+            bool tool = strcmp(item->text, contact_tool(c)) == 0 && response_tool_rings(c),
+                 surface = strcmp(item->text, "surface") == 0 && response_surface_rings(c);
+            there |= c->gain != 0 && (strcmp(item->text, "force") == 0 || surface || tool);
+        }
+        if (!there)
             diag_add(top->yaml->diag, item->at, "leave the stem out, or give what it is of",
                      "output.stems: nothing rings of which '%s' would be the stem", item->text);
+    }
     for (int i = 0; i < s->n_contacts; i++)
         listed |= impact_rows_listed(&s->contacts[i], &s->output);
     if (!listed)
@@ -178,38 +174,6 @@ static const struct yaml_node *column_first(struct yaml_node *root)
 {
     const struct yaml_node *list = yaml_find(root, "output.diagnostics.columns");
     return list && list->kind == YAML_LIST ? list->first : NULL;
-}
-
-static void names_check(struct yaml *y, struct yaml_node *root)
-{
-    const struct params *whose;
-    int n = 0;
-    while (params_column(n, &whose))
-        n++;
-    const char **names = ARENA_TAKE(y->arena, const char *, n + 1);
-    for (int k = 0; k < n; k++)
-        names[k] = params_column(k, &whose)->name;
-    for (const struct yaml_node *item = column_first(root); item; item = item->next) {
-        if (item->kind != YAML_SCALAR || !*item->text || yaml_null(item) || column_find(item) >= 0) continue;
-        const char *near = text_nearest(item->text, names);
-        diag_add(y->diag, item->at,
-                 near ? arena_format(y->arena, "did you mean '%s'?", near)
-                      : "rasp explain output.diagnostics.columns lists them",
-                 "output.diagnostics.columns: there is no column '%s'", diag_shown(y->diag, item->text));
-    }
-}
-
-static void columns_check(const struct scene_part *p, struct yaml_node *root, const struct scene *s)
-{
-    const struct contact *c = p->to;
-    for (const struct yaml_node *item = column_first(root); item && s->output.diagnostics.given; item = item->next) {
-        int k = column_find(item);
-        const char *needs = k < 0 ? "" : params_column_lacks(c, k);
-        if (*needs)
-            diag_add(p->yaml->diag, item->at, "leave the column out, or give what it needs",
-                     "output.diagnostics.columns: %s has no %s: it needs %s", scene_part_contact(p, c->name),
-                     item->text, needs);
-    }
 }
 
 /* ------------------------------------------------------------------ all of it */
@@ -239,8 +203,23 @@ static void output_check(const struct scene_part *top, bool contacts)
         all_check(top);
         return;
     }
-    names_check(top->yaml, top->map);
-    if (top->yaml->missing) return;
+    struct yaml *y = top->yaml;
+    const struct params *whose;
+    int n = 0;
+    while (params_column(n, &whose))
+        n++;
+    const char **names = ARENA_TAKE(y->arena, const char *, n + 1);
+    for (int k = 0; k < n; k++)
+        names[k] = params_column(k, &whose)->name;
+    for (const struct yaml_node *item = column_first(top->map); item; item = item->next) {
+        if (item->kind != YAML_SCALAR || !*item->text || yaml_null(item) || column_find(item) >= 0) continue;
+        const char *near = text_nearest(item->text, names);
+        diag_add(y->diag, item->at,
+                 near ? arena_format(y->arena, "did you mean '%s'?", near)
+                      : "rasp explain output.diagnostics.columns lists them",
+                 "output.diagnostics.columns: there is no column '%s'", diag_shown(y->diag, item->text));
+    }
+    if (y->missing) return;
     if (o->diagnostics.given && o->diagnostics.rate > o->sample_rate)
         scene_part_refuse(top, rates[0], rates[1], "lower output.diagnostics.rate",
                           ", %.9g Hz, is above %s, %.9g Hz: some rows would have no samples of the force",
@@ -251,7 +230,15 @@ static void output_check(const struct scene_part *top, bool contacts)
 static void contact_check(const struct scene_part *p, struct yaml_node *root, const struct scene *s, bool good)
 {
     if (good) asked_check(p, s); /* a misspelt response is reported already */
-    columns_check(p, root, s);
+    const struct contact *c = p->to;
+    for (const struct yaml_node *item = column_first(root); item && s->output.diagnostics.given; item = item->next) {
+        int k = column_find(item);
+        const char *needs = k < 0 ? "" : params_column_lacks(c, k);
+        if (*needs)
+            diag_add(p->yaml->diag, item->at, "leave the column out, or give what it needs",
+                     "output.diagnostics.columns: %s has no %s: it needs %s", scene_part_contact(p, c->name),
+                     item->text, needs);
+    }
     audible_check(p, root, s);
 }
 

@@ -22,13 +22,6 @@ struct sound {
     struct loudness *meter; /* NULL: loudness is not needed */
 };
 
-static int bits_of(int encoding)
-{
-    static const int bits[] = {
-        [ENCODING_PCM16] = 16, [ENCODING_PCM24] = 24, [ENCODING_FLOAT32] = -32, [ENCODING_FLOAT64] = -64};
-    return bits[encoding];
-}
-
 const char *sound_level_key(const struct scene *s)
 {
     const struct level *l = &s->output.level;
@@ -41,12 +34,14 @@ const char *sound_level_key(const struct scene *s)
 
 struct track_format sound_format(const struct scene *s, long frames)
 {
+    static const int bits[] = {
+        [ENCODING_PCM16] = 16, [ENCODING_PCM24] = 24, [ENCODING_FLOAT32] = -32, [ENCODING_FLOAT64] = -64};
     const struct output *o = &s->output;
     long ramp = (long)rint(o->ramp * o->sample_rate);
     double recede = o->envelope == ENVELOPE_APPROACH_RECEDE ? sqrt(real_exp10(o->envelope_depth / 10) - 1) : 0;
     int places = listener_channels(o);
     return (struct track_format){.rate = o->sample_rate,
-                                 .bits = bits_of(o->encoding),
+                                 .bits = bits[o->encoding],
                                  .places = places,
                                  .channels = places > 1 ? places : o->channels,
                                  .frames = frames,
@@ -79,14 +74,6 @@ static bool note(struct sound *o, double gain, struct err *e)
     return track_note(&o->track, text, e);
 }
 
-static bool meter_open(struct sound *o, struct err *e)
-{
-    if (isnan(o->scene->output.level.lufs)) return true;
-    o->meter = loudness_open(o->track.format.places, o->scene->output.sample_rate, false);
-    return o->meter ||
-           err_set(e, ERR_MEMORY, "the loudness meter cannot be set up at %g Hz", o->scene->output.sample_rate);
-}
-
 bool sound_long_enough(const struct scene *s, long frames, struct err *e)
 {
     return isnan(s->output.level.lufs) || frames >= loudness_least(s->output.sample_rate) ||
@@ -109,7 +96,10 @@ struct sound *sound_open(const struct scene *s, const char *path, long frames, s
         return NULL;
     }
     if (!sound_long_enough(s, frames, e) || !track_open(&o->track, path, &f, gain, a, e)) return NULL;
-    if (meter_open(o, e) && (f.waits || note(o, gain, e))) return o;
+    if (!isnan(s->output.level.lufs) && !(o->meter = loudness_open(f.places, s->output.sample_rate, false)))
+        err_set(e, ERR_MEMORY, "the loudness meter cannot be set up at %g Hz", s->output.sample_rate);
+    else if (f.waits || note(o, gain, e))
+        return o;
     sound_drop(o);
     return NULL;
 }

@@ -19,18 +19,6 @@ struct windows { /* what the columns share */
     double *hann, *x, *re, *im, *power; /* [n], [n], [n/2 + 1] three times */
 };
 
-static struct windows windows_open(double rate, struct arena *a)
-{
-    size_t n = fft_good_size((size_t)ceil(0.02 * rate));
-    struct windows w = {.fft = fft_open(n), .n = n, .hann = ARENA_TAKE(a, double, n), .x = ARENA_TAKE(a, double, n)};
-    w.re = ARENA_TAKE(a, double, n / 2 + 1);
-    w.im = ARENA_TAKE(a, double, n / 2 + 1);
-    w.power = ARENA_TAKE(a, double, n / 2 + 1);
-    for (size_t i = 0; i < n; i++)
-        w.hann[i] = 0.5 - 0.5 * real_cospi(2 * (double)i / (double)n);
-    return w;
-}
-
 /* Adds the power of the window around a frame. The window's samples add up to n/2. */
 static void windows_add(struct windows *w, const struct spectrogram_of *of, double centre)
 {
@@ -47,7 +35,13 @@ static void windows_add(struct windows *w, const struct spectrogram_of *of, doub
 
 void spectrogram_make(const struct spectrogram_of *of, struct arena *a, struct spectrogram *g)
 {
-    struct windows w = windows_open(of->rate, a);
+    size_t n = fft_good_size((size_t)ceil(0.02 * of->rate));
+    struct windows w = {.fft = fft_open(n), .n = n, .hann = ARENA_TAKE(a, double, n), .x = ARENA_TAKE(a, double, n)};
+    w.re = ARENA_TAKE(a, double, n / 2 + 1);
+    w.im = ARENA_TAKE(a, double, n / 2 + 1);
+    w.power = ARENA_TAKE(a, double, n / 2 + 1);
+    for (size_t i = 0; i < n; i++)
+        w.hann[i] = 0.5 - 0.5 * real_cospi(2 * (double)i / (double)n);
     *g = (struct spectrogram){
         .columns = of->columns, .bins = (int)(w.n / 2) + 1, .window = w.n, .bin_hz = of->rate / (double)w.n};
     g->db = ARENA_TAKE(a, double, (size_t)g->bins *(size_t)g->columns);
@@ -57,7 +51,7 @@ void spectrogram_make(const struct spectrogram_of *of, struct arena *a, struct s
         for (int k = 0; k < g->bins; k++)
             w.power[k] = 0;
         for (int i = 0; i < some; i++)
-            windows_add((&w), of, first + (i + 0.5) / some * width);
+            windows_add(&w, of, first + (i + 0.5) / some * width);
         for (int k = 0; k < g->bins; k++)
             g->db[(size_t)k * (size_t)g->columns + (size_t)c] =
                 w.power[k] > 0 ? 10 * real_log10(w.power[k] / some) : -HUGE_VAL;

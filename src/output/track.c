@@ -71,23 +71,6 @@ static double greatest(const struct track *t, const double *x, long n, const lon
     return most;
 }
 
-/* What the ramps take away. */
-static void look_at_ends(struct track *t, const double *x, long n)
-{
-    long ramp = t->format.ramp > 1 ? t->format.ramp : 1, frames = t->format.frames;
-    t->end = fmax(t->end, greatest(t, x, n, (const long[2]){frames - ramp, frames}));
-    t->begin = fmax(t->begin, greatest(t, x, n, (const long[2]){0, ramp}));
-}
-
-static void recede(const struct track *t, double *x, long n)
-{
-    for (long i = 0; i < n && t->format.recede > 0; i++) {
-        double gain = receded(t, i);
-        for (int k = 0; k < t->format.places; k++)
-            x[i * t->format.places + k] *= gain;
-    }
-}
-
 /* Of one channel, from a frame on whose number is a multiple of LANES: a quarter of the time of the plain loop below.
  */
 LANES_CLONES
@@ -146,9 +129,15 @@ static bool put(struct track *t, const double *x, long n, struct err *e)
 bool track_add(struct track *t, double *x, long n, struct err *e)
 {
     size_t samples = (size_t)(n * t->format.places);
-    look_at_ends(t, x, n);
+    long end = t->format.ramp > 1 ? t->format.ramp : 1, frames = t->format.frames; /* what the ramps take away */
+    t->end = fmax(t->end, greatest(t, x, n, (const long[2]){frames - end, frames}));
+    t->begin = fmax(t->begin, greatest(t, x, n, (const long[2]){0, end}));
     ramp(t, x, n);
-    recede(t, x, n);
+    for (long i = 0; i < n && t->format.recede > 0; i++) {
+        double gain = receded(t, i);
+        for (int k = 0; k < t->format.places; k++)
+            x[i * t->format.places + k] *= gain;
+    }
     measure(t, x, n);
     t->done += n;
     if (!t->spool) return put(t, x, n, e);
