@@ -255,9 +255,10 @@ bool accuracy_child_folder(struct accuracy_sweep *s, struct err *e)
     return s->folder != NULL;
 }
 
-void accuracy_child_clear(const struct accuracy_sweep *s)
+/* What a render left. */
+static void child_clear(const struct accuracy_sweep *s)
 {
-    DIR *d = s->folder ? opendir(s->folder) : NULL;
+    DIR *d = opendir(s->folder);
     if (!d) return;
     for (struct dirent *entry; (entry = readdir(d));)
         if (strcmp(entry->d_name, ".") && strcmp(entry->d_name, "..") && strcmp(entry->d_name, "reference.wav"))
@@ -268,7 +269,7 @@ void accuracy_child_clear(const struct accuracy_sweep *s)
 void accuracy_child_end(const struct accuracy_sweep *s)
 {
     if (!s->folder) return;
-    accuracy_child_clear(s);
+    child_clear(s);
     unlink(arena_format(s->call->arena, "%s/reference.wav", s->folder));
     rmdir(s->folder);
     interrupt_forget(s->folder);
@@ -281,37 +282,27 @@ static const char *child_sound(const struct accuracy_sweep *s)
 
 /* ------------------------------------------------------------------ the process */
 
-struct words {
-    const char **list;
-    int n;
-};
-
-static void put_words(struct words *w, const char *option, const char *value)
-{
-    w->list[w->n++] = option;
-    if (value) w->list[w->n++] = value;
-}
-
 static char **command_line(const struct accuracy_sweep *s, const struct accuracy *set)
 {
     struct arena *a = s->call->arena;
     int n;
     const char **given = args_values(&s->call->args, "set", &n), *seed = args_value(&s->call->args, "seed");
-    struct words w = {.list = ARENA_TAKE(a, const char *, 2 * (n + KNOBS) + 24)};
-    put_words(&w, "rasp", "render");
-    put_words(&w, "--json", NULL);
-    put_words(&w, "--output", child_sound(s));
+    const char **words = ARENA_TAKE(a, const char *, n + KNOBS + 16), **to = words;
+    *to++ = "rasp";
+    *to++ = "render";
+    *to++ = "--json";
+    *to++ = arena_format(a, "--output=%s", child_sound(s));
     for (int i = 0; i < n; i++)
-        put_words(&w, "--set", given[i]);
-    if (seed) put_words(&w, "--seed", seed);
-    put_words(&w, "--set", "output.encoding=float64");
-    if (s->force) put_words(&w, "--set", "output.quantity=force");
-    put_words(&w, "--set", "accuracy=standard");
+        *to++ = arena_format(a, "--set=%s", given[i]);
+    if (seed) *to++ = arena_format(a, "--seed=%s", seed);
+    *to++ = "--set=output.encoding=float64";
+    if (s->force) *to++ = "--set=output.quantity=force";
+    *to++ = "--set=accuracy=standard";
     for (int k = 0; k < KNOBS; k++)
-        put_words(&w, "--set",
-                  arena_format(a, "accuracy.%s=%.17g", keys_knobs[k].name, accuracy_knob(set, (enum knob)k)));
-    put_words(&w, "--", bytes_piped(s->file) ? "/dev/stdin" : s->file);
-    return (char **)w.list;
+        *to++ = arena_format(a, "--set=accuracy.%s=%.17g", keys_knobs[k].name, accuracy_knob(set, (enum knob)k));
+    *to++ = "--";
+    *to = bytes_piped(s->file) ? "/dev/stdin" : s->file;
+    return (char **)words;
 }
 
 /* Runs it; its standard output in `out`, its standard error in the file. The exit code, or -1: it was
@@ -351,23 +342,6 @@ static int run_child(char **argv, FILE *says, FILE *scene, FILE *out, double *pe
 
 /* ------------------------------------------------------------------ what it said */
 
-static bool summary_read(struct accuracy_render *r, const char *out, struct err *e)
-{
-    json_t *j = json_loads(out, 0, NULL), *cpu = json_object_get(j, "cpu_s"),
-           *gain = json_object_get(json_object_get(j, "sound"), "gain"), *each;
-    size_t i;
-    if (json_is_number(cpu)) r->cpu = fmin(r->cpu, json_number_value(cpu));
-    json_array_foreach(json_object_get(j, "contacts"), i, each)
-    {
-        json_t *share = json_object_get(json_object_get(each, "roll"), "contact_share");
-        if (isnan(r->contact_share) && json_is_number(share)) r->contact_share = json_number_value(share);
-    }
-    bool ok = json_is_number(cpu) && json_is_number(gain);
-    r->gain = ok ? json_number_value(gain) : 1.0;
-    json_decref(j);
-    return ok || err_set(e, ERR_NUMBERS, "a render's summary cannot be read");
-}
-
 bool accuracy_child(struct accuracy_sweep *s, int render, struct err *e)
 {
     struct accuracy_render *r = &s->renders[render];
@@ -381,11 +355,10 @@ bool accuracy_child(struct accuracy_sweep *s, int render, struct err *e)
     /* A scene that came through a pipe, for the child to read once more. NULL: it did not, or *e */
     size_t size;
     const char *text = bytes_piped(s->file) ? yaml_bytes_text(s->file, NULL, &size) : NULL;
-    FILE *f = text ? outfile_scratch_open() : NULL;
-    if (text && (!f || fwrite(text, 1, size, f) != size || fflush(f) != 0))
+    FILE *scene = text ? outfile_scratch_open() : NULL;
+    if (text && (!scene || fwrite(text, 1, size, scene) != size || fflush(scene) != 0))
         err_set(&cause, ERR_CREATE, "a render cannot be started: its scene cannot be kept in %s: %s",
                 outfile_scratch_folder(), strerror(errno));
-    FILE *scene = f;
     r->code = cause.kind ? -1 : run_child(command_line(s, &r->set), says, scene, out, &peak, &cause);
     if (scene) fclose(scene);
     r->peak = fmax(r->peak, peak);
@@ -401,9 +374,22 @@ bool accuracy_child(struct accuracy_sweep *s, int render, struct err *e)
                : text_shown(s->call->arena, strncmp(line, mark, sizeof mark - 1) ? line : line + sizeof mark - 1);
     fclose(says);
     fclose(out);
-    bool ok = r->code == 0 && summary_read(r, output, e);
+    json_t *j = r->code == 0 ? json_loads(output, 0, NULL) : NULL, *each;
     free(output);
-    if (r->code == 0) return ok;
+    if (r->code == 0) {
+        json_t *cpu = json_object_get(j, "cpu_s"), *gain = json_object_get(json_object_get(j, "sound"), "gain");
+        size_t i;
+        bool ok = json_is_number(cpu) && json_is_number(gain);
+        r->cpu = fmin(r->cpu, ok ? json_number_value(cpu) : HUGE_VAL);
+        r->gain = ok ? json_number_value(gain) : 1.0;
+        json_array_foreach(json_object_get(j, "contacts"), i, each)
+        {
+            json_t *share = json_object_get(json_object_get(each, "roll"), "contact_share");
+            if (isnan(r->contact_share) && json_is_number(share)) r->contact_share = json_number_value(share);
+        }
+        json_decref(j);
+        return ok || err_set(e, ERR_NUMBERS, "a render's summary cannot be read");
+    }
     if (r->code < 0) return err_set(e, interrupt_seen() ? ERR_INTERRUPTED : cause.kind, "%s", cause.text);
     r->words = words;
     if (interrupt_seen() || r->code == ERR_INTERRUPTED)
@@ -521,22 +507,6 @@ static const struct args_option accuracy_options[] = {
 
 /* ------------------------------------------------------------------ asking */
 
-static bool ask_read(struct accuracy_sweep *s, struct err *e)
-{
-    const struct args *g = &s->call->args;
-    long runs = 3;
-    if (!args_whole(g, "runs", (const long[2]){1, 1000}, &runs, e)) return false;
-    s->runs = (int)runs;
-    s->json = args_given(g, "json");
-    s->presets = args_given(g, "presets");
-    if (s->presets && args_given(g, "values")) return err_set(e, ERR_USAGE, "--presets leaves no room for --values");
-    s->csv = args_value(g, "csv");
-    s->plot = args_value(g, "plot");
-    if (s->csv && !text_ends(s->csv, ".csv")) return err_set(e, ERR_USAGE, "--csv %s: must end in .csv", s->csv);
-    return !s->plot || text_ends(s->plot, ".png") || text_ends(s->plot, ".svg") ||
-           err_set(e, ERR_USAGE, "--plot %s: must end in .png or .svg", s->plot);
-}
-
 bool accuracy_silent(const struct scene *s)
 {
     for (int i = 0; i < s->n_contacts; i++)
@@ -599,7 +569,7 @@ static bool sweep(struct accuracy_sweep *s, struct err *e)
             if (run > 0 && (!r->timed || r->code != 0)) continue;
             progress(s, done++, all);
             ok = accuracy_child(s, i, e) && (run > 0 || r->code != 0 || accuracy_child_compare(s, i, e));
-            accuracy_child_clear(s);
+            child_clear(s);
         }
     progress(s, all, all);
     return ok;
@@ -607,8 +577,24 @@ static bool sweep(struct accuracy_sweep *s, struct err *e)
 
 static int accuracy_run(struct cmd_call *c, struct err *e)
 {
-    struct accuracy_sweep s = {.call = c, .file = c->args.operands[0], .until = INFINITY};
-    if (!ask_read(&s, e) || !ask_scene(&s, e) || !accuracy_child_folder(&s, e)) return (int)e->kind;
+    const struct args *g = &c->args;
+    struct accuracy_sweep s = {.call = c,
+                               .file = g->operands[0],
+                               .until = INFINITY,
+                               .json = args_given(g, "json"),
+                               .presets = args_given(g, "presets"),
+                               .csv = args_value(g, "csv"),
+                               .plot = args_value(g, "plot")};
+    long runs = 3;
+    if (!args_whole(g, "runs", (const long[2]){1, 1000}, &runs, e)) return (int)e->kind;
+    s.runs = (int)runs;
+    if (s.presets && args_given(g, "values"))
+        err_set(e, ERR_USAGE, "--presets leaves no room for --values");
+    else if (s.csv && !text_ends(s.csv, ".csv"))
+        err_set(e, ERR_USAGE, "--csv %s: must end in .csv", s.csv);
+    else if (s.plot && !text_ends(s.plot, ".png") && !text_ends(s.plot, ".svg"))
+        err_set(e, ERR_USAGE, "--plot %s: must end in .png or .svg", s.plot);
+    if (e->kind || !ask_scene(&s, e) || !accuracy_child_folder(&s, e)) return (int)e->kind;
     bool ok = sweep(&s, e);
     accuracy_child_end(&s);
     if (!ok) return (int)e->kind;

@@ -34,7 +34,7 @@ struct accuracy_row {  /* one line of the table */
     int knob;          /* -1: a preset, or the scene as it is */
     const char *name;  /* "preset", "scene", or the knob's  */
     const char *value; /* "draft", "16", "-70"; ""          */
-    double fine;       /* of a knob: octaves or dB, see accuracy_rows_fine */
+    double fine;       /* of a knob: log2 of its value, its sign so that finer is more */
     int total, alone;  /* in renders: all others as the scene has them, or at reference; alone -1: none */
     bool chosen;       /* the value that the scene has      */
     double order;      /* from the row before; NAN          */
@@ -62,6 +62,9 @@ struct accuracy_sweep {
     double own_db;     /* of all together, dB below the sound (INFINITY: none seen) */
 };
 
+/* No contact is heard: its force is compared, as output.quantity: force plays it. */
+bool accuracy_silent(const struct scene *s);
+
 enum { ACCURACY_VALUES = 32 }; /* most that may be given of a knob */
 
 /* --values KNOB=a,b,c: [KNOBS] lists. */
@@ -69,9 +72,6 @@ struct accuracy_values {
     double *x;
     int n;
 };
-
-/* No contact is heard: its force is compared, as output.quantity: force plays it. */
-bool accuracy_silent(const struct scene *s);
 
 /* Lists rows and renders from s->knobs and s->scene; equal settings are rendered once. */
 void accuracy_rows(struct accuracy_sweep *s, const struct accuracy_values *own);
@@ -83,8 +83,7 @@ const char *accuracy_rows_name(const struct accuracy_sweep *s, int render);
    interrupted, or a failure that is not the setting's own. */
 bool accuracy_child(struct accuracy_sweep *s, int render, struct err *e);
 bool accuracy_child_folder(struct accuracy_sweep *s, struct err *e);
-void accuracy_child_clear(const struct accuracy_sweep *s); /* what a render left */
-void accuracy_child_end(const struct accuracy_sweep *s);   /* the folder, too    */
+void accuracy_child_end(const struct accuracy_sweep *s); /* the folder and what is in it */
 
 /* Takes the sound that was just rendered as the reference, or as `high`, whose divergence is everyone's; else compares.
  */

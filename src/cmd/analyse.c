@@ -316,8 +316,7 @@ bool analyse_one_process(const struct analysis *a) { return a->statistics.one_pr
 
 /* ------------------------------------------------------------------ duration */
 
-/* Where theta comes from, in this order: --theta; --single; the impacts of the series that stand alone. */
-static bool theta_find(struct cmd_call *c, struct analysis *a, struct err *e)
+static bool duration_find(struct cmd_call *c, struct analysis *a, struct err *e)
 {
     struct impact_duration *d = &a->duration;
     *d = (struct impact_duration){.theta = NAN,
@@ -326,24 +325,21 @@ static bool theta_find(struct cmd_call *c, struct analysis *a, struct err *e)
                                   .zeta_single = NAN,
                                   .r2_single = NAN,
                                   .r2_single_log = NAN};
-    a->theta = ANALYSE_THETA_GIVEN;
-    if (args_given(&c->args, "theta")) return args_number(&c->args, "theta", (const double[2]){0, 2}, &d->theta, e);
-    a->theta = ANALYSE_THETA_FILE;
-    if (a->single.file)
-        return impact_find_duration_single(&a->single.found.events, true, d) ||
-               err_set(e, ERR_SCENE, "%s: %ld impact%s alone; theta takes at least %d, of different amplitudes",
-                       a->single.file, d->singles, d->singles == 1 ? " stands" : "s stand", IMPACT_DURATION_LEAST);
-    a->theta = ANALYSE_THETA_ALONE;
-    if (impact_find_duration_single(&a->source.found.events, true, d)) return true;
-    a->theta = ANALYSE_THETA_NONE;
-    d->theta = 0;
-    return true;
-}
-
-static bool duration_find(struct cmd_call *c, struct analysis *a, struct err *e)
-{
-    struct impact_duration *d = &a->duration;
-    if (!theta_find(c, a, e)) return false;
+    /* Where theta comes from, in this order: --theta; --single; the impacts of the series that stand alone. */
+    if (args_given(&c->args, "theta")) {
+        a->theta = ANALYSE_THETA_GIVEN;
+        if (!args_number(&c->args, "theta", (const double[2]){0, 2}, &d->theta, e)) return false;
+    } else if (a->single.file) {
+        a->theta = ANALYSE_THETA_FILE;
+        if (!impact_find_duration_single(&a->single.found.events, true, d))
+            return err_set(e, ERR_SCENE, "%s: %ld impact%s alone; theta takes at least %d, of different amplitudes",
+                           a->single.file, d->singles, d->singles == 1 ? " stands" : "s stand", IMPACT_DURATION_LEAST);
+    } else if (impact_find_duration_single(&a->source.found.events, true, d))
+        a->theta = ANALYSE_THETA_ALONE;
+    else {
+        a->theta = ANALYSE_THETA_NONE;
+        d->theta = 0;
+    }
     if (d->theta < -0.01 && d->theta < -2 * d->theta_error)
         note(a, "stronger impacts last longer here (theta %.3g); a scene's theta is 0 or more, and 0 is taken",
              d->theta);
@@ -468,26 +464,12 @@ static bool analyse_all(struct cmd_call *c, struct analysis *a, struct err *e)
     return true;
 }
 
-static void analyse_write(struct cmd_call *c, struct analysis *a, int svg, struct err *e)
-{
-    struct analyse_files *all = ARENA_TAKE(a->arena, struct analyse_files, 1);
-    const char *output = args_value(&c->args, "output"), *plot = args_value(&c->args, "plot");
-    if ((output || plot) && !a->counted)
-        err_set(e, ERR_SCENE, "%s: %d impact%s; statistics, of which --output and --plot are made, take at least %d",
-                a->source.file, a->source.found.events.n, a->source.found.events.n == 1 ? "" : "s", STATISTICS_LEAST);
-    if (output && e->kind == ERR_NONE) analyse_report_part(a, output, all, e);
-    if (plot && e->kind == ERR_NONE) analyse_report_plot(a, plot, svg, all, e);
-    a->written = all->name;
-    a->n_written = outfile_commit_all(all->o, all->n, e);
-}
-
 /* The report is printed even where a file cannot be written. */
 static int analyse_run(struct cmd_call *c, struct err *e)
 {
     struct analysis *a = ARENA_TAKE(c->arena, struct analysis, 1);
     const char *output = args_value(&c->args, "output");
     static const char *const formats[] = {"png", "svg"};
-    bool json = args_given(&c->args, "json");
     int svg = 0;
     a->arena = c->arena;
     a->force = args_given(&c->args, "force");
@@ -495,8 +477,16 @@ static int analyse_run(struct cmd_call *c, struct err *e)
     if (output && !text_ends(output, ".yaml"))
         return err_set(e, ERR_USAGE, "--output %s: must end in .yaml", output), (int)e->kind;
     if ((output && !mark_absent(output, a->force, e)) || !analyse_all(c, a, e)) return (int)e->kind;
-    analyse_write(c, a, svg, e);
-    analyse_report(a, json, e);
+    struct analyse_files *all = ARENA_TAKE(a->arena, struct analyse_files, 1);
+    const char *plot = args_value(&c->args, "plot");
+    if ((output || plot) && !a->counted)
+        err_set(e, ERR_SCENE, "%s: %d impact%s; statistics, of which --output and --plot are made, take at least %d",
+                a->source.file, a->source.found.events.n, a->source.found.events.n == 1 ? "" : "s", STATISTICS_LEAST);
+    if (output && e->kind == ERR_NONE) analyse_report_part(a, output, all, e);
+    if (plot && e->kind == ERR_NONE) analyse_report_plot(a, plot, svg, all, e);
+    a->written = all->name;
+    a->n_written = outfile_commit_all(all->o, all->n, e);
+    analyse_report(a, args_given(&c->args, "json"), e);
     return (int)e->kind;
 }
 

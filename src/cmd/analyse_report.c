@@ -314,25 +314,6 @@ static bool values_fit(const struct analysis *a, struct err *e)
     return value_fits("theta", a->duration.theta, 0, 2, e) && value_fits("zeta in s", a->duration.zeta, 1e-7, 10, e);
 }
 
-/* Seconds that the longest impact would last, at the least |A| that a scene takes (force/impact_law.h), which may be
- * far below what was seen: 10 is the most. */
-static bool longest_fits(const struct part *p, struct err *e)
-{
-    const struct analysis *a = p->a;
-    const struct series_statistics *s = &a->statistics.series[STATISTICS_AMPLITUDE];
-    double a1 = s->a1.value, b1 = s->b1.value, mean = s->mean.value,
-           depth = a->statistics.modulation.found ? fmin(a->statistics.modulation.depth, 1) : 0;
-    double rms =
-        sqrt(mean * mean + s->deviation.value * s->deviation.value * (1 + b1 * b1 - 2 * a1 * b1) / (1 - a1 * a1));
-    double least = isnan(p->least_amplitude) ? HUGE_VAL : p->least_amplitude * mean * (1 - depth);
-    double lasts = a->duration.zeta * real_pow(fmax(fmin(least, 0.01 * rms), 0.001 * rms), -a->duration.theta);
-    return a->duration.theta == 0 || lasts <= 10 ||
-           err_set(e, ERR_SCENE,
-                   "with theta %.4g an impact of the least amplitude that a scene takes would last %.4g s, and at most "
-                   "10 s make sense: no file is written. Give a lower --theta",
-                   a->duration.theta, lasts);
-}
-
 /* ------------------------------------------------------------------ text */
 
 static void put_comment(FILE *f, const char *text)
@@ -415,22 +396,6 @@ static void put_part(const struct part *p, FILE *f)
         fprintf(f, "the whitened series' correlation by ranks is %.3f\n", a->statistics.one_process);
 }
 
-static void put_table(const struct part *p, int k, FILE *f)
-{
-    const struct analysis *a = p->a;
-    struct frequency_polygon t;
-    distribution_fit_polygon(a->statistics.white[k], a->statistics.n - 1, a->statistics.series[k].deviation.value,
-                             a->arena, &t);
-    fprintf(f, "# density of the whitened %ss of %s, value in %s\nvalue,density\n", analyse_series_names[k],
-            source_name(a), k ? "s" : "N");
-    for (int i = 0; i < t.n; i++) {
-        csv_put_number(f, t.value[i]);
-        fputc(',', f);
-        csv_put_number(f, t.density[i]);
-        fputc('\n', f);
-    }
-}
-
 /* ------------------------------------------------------------------ files */
 
 /* What was read is never replaced, whatever its name. */
@@ -454,22 +419,46 @@ bool analyse_report_part(struct analysis *a, const char *file, struct analyse_fi
     /* Floors: the least that was seen, of amplitudes if they have one sign, and no more than the mean, which may lie
    below it: it is estimated with the filter. As both are written with the same digits, the floor is not above the mean
    there either. */
-    const struct impact_events *v = &p.a->source.found.events;
-    const double *amplitude = p.a->statistics.demodulated;
-    double least = HUGE_VAL, interval = p.a->statistics.series[STATISTICS_INTERVAL].mean.value,
-           mean = p.a->statistics.series[STATISTICS_AMPLITUDE].mean.value;
+    const struct impact_events *v = &a->source.found.events;
+    const double *amplitude = a->statistics.demodulated;
+    double least = HUGE_VAL, interval = a->statistics.series[STATISTICS_INTERVAL].mean.value,
+           mean = a->statistics.series[STATISTICS_AMPLITUDE].mean.value;
     for (int i = 0; i < v->n; i++)
         least = fmin(least, amplitude[i]);
     for (int i = 0; i + 1 < v->n; i++)
         interval = fmin(interval, v->time[i + 1] - v->time[i]);
     p.least_amplitude = least > 0 && mean > 0 ? fmin(least / mean, 1) : NAN;
     p.least_interval = fmin(fmax(interval, 1e-6), 1);
-    if (!longest_fits(&p, e)) return false;
+    /* Seconds that the longest impact would last, at the least |A| that a scene takes (force/impact_law.h), which may
+       be far below what was seen: 10 is the most. */
+    const struct series_statistics *s = &a->statistics.series[STATISTICS_AMPLITUDE];
+    double a1 = s->a1.value, b1 = s->b1.value, theta = a->duration.theta,
+           depth = a->statistics.modulation.found ? fmin(a->statistics.modulation.depth, 1) : 0;
+    double rms =
+        sqrt(mean * mean + s->deviation.value * s->deviation.value * (1 + b1 * b1 - 2 * a1 * b1) / (1 - a1 * a1));
+    double weakest = isnan(p.least_amplitude) ? HUGE_VAL : p.least_amplitude * mean * (1 - depth);
+    double lasts = a->duration.zeta * real_pow(fmax(fmin(weakest, 0.01 * rms), 0.001 * rms), -theta);
+    if (theta != 0 && !(lasts <= 10))
+        return err_set(e, ERR_SCENE,
+                       "with theta %.4g an impact of the least amplitude that a scene takes would last %.4g s, and at "
+                       "most 10 s make sense: no file is written. Give a lower --theta",
+                       theta, lasts);
     for (int k = 0; k < STATISTICS_SERIES && e->kind == ERR_NONE; k++) {
         if (!analyse_tabled(a, k)) continue;
         const char *table = arena_format(a->arena, "%.*s.%s.csv", (int)strlen(file) - 5, file, analyse_series_names[k]);
         p.table[k] = basename(table);
-        if ((f = files_open(a, all, table, e))) put_table(&p, k, f);
+        if (!(f = files_open(a, all, table, e))) break;
+        struct frequency_polygon t;
+        distribution_fit_polygon(a->statistics.white[k], a->statistics.n - 1, a->statistics.series[k].deviation.value,
+                                 a->arena, &t);
+        fprintf(f, "# density of the whitened %ss of %s, value in %s\nvalue,density\n", analyse_series_names[k],
+                source_name(a), k ? "s" : "N");
+        for (int i = 0; i < t.n; i++) {
+            csv_put_number(f, t.value[i]);
+            fputc(',', f);
+            csv_put_number(f, t.density[i]);
+            fputc('\n', f);
+        }
     }
     if (e->kind == ERR_NONE && (f = files_open(a, all, file, e))) /* the file that names the tables comes last */
         put_part(&p, f);

@@ -50,18 +50,6 @@ int batch_cores(void)
     return (int)(n < 1 ? 1 : n > 256 ? 256 : n);
 }
 
-/* "rasp 0.1.0 f650ae05d2ab", or, when that does not say which source it was made from (changes that are not committed,
-   no git), with the program's own hash behind it, so that results of two builds are never taken for each other's. NULL:
-   *e */
-static const char *program_of(struct arena *a, struct err *e)
-{
-    char hex[HASH_TEXT];
-    if (!strstr(version_revision, "dirty") && strcmp(version_revision, "unknown") != 0)
-        return arena_format(a, "rasp %s %s", version_number, version_revision);
-    if (!hash_file("/proc/self/exe", hex, e)) return NULL;
-    return arena_format(a, "rasp %s %s %.12s", version_number, version_revision, hex);
-}
-
 /* ------------------------------------------------------------------ what went wrong */
 
 static void report_more(struct cmd_call *c, const char *command, enum err_kind kind, const char *text)
@@ -150,22 +138,6 @@ static void report_stale(struct cmd_call *c, const char *folder, const struct fo
 
 /* ------------------------------------------------------------------ what was done */
 
-/* One of those that a dry run lists. */
-static void report_stimulus(struct report *r, const struct batch_report *b, int i)
-{
-    const struct design *d = &b->design;
-    const struct design_stimulus *s = &d->stimuli[i];
-    char seed[24];
-    snprintf(seed, sizeof seed, "%" PRIu64, s->seed); /* as text: many readers of JSON have no 64 bits */
-    report_set(r, ":{ row:i name:s factors:{", i + 1, s->name);
-    for (int f = 0; f < d->n_factors; f++)
-        report_set(r, "$:s", d->factors[f].name, s->level[f] < 0 ? NULL : design_label(d, i, f));
-    report_set(r, "} replicate:c seed:s recording:v length_s:n", s->recording ? -1L : (long)s->replicate,
-               s->recording ? NULL : seed, s->recording, b->set.lengths[i]);
-    if (b->states) report_set(r, "state:s", stimulus_states[b->states[i]]);
-    report_set(r, "}");
-}
-
 static bool report_json(const struct batch_ask *ask, const struct batch_report *b, struct err *e)
 {
     struct report r = report_open(stdout, true);
@@ -184,8 +156,20 @@ static bool report_json(const struct batch_ask *ask, const struct batch_report *
                (long)b->plan.bytes, b->plan.cycles / 3e9, b->seconds);
     if (b->missing) report_set(&r, "missing_shards:s", b->missing);
     if (ask->dry) report_set(&r, "list:[");
-    for (int i = 0; ask->dry && i < b->set.n; i++)
-        if (!b->mine || b->mine[i]) report_stimulus(&r, b, i);
+    for (int i = 0; ask->dry && i < b->set.n; i++) {
+        const struct design *d = &b->design;
+        const struct design_stimulus *s = &d->stimuli[i];
+        char seed[24];
+        if (b->mine && !b->mine[i]) continue;
+        snprintf(seed, sizeof seed, "%" PRIu64, s->seed); /* as text: many readers of JSON have no 64 bits */
+        report_set(&r, ":{ row:i name:s factors:{", i + 1, s->name);
+        for (int f = 0; f < d->n_factors; f++)
+            report_set(&r, "$:s", d->factors[f].name, s->level[f] < 0 ? NULL : design_label(d, i, f));
+        report_set(&r, "} replicate:c seed:s recording:v length_s:n", s->recording ? -1L : (long)s->replicate,
+                   s->recording ? NULL : seed, s->recording, b->set.lengths[i]);
+        if (b->states) report_set(&r, "state:s", stimulus_states[b->states[i]]);
+        report_set(&r, "}");
+    }
     return report_close(&r, 17, e);
 }
 
@@ -262,8 +246,15 @@ static bool read_ask(struct cmd_call *c, struct batch_ask *ask, struct err *e)
         return false;
     ask->missing = (int)missing;
     if (ask->missing && ask->dry) return err_set(e, ERR_USAGE, "--missing: writes nothing anyway: leave --dry-run out");
-    ask->program = program_of(c->arena, e);
-    return ask->program != NULL;
+    /* "rasp 0.1.0 f650ae05d2ab", or, when that does not say which source it was made from (changes that are not
+       committed, no git), with the program's own hash behind it, so that results of two builds are never taken for each
+       other's. */
+    char hex[HASH_TEXT];
+    ask->program = arena_format(c->arena, "rasp %s %s", version_number, version_revision);
+    if (!strstr(version_revision, "dirty") && strcmp(version_revision, "unknown") != 0) return true;
+    if (!hash_file("/proc/self/exe", hex, e)) return false;
+    ask->program = arena_format(c->arena, "%s %.12s", ask->program, hex);
+    return true;
 }
 
 static int batch_command_run(struct cmd_call *c, struct err *e)

@@ -138,29 +138,6 @@ static double decibels(double x) { return x > 0 ? 20 * real_log10(x) : -INFINITY
 /* Of frames or samples that have a partner. */
 static long count(const struct verdict *v, size_t n) { return v->paired ? (long)n : -1; }
 
-static void report_form(struct report *r, const struct verdict *v)
-{
-    const struct wav *a = &v->sound[0], *b = &v->sound[1];
-    double short_by = (double)a->frames - (double)b->frames, seconds[2];
-    const char *encoding[2];
-    for (int i = 0; i < 2; i++) {
-        const struct wav *w = &v->sound[i];
-        seconds[i] = (double)w->frames / w->rate;
-        encoding[i] = w->bits ? arena_format(v->ask->arena, "%d-bit integers", w->bits) : "not integers";
-        report_set(r, "$:{ file:s rate_hz:n channels:i frames:z duration_s:n bits:w }", i ? "b" : "a", v->ask->files[i],
-                   w->rate, w->channels, w->frames, seconds[i], w->bits);
-    }
-    if (a->rate != b->rate) report_text(r, "rate                A %.9g Hz, B %.9g Hz\n", a->rate, b->rate);
-    if (a->channels != b->channels) report_text(r, "channels            A %d, B %d\n", a->channels, b->channels);
-    if (a->rate != b->rate)
-        report_text(r, "length              A %.6f s, B %.6f s\n", seconds[0], seconds[1]);
-    else if (a->frames != b->frames)
-        report_text(r, "frames              A %zu, B %zu: B is %.0f (%.6f s) %s%s\n", a->frames, b->frames,
-                    fabs(short_by), fabs(seconds[0] - seconds[1]), short_by > 0 ? "shorter" : "longer",
-                    v->alike ? "; what both have is compared" : "");
-    if (a->bits != b->bits) report_text(r, "encoding            A %s, B %s\n", encoding[0], encoding[1]);
-}
-
 static void report_place(struct report *r, const char *key, const struct verdict *v, const struct distance_place *p)
 {
     if (!v->d.differing)
@@ -198,13 +175,30 @@ static void report_samples(struct report *r, const struct verdict *v)
 
 static bool report_sounds(const struct verdict *v, struct err *e)
 {
-    const struct wav *a = &v->sound[0];
+    const struct wav *a = &v->sound[0], *b = &v->sound[1];
     const struct distance_bands *d = &v->bands;
     bool any = d->compared > 0;
     struct report r = report_open(v->ask->out, v->ask->json);
     report_set(&r, "equal:b held:b audio_sha256:t", v->equal, v->met, (const char *const[]){v->hash[0], v->hash[1]}, 2);
     report_text(&r, "A %s\nB %s\nsha256  A %s B %s\n", v->ask->files[0], v->ask->files[1], v->hash[0], v->hash[1]);
-    report_form(&r, v);
+    double short_by = (double)a->frames - (double)b->frames, seconds[2];
+    const char *encoding[2];
+    for (int i = 0; i < 2; i++) {
+        const struct wav *w = &v->sound[i];
+        seconds[i] = (double)w->frames / w->rate;
+        encoding[i] = w->bits ? arena_format(v->ask->arena, "%d-bit integers", w->bits) : "not integers";
+        report_set(&r, "$:{ file:s rate_hz:n channels:i frames:z duration_s:n bits:w }", i ? "b" : "a",
+                   v->ask->files[i], w->rate, w->channels, w->frames, seconds[i], w->bits);
+    }
+    if (a->rate != b->rate) report_text(&r, "rate                A %.9g Hz, B %.9g Hz\n", a->rate, b->rate);
+    if (a->channels != b->channels) report_text(&r, "channels            A %d, B %d\n", a->channels, b->channels);
+    if (a->rate != b->rate)
+        report_text(&r, "length              A %.6f s, B %.6f s\n", seconds[0], seconds[1]);
+    else if (a->frames != b->frames)
+        report_text(&r, "frames              A %zu, B %zu: B is %.0f (%.6f s) %s%s\n", a->frames, b->frames,
+                    fabs(short_by), fabs(seconds[0] - seconds[1]), short_by > 0 ? "shorter" : "longer",
+                    v->alike ? "; what both have is compared" : "");
+    if (a->bits != b->bits) report_text(&r, "encoding            A %s, B %s\n", encoding[0], encoding[1]);
     if (v->equal)
         report_text(&r, "equal: %zu frames (%.6f s), %d channel%s, %.9g Hz\n", a->frames, (double)a->frames / a->rate,
                     a->channels, a->channels == 1 ? "" : "s", a->rate);
@@ -373,11 +367,19 @@ bool compare_is_sound(const char *path, bool *sound, struct err *e)
     return true;
 }
 
-/* Of the tolerances for all others the first counts, of those for one column the last: so the command line overrides
- * the file. */
-static bool gather_tolerances(const struct args *g, const char *folder, struct compare_ask *ask, struct err *e)
+bool compare_limits(const struct args *g, const char *folder, struct compare_ask *ask, struct err *e)
 {
-    static const double range[2] = {0, HUGE_VAL};
+    ask->snr = ask->lsb = ask->third_octave = NAN;
+    ask->within = 60;
+    if (args_given(g, "within") && !args_given(g, "third-octave"))
+        return err_set(e, ERR_USAGE, "--within says which bands --third-octave compares: give both");
+    static const double any[2] = {-HUGE_VAL, HUGE_VAL}, positive[2] = {0, HUGE_VAL};
+    if (!args_number(g, "snr", any, &ask->snr, e) || !args_number(g, "lsb", positive, &ask->lsb, e) ||
+        !args_number(g, "third-octave", positive, &ask->third_octave, e) ||
+        !args_number(g, "within", positive, &ask->within, e))
+        return false;
+    /* Of the tolerances for all others the first counts, of those for one column the last: so the command line
+       overrides the file. */
     const struct table_distance_tolerance *file = NULL;
     const char *path = args_value(g, "tolerance");
     int columns, n = 0, rows = 0;
@@ -389,7 +391,8 @@ static bool gather_tolerances(const struct args *g, const char *folder, struct c
     struct table_distance_tolerance *list = ARENA_TAKE(ask->arena, struct table_distance_tolerance, rows + columns + 2);
     ask->tolerances = list;
     if (args_given(g, "abs") || args_given(g, "rel")) list[n++].column = "*";
-    if (!args_number(g, "abs", range, &list[0].abs, e) || !args_number(g, "rel", range, &list[0].rel, e)) return false;
+    if (!args_number(g, "abs", positive, &list[0].abs, e) || !args_number(g, "rel", positive, &list[0].rel, e))
+        return false;
     for (int i = 0; i < rows; i++)
         list[n++] = file[i];
     for (int i = 0; i < columns; i++) { /* NAME=ABS,REL; the name may hold = itself */
@@ -404,18 +407,6 @@ static bool gather_tolerances(const struct args *g, const char *folder, struct c
                            "--column: '%s' is not of the form NAME=ABS,REL, as in speed_m_per_s=1e-6,0.001", texts[i]);
     }
     return true;
-}
-
-bool compare_limits(const struct args *g, const char *folder, struct compare_ask *ask, struct err *e)
-{
-    ask->snr = ask->lsb = ask->third_octave = NAN;
-    ask->within = 60;
-    if (args_given(g, "within") && !args_given(g, "third-octave"))
-        return err_set(e, ERR_USAGE, "--within says which bands --third-octave compares: give both");
-    static const double any[2] = {-HUGE_VAL, HUGE_VAL}, positive[2] = {0, HUGE_VAL};
-    return args_number(g, "snr", any, &ask->snr, e) && args_number(g, "lsb", positive, &ask->lsb, e) &&
-           args_number(g, "third-octave", positive, &ask->third_octave, e) &&
-           args_number(g, "within", positive, &ask->within, e) && gather_tolerances(g, folder, ask, e);
 }
 
 /* The first of those options that was given, or NULL. */

@@ -281,22 +281,6 @@ static bool none_failed(const struct golden *g, struct err *e)
     return true;
 }
 
-/* The second pass begins when the first is over: what one render leaves behind for the next would show. */
-static bool render_twice(const struct golden *g, struct err *e)
-{
-    for (int pass = 0; pass < 2; pass++) {
-        struct pass p = {g, pass};
-        int done =
-            none_failed(g, e)
-                ? pool_run(&(struct pool_work){.n = g->n, .threads = g->threads, .context = &p, .job = render_one})
-                : 0;
-        if (!none_failed(g, e)) return false;
-        if (done < g->n)
-            return err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written, run the same command again");
-    }
-    return true;
-}
-
 static bool same_twice(const struct golden *g, struct err *e)
 {
     int unequal = 0;
@@ -489,7 +473,16 @@ int golden_run_update(struct golden *g, struct err *e)
 {
     struct writing w;
     if (g->hashes && access(g->hashes, F_OK) == 0 && !golden_read_hashes(g, e)) return (int)e->kind;
-    if (!none_failed(g, e) || !render_twice(g, e) || !same_twice(g, e) || !write_all(g, &w, e)) return (int)e->kind;
+    /* The second pass begins when the first is over: what one render leaves behind for the next would show. */
+    for (int pass = 0; pass < 2; pass++) {
+        struct pass p = {g, pass};
+        if (!none_failed(g, e)) return (int)e->kind;
+        if (pool_run(&(struct pool_work){.n = g->n, .threads = g->threads, .context = &p, .job = render_one}) < g->n &&
+            none_failed(g, e))
+            err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written, run the same command again");
+        if (e->kind) return (int)e->kind;
+    }
+    if (!none_failed(g, e) || !same_twice(g, e) || !write_all(g, &w, e)) return (int)e->kind;
     if (!g->quiet)
         printf("%d scene%s rendered twice; %d file%s changed\n", g->n, g->n == 1 ? "" : "s", w.changed,
                w.changed == 1 ? "" : "s");

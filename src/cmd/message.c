@@ -88,29 +88,25 @@ static bool alike(const char *a, const char *b)
     return *a == *b;
 }
 
-static struct warning *same(struct warning **all, const char *file, const char *text, bool exact, struct arena *a)
-{
-    struct warning **w = all, *near = NULL;
-    for (; *w; w = &(*w)->next) {
-        bool last = strcmp((*w)->files[(*w)->n - 1], file) == 0;
-        if (strcmp((*w)->text, text) == 0 && !(last && (*w)->other)) {
-            (*w)->other = false;
-            return *w;
-        }
-        if (!exact && !near && !last && alike((*w)->text, text)) near = *w;
-    }
-    if (near) {
-        near->numbers = near->other = true;
-        return near;
-    }
-    *w = ARENA_TAKE(a, struct warning, 1);
-    (*w)->text = text;
-    return *w;
-}
-
 struct warning *message_add(struct warning **all, const char *file, const char *text, bool exact, struct arena *a)
 {
-    struct warning *w = same(all, file, text, exact, a);
+    struct warning **at = all, *w = NULL, *near = NULL;
+    for (; *at && !w; at = &(*at)->next) {
+        bool last = strcmp((*at)->files[(*at)->n - 1], file) == 0;
+        if (strcmp((*at)->text, text) == 0 && !(last && (*at)->other))
+            w = *at;
+        else if (!exact && !near && !last && alike((*at)->text, text))
+            near = *at;
+    }
+    if (w)
+        w->other = false;
+    else if (near) {
+        w = near;
+        w->numbers = w->other = true;
+    } else {
+        w = *at = ARENA_TAKE(a, struct warning, 1);
+        w->text = text;
+    }
     if (w->n > 0 && !strcmp(w->files[w->n - 1], file)) return w;
     w->files = arena_more(a, w->files, w->n, sizeof *w->files);
     w->files[w->n++] = file;

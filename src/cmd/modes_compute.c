@@ -47,20 +47,6 @@ static double size_of(const struct compute *k)
     return sqrt(square);
 }
 
-static bool read_face(struct compute *k, struct err *e)
-{
-    int face = BOUNDARY_TOP;
-    if (!args_word(&k->c->args, "face", boundary_map_sides, &face, e)) return false;
-    boundary_map_make(&k->mesh, &k->boundary, face, &k->map);
-    const double *low = k->boundary.low, *high = k->boundary.high;
-    if (face >= BOUNDARY_AROUND && (low[0] >= 0 || high[0] <= 0 || low[1] >= 0 || high[1] <= 0))
-        return err_set(e, ERR_SCENE,
-                       "--face %s goes round the axis x = y = 0, and the solid lies beside it (x %.6g to %.6g m, y "
-                       "%.6g to %.6g m); move the mesh so that the axis runs through its middle",
-                       boundary_map_sides[face], low[0], high[0], low[1], high[1]);
-    return true;
-}
-
 /* ------------------------------------------------------------------ --points */
 
 static bool read_points(struct compute *k, const char *file, struct err *e)
@@ -156,21 +142,6 @@ static double gains_at(const void *self, double x, double y, const struct modes_
     return 0;
 }
 
-/* Places of a list lie on the chart where the list says, and between them no point of the surface is known. */
-static bool choose_places(struct compute *k, struct err *e)
-{
-    const struct args *g = &k->c->args;
-    struct modes_fit fit = {.self = k, .at = gains_at, .n = k->n, .shared = true, .arena = k->c->arena};
-    k->error = NAN;
-    if (args_given(g, "points")) return true;
-    k->phi = ARENA_TAKE(k->c->arena, double, k->modes.n);
-    k->ear_phi = ARENA_TAKE(k->c->arena, double, k->modes.n);
-    if (k->elsewhere) solid_participation(&k->modes, &k->ear, k->ear_phi);
-    if (!read_places(k, &fit, e)) return false;
-    k->error = modes_places_error(&fit, &k->laid);
-    return true;
-}
-
 static bool read_listen(struct compute *k, struct err *e)
 {
     const char *text = args_value(&k->c->args, "listen");
@@ -205,8 +176,18 @@ static bool read_all_places(struct compute *k, struct err *e)
     for (size_t i = 0; points && i < sizeof others / sizeof *others; i++)
         if (args_given(&k->c->args, others[i]))
             return err_set(e, ERR_USAGE, "--points and --%s exclude each other", others[i]);
-    return modes_lengths(k->c, "origin", "X,Y", 2, k->origin, e) && modes_quantity(k->c, &k->quantity, e) &&
-           read_face(k, e) && (points ? read_points(k, points, e) : read_places(k, NULL, e)) && read_listen(k, e);
+    int face = BOUNDARY_TOP;
+    if (!modes_lengths(k->c, "origin", "X,Y", 2, k->origin, e) || !modes_quantity(k->c, &k->quantity, e) ||
+        !args_word(&k->c->args, "face", boundary_map_sides, &face, e))
+        return false;
+    boundary_map_make(&k->mesh, &k->boundary, face, &k->map);
+    const double *low = k->boundary.low, *high = k->boundary.high;
+    if (face >= BOUNDARY_AROUND && (low[0] >= 0 || high[0] <= 0 || low[1] >= 0 || high[1] <= 0))
+        return err_set(e, ERR_SCENE,
+                       "--face %s goes round the axis x = y = 0, and the solid lies beside it (x %.6g to %.6g m, y "
+                       "%.6g to %.6g m); move the mesh so that the axis runs through its middle",
+                       boundary_map_sides[face], low[0], high[0], low[1], high[1]);
+    return (points ? read_points(k, points, e) : read_places(k, NULL, e)) && read_listen(k, e);
 }
 
 /* The mode table of `rasp modes compute`.
@@ -434,9 +415,19 @@ int modes_compute_run(struct cmd_call *c, struct err *e)
         return 0;
     }
     if (!mark_absent(file, args_given(&c->args, "force"), e) || !modes_output_possible(file, e) ||
-        !modes_compute_solid_solve(&k, e) || !modes_compute_solid_estimate(&k, e) || !choose_places(&k, e) ||
-        !write_table(&k, file, inputs, e))
+        !modes_compute_solid_solve(&k, e) || !modes_compute_solid_estimate(&k, e))
         return (int)e->kind;
+    /* Places of a list lie on the chart where the list says, and between them no point of the surface is known. */
+    struct modes_fit fit = {.self = &k, .at = gains_at, .n = k.n, .shared = true, .arena = c->arena};
+    k.error = NAN;
+    if (!args_given(&c->args, "points")) {
+        k.phi = ARENA_TAKE(c->arena, double, k.modes.n);
+        k.ear_phi = ARENA_TAKE(c->arena, double, k.modes.n);
+        if (k.elsewhere) solid_participation(&k.modes, &k.ear, k.ear_phi);
+        if (!read_places(&k, &fit, e)) return (int)e->kind;
+        k.error = modes_places_error(&fit, &k.laid);
+    }
+    if (!write_table(&k, file, inputs, e)) return (int)e->kind;
     if (!quiet) {
         k.laid.n = k.places;
         modes_places_report(file, &k.laid, "solid", k.error, k.n, (const double[2]){k.least, k.greatest}, c->arena);

@@ -297,32 +297,25 @@ bool modes_compute_solid_solve(struct compute *k, struct err *e)
 
 enum { BEYOND = 12 }; /* modes more: a coarse mesh has them in another order */
 
-static bool coarser(struct compute *k, struct compute *c, struct err *e)
-{
-    const char *shape = args_value(&k->c->args, "shape");
-    *c = (struct compute){.c = k->c,
-                          .mesh = k->mesh,
-                          .boundary = k->boundary,
-                          .fixed = k->fixed,
-                          .n_fixed = k->n_fixed,
-                          .order = k->order};
-    if (!shape) {
-        c->order--;
-        return c->order >= SOLID_LATTICE_LEAST || err_set(e, ERR_USAGE,
-                                                          "--estimate of a mesh file compares with the order below, "
-                                                          "and there is none below 2: add --order 3 (or 4)");
-    }
-    if (!shapes_mesh_coarser(shape, LONGER, k->c->arena, &c->mesh, e)) return false;
-    topology_elevate(&c->mesh, k->c->arena);
-    boundary_make(&c->mesh, k->c->arena, &c->boundary);
-    return true;
-}
-
 bool modes_compute_solid_estimate(struct compute *k, struct err *e)
 {
-    struct compute c;
+    const char *shape = args_value(&k->c->args, "shape");
+    struct compute c = {.c = k->c,
+                        .mesh = k->mesh,
+                        .boundary = k->boundary,
+                        .fixed = k->fixed,
+                        .n_fixed = k->n_fixed,
+                        .order = k->order};
     if (!args_given(&k->c->args, "estimate")) return true;
-    if (!coarser(k, &c, e)) return false;
+    if (shape) {
+        if (!shapes_mesh_coarser(shape, LONGER, k->c->arena, &c.mesh, e)) return false;
+        topology_elevate(&c.mesh, k->c->arena);
+        boundary_make(&c.mesh, k->c->arena, &c.boundary);
+    } else if (--c.order < SOLID_LATTICE_LEAST)
+        return err_set(
+            e, ERR_USAGE,
+            "--estimate of a mesh file compares with the order below, and there is none below 2: add --order "
+            "3 (or 4)");
     struct solid_ask ask = {
         .material = &k->material.elastic, .order = (int)c.order, .most = k->modes.n + BEYOND, .top = 3 * k->top};
     if (c.mesh.at != k->mesh.at && !read_fixed(&c, e)) return false; /* the faces that are held, by the same names */
@@ -335,7 +328,7 @@ bool modes_compute_solid_estimate(struct compute *k, struct err *e)
     k->coarse_elements = c.mesh.elements;
     k->coarse_freedoms = c.modes.freedoms;
     k->coarse_order = c.order;
-    return (args_given(&k->c->args, "shape") ? k->estimate.ratio >= LEAST : true) ||
+    return !shape || k->estimate.ratio >= LEAST ||
            err_set(e, ERR_USAGE,
                    "--estimate: the mesh of %s is as coarse as the shape allows, so that there is none to compare "
                    "with; give a higher fineness=",
