@@ -84,18 +84,6 @@ static void knob_read(struct yaml *y, const struct key_knob *k, const struct yam
     }
 }
 
-static void error_read(struct yaml *y, const struct yaml_node *node, struct accuracy *accuracy)
-{
-    static const char meaning[] = "dB relative to the sound, rms; the knobs that are not given are chosen by it";
-    double x;
-    if (!scene_values_quantity(y, node, "accuracy.error", KEY_DECIBEL, &x)) return;
-    if (x < LEAST_ERROR || x >= 0)
-        diag_add(y->diag, node->at, meaning, "accuracy.error must be from %g dB to below 0 dB, not %s", LEAST_ERROR,
-                 scene_values_kind(y, node));
-    else
-        accuracy->error = x;
-}
-
 void accuracy_read(struct yaml *y, const struct yaml_node *node, struct accuracy *accuracy)
 {
     accuracy_preset(accuracy, STANDARD);
@@ -110,11 +98,18 @@ void accuracy_read(struct yaml *y, const struct yaml_node *node, struct accuracy
     if (preset) preset_read(y, preset, accuracy);
     for (const struct yaml_node *item = node->first; item; item = item->next) {
         const struct key_knob *k = keys_knobs;
+        double x;
         while (k->name && strcmp(k->name, item->key->text) != 0)
             k++;
-        if (strcmp(item->key->text, "error") == 0)
-            error_read(y, item, accuracy);
-        else if (k->name)
+        if (strcmp(item->key->text, "error") == 0) {
+            if (!scene_values_quantity(y, item, "accuracy.error", KEY_DECIBEL, &x)) continue;
+            if (x >= LEAST_ERROR && x < 0)
+                accuracy->error = x;
+            else
+                diag_add(
+                    y->diag, item->at, "dB relative to the sound, rms; the knobs that are not given are chosen by it",
+                    "accuracy.error must be from %g dB to below 0 dB, not %s", LEAST_ERROR, scene_values_kind(y, item));
+        } else if (k->name)
             knob_read(y, k, item, accuracy);
         else if (strcmp(item->key->text, "preset") != 0)
             knob_unknown(y, item->key);

@@ -206,23 +206,17 @@ void keys_text_print_key(FILE *f, const struct key *k, struct arena *a)
     }
 }
 
-static const char *map_meaning(const char *path)
-{
-    for (const struct key_section *s = keys_sections; s->path; s++)
-        if (!strcmp(s->path, path)) return s->meaning;
-    for (const struct keys_text_frame *p = keys_text_frames; p->path; p++)
-        if (!strcmp(p->path, path)) return p->meaning;
-    return NULL;
-}
-
 void keys_text_print_map(FILE *f, const char *path, struct arena *a)
 {
-    const char *meaning = map_meaning(path);
+    const char *meaning = NULL, *type = NULL;
+    for (const struct keys_text_frame *p = keys_text_frames; p->path; p++)
+        if (!strcmp(p->path, path)) meaning = p->meaning, type = p->type;
+    for (const struct key_section *s = keys_sections; s->path; s++)
+        if (!strcmp(s->path, path)) meaning = s->meaning;
     size_t length = strlen(path);
     fprintf(f, "%s%s", path, meaning ? ": " : "\n");
     if (meaning) text_wrap(f, meaning, (int)length + 2, MARGIN);
-    for (const struct keys_text_frame *p = keys_text_frames; p->path; p++)
-        if (!strcmp(p->path, path)) print_fact(f, "type", p->type);
+    if (type) print_fact(f, "type", type);
     print_choose(f, path, a);
     for (const struct key *k = keys_table; k->path; k++) {
         if (strncmp(k->path, path, length) != 0 || k->path[length] != '.') continue;
@@ -276,25 +270,19 @@ void keys_text_print_accuracy(FILE *f, struct arena *a)
 
 /* One .Ss for the scene's own keys and one for each top-level map; a sentence begins a line, as mdoc asks for. */
 
-/* Text with roff's own characters made harmless. */
-static void put_text(FILE *f, const char *text)
-{
-    if (*text == '.' || *text == '\'') fputs("\\&", f);
-    for (; *text; text++) {
-        if (*text == '\\')
-            fputs("\\e", f);
-        else if (*text == '-')
-            fputs("\\-", f);
-        else if (*text == '^')
-            fputs("\\(ha", f);
-        else
-            fputc(*text, f);
-    }
-}
-
+/* Text with roff's own characters made harmless, and a full stop. */
 static void put_sentence(FILE *f, const char *text)
 {
-    put_text(f, text);
+    if (*text == '.' || *text == '\'') fputs("\\&", f);
+    for (const char *s = text; *s; s++)
+        if (*s == '\\')
+            fputs("\\e", f);
+        else if (*s == '-')
+            fputs("\\-", f);
+        else if (*s == '^')
+            fputs("\\(ha", f);
+        else
+            fputc(*s, f);
     fputs(text[strlen(text) - 1] == '.' ? "\n" : ".\n", f);
 }
 
@@ -306,16 +294,6 @@ static void put_opening(FILE *f, const char *text, struct arena *a)
     if (copy[word] == ' ' && word > 1 && strncmp(copy, "alpha ", 6) != 0)
         copy[0] = (char)toupper((unsigned char)copy[0]);
     put_sentence(f, copy);
-}
-
-static void put_words(FILE *f, const struct choice *choices)
-{
-    fputs(".Bl -tag -width Ds -compact\n", f);
-    for (const struct choice *c = choices; c->word; c++) {
-        fprintf(f, ".It Cm %s\n", c->word);
-        put_sentence(f, c->meaning);
-    }
-    fputs(".El\n", f);
 }
 
 static void put_rivals(FILE *f, const char *path, struct arena *a)
@@ -342,7 +320,13 @@ static void put_key(FILE *f, const struct key *k, struct arena *a)
     put_sentence(f, arena_format(a, "Default: %s", k->standard ? keys_text_default(k) : "none, it must be given"));
     if (when) put_opening(f, arena_format(a, "only %s", when), a);
     put_rivals(f, k->path, a);
-    if (k->choices && !keys_same_words(k)) put_words(f, k->choices);
+    if (!k->choices || keys_same_words(k)) return;
+    fputs(".Bl -tag -width Ds -compact\n", f);
+    for (const struct choice *c = k->choices; c->word; c++) {
+        fprintf(f, ".It Cm %s\n", c->word);
+        put_sentence(f, c->meaning);
+    }
+    fputs(".El\n", f);
 }
 
 static void put_group(FILE *f, const char *map, struct arena *a)

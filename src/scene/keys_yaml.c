@@ -18,21 +18,6 @@ static bool under(const char *path, const char *map, size_t length)
     return !strncmp(path, map, length) && path[length] == '.';
 }
 
-/* Is every line of the map path[0 .. length) commented out? */
-static bool all_off(const struct keys_line *lines, int n, const char *path, size_t length)
-{
-    for (int i = 0; i < n; i++)
-        if (under(lines[i].path, path, length) && !lines[i].off) return false;
-    return true;
-}
-
-static const char *section_meaning(const char *path, size_t length)
-{
-    for (const struct key_section *s = keys_sections; s->path; s++)
-        if (strlen(s->path) == length && !strncmp(s->path, path, length)) return s->meaning;
-    return NULL;
-}
-
 static void print_comment(FILE *f, const char *text, int indent)
 {
     char margin[64];
@@ -48,40 +33,38 @@ static int open_maps(FILE *f, const struct keys_line *lines, int n, int i, const
     int indent = style->indent;
     for (const char *dot = strchr(path, '.'); dot; dot = strchr(dot + 1, '.')) {
         size_t length = (size_t)(dot - path);
-        const char *meaning = style->comments ? section_meaning(path, length) : NULL;
+        const char *meaning = NULL;
+        for (const struct key_section *s = keys_sections; style->comments && s->path; s++)
+            if (strlen(s->path) == length && !strncmp(s->path, path, length)) meaning = s->meaning;
+        bool off = true; /* every line of the map is */
+        for (int k = 0; k < n; k++)
+            off = off && (lines[k].off || !under(lines[k].path, path, length));
         if (!under(last, path, length)) {
             if (style->comments && indent == style->indent) fputc('\n', f);
             if (meaning) print_comment(f, meaning, indent);
             size_t start = length;
             while (start > 0 && path[start - 1] != '.')
                 start--;
-            fprintf(f, "%*s%s%.*s:\n", indent, "", all_off(lines, n, path, length) ? "#" : "", (int)(length - start),
-                    path + start);
+            fprintf(f, "%*s%s%.*s:\n", indent, "", off ? "#" : "", (int)(length - start), path + start);
         }
         indent += 2;
     }
     return indent;
 }
 
-/* Writes to memory and puts "- " over the last two columns before the first key. */
-static void print_item(FILE *f, const struct keys_line *lines, int n, const struct keys_style *style)
-{
-    struct keys_style inner = *style;
-    char *text = NULL;
-    size_t size = 0;
-    FILE *memory = memory_stream(&text, &size);
-    inner.item = false;
-    keys_yaml_print(memory, lines, n, &inner);
-    memory_stream_end(memory, &text);
-    if (style->indent >= 2 && size > (size_t)style->indent) text[style->indent - 2] = '-';
-    fputs(text, f);
-    free(text);
-}
-
 void keys_yaml_print(FILE *f, const struct keys_line *lines, int n, const struct keys_style *style)
 {
-    if (style->item) {
-        print_item(f, lines, n, style);
+    if (style->item) { /* to memory, with "- " over the last two columns before the first key */
+        struct keys_style inner = *style;
+        char *text = NULL;
+        size_t size = 0;
+        FILE *memory = memory_stream(&text, &size);
+        inner.item = false;
+        keys_yaml_print(memory, lines, n, &inner);
+        memory_stream_end(memory, &text);
+        if (style->indent >= 2 && size > (size_t)style->indent) text[style->indent - 2] = '-';
+        fputs(text, f);
+        free(text);
         return;
     }
     for (int i = 0; i < n; i++) {
@@ -95,13 +78,6 @@ void keys_yaml_print(FILE *f, const struct keys_line *lines, int n, const struct
 
 /* ------------------------------------------------------------------ scalars */
 
-/* May it stand in a YAML stream as it is, on one line? (YAML 1.1, c-printable without line breaks.) */
-static bool plain(uint32_t c)
-{
-    return (c >= 0x20 && c <= 0x7E) ||
-           (c >= 0xA0 && c != 0x2028 && c != 0x2029 && c != 0xFEFF && c != 0xFFFE && c != 0xFFFF);
-}
-
 const char *keys_yaml_quoted(const char *text, struct arena *a)
 {
     char *memory = NULL;
@@ -111,7 +87,10 @@ const char *keys_yaml_quoted(const char *text, struct arena *a)
     for (const char *s = text; *s;) {
         uint32_t code = 0;
         int n = text_utf8(s, strlen(s), &code);
-        if (n && !plain(code))
+        /* May it stand in a YAML stream as it is, on one line? (YAML 1.1, c-printable without line breaks.) */
+        bool plain = (code >= 0x20 && code <= 0x7E) || (code >= 0xA0 && code != 0x2028 && code != 0x2029 &&
+                                                        code != 0xFEFF && code != 0xFFFE && code != 0xFFFF);
+        if (n && !plain)
             fprintf(f, code <= 0xFF ? "\\x%02" PRIX32 : "\\u%04" PRIX32, code);
         else {
             if (*s == '"' || *s == '\\') fputc('\\', f);
@@ -303,31 +282,20 @@ static bool is_off(const struct key *k)
     return (i >= 0 && examples[i].off) || (i < 0 && k->standard && !*k->standard) || !applies(k);
 }
 
-static const char *rivals(const char *path, struct arena *a)
-{
-    for (const struct key_alternative *t = keys_alternatives; t->paths[0]; t++)
-        for (int i = 0; t->paths[i]; i++)
-            if (!strcmp(t->paths[i], path))
-                return arena_format(a, "; %s%s", keys_text_rivals(t, a), keys_text_rivals_apply(t, a));
-    return "";
-}
-
 static const char *comment(const struct key *k, struct arena *a)
 {
     const char *range = keys_text_range(k, a), *when = keys_text_applies(k, a);
-    const char *all = arena_format(a, "%s%s%s%s%s%s", k->meaning, range ? "; " : "", range ? range : "",
-                                   when ? "; only " : "", when ? when : "", rivals(k->path, a));
+    const char *all = arena_format(a, "%s%s%s%s%s", k->meaning, range ? "; " : "", range ? range : "",
+                                   when ? "; only " : "", when ? when : "");
+    const char *rivals = NULL;
+    for (const struct key_alternative *t = keys_alternatives; t->paths[0]; t++)
+        for (int i = 0; !rivals && t->paths[i]; i++)
+            if (!strcmp(t->paths[i], k->path))
+                rivals = arena_format(a, "; %s%s", keys_text_rivals(t, a), keys_text_rivals_apply(t, a));
+    if (rivals) all = arena_format(a, "%s%s", all, rivals);
     if (keys_same_words(k)) return arena_format(a, "%s; words: see %s", all, keys_same_words(k)->path);
     for (const struct choice *c = k->choices; c && c->word; c++)
         all = arena_format(a, "%s\n- %s: %s", all, c->word, c->meaning);
-    return all;
-}
-
-static const char *knob_comment(const struct key_knob *k, struct arena *a)
-{
-    const char *all = arena_format(a, "%s; %.6g to %.6g;", k->meaning, k->low, k->high);
-    for (int i = 0; i < 4; i++)
-        all = arena_format(a, "%s %s %s%s", all, keys_presets[i], keys_yaml_number(k->preset[i], a), i < 3 ? "," : "");
     return all;
 }
 
@@ -342,10 +310,14 @@ static void print_knobs(FILE *f, struct arena *a)
     for (const struct keys_text_frame *p = keys_text_frames; p->path; p++)
         for (int i = 0; i < 2; i++)
             if (!strcmp(p->path, lines[i].path)) lines[i].comment = p->meaning;
-    for (const struct key_knob *k = keys_knobs; k->name; k++)
+    for (const struct key_knob *k = keys_knobs; k->name; k++) {
+        const char *all = arena_format(a, "%s; %.6g to %.6g;", k->meaning, k->low, k->high);
+        for (int i = 0; i < 4; i++)
+            all = arena_format(a, "%s%s %s %s", all, i ? "," : "", keys_presets[i], keys_yaml_number(k->preset[i], a));
         lines[n++] = (struct keys_line){.path = arena_format(a, "accuracy.%s", k->name),
                                         .value = keys_yaml_number(k->preset[1], a),
-                                        .comment = knob_comment(k, a)};
+                                        .comment = all};
+    }
     keys_yaml_print(f, lines, n, &(struct keys_style){.comments = true});
 }
 

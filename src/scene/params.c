@@ -55,24 +55,20 @@ void *params_edit(struct contact *c, const struct params *p, struct arena *a)
 
 /* ------------------------------------------------------------------ checks */
 
-static void rule_check(const struct scene_part *p, const struct contact *c, const struct params_rule *r)
-{
-    const struct key *a = keys_find(r->path), *b = keys_find(r->other);
-    double x = *(const double *)keys_field(a, c), y = *(const double *)keys_field(b, c);
-    const char *unit[2] = {keys_text_unit(a->dimension), keys_text_unit(b->dimension)};
-    if (x > r->factor * y)
-        scene_part_refuse(p, r->path, r->other, r->cure, ", %.4g%s%s, must be at most %g times %s, %.4g%s%s", x,
-                          *unit[0] ? " " : "", unit[0], r->factor, scene_part_label(p, r->other), y,
-                          *unit[1] ? " " : "", unit[1]);
-}
-
 void params_check(const struct scene_part *p, const struct contact *c)
 {
     const struct params *one;
     for (int i = 0; (one = stages_params(i)); i++) {
         if (!params_given(c, one)) continue;
-        for (const struct params_rule *r = one->rules; r && r->path; r++)
-            rule_check(p, c, r);
+        for (const struct params_rule *r = one->rules; r && r->path; r++) {
+            const struct key *a = keys_find(r->path), *b = keys_find(r->other);
+            double x = *(const double *)keys_field(a, c), y = *(const double *)keys_field(b, c);
+            const char *unit[2] = {keys_text_unit(a->dimension), keys_text_unit(b->dimension)};
+            if (x > r->factor * y)
+                scene_part_refuse(p, r->path, r->other, r->cure, ", %.4g%s%s, must be at most %g times %s, %.4g%s%s", x,
+                                  *unit[0] ? " " : "", unit[0], r->factor, scene_part_label(p, r->other), y,
+                                  *unit[1] ? " " : "", unit[1]);
+        }
         if (one->check) one->check(p, c, params_of(c, one));
     }
 }

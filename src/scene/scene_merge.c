@@ -41,23 +41,16 @@ static void replace(struct yaml_node *in, struct yaml_node *old, struct yaml_nod
     if (in->last == old) in->last = value;
 }
 
-/* `accuracy: high` as {preset: high}. */
-static struct yaml_node *preset_map(struct yaml *y, struct yaml_node *word)
-{
-    struct yaml_node *map = yaml_make(y, YAML_MAP, word->at, NULL);
-    struct yaml_node *preset = yaml_make(y, YAML_SCALAR, word->at, word->text);
-    preset->plain = word->plain;
-    yaml_append(map, yaml_make(y, YAML_SCALAR, word->key->at, "preset"), preset);
-    map->key = word->key;
-    return map;
-}
-
 /* An entry of the map as a map, if it has such a form: `accuracy: high` becomes {preset: high}. */
 static struct yaml_node *opened(struct yaml *y, struct yaml_node *map, struct yaml_node *item)
 {
     if (item->kind != YAML_SCALAR || yaml_null(item) || !item->key || strcmp(item->key->text, "accuracy") != 0)
         return item;
-    struct yaml_node *made = preset_map(y, item);
+    struct yaml_node *made = yaml_make(y, YAML_MAP, item->at, NULL),
+                     *preset = yaml_make(y, YAML_SCALAR, item->at, item->text);
+    preset->plain = item->plain;
+    yaml_append(made, yaml_make(y, YAML_SCALAR, item->key->at, "preset"), preset);
+    made->key = item->key;
     replace(map, item, made);
     return made;
 }
@@ -119,18 +112,6 @@ void scene_merge_drop_nulls(struct yaml_node *node)
 
 static struct yaml_node *read_all(struct yaml *y, const struct chain *chain);
 
-static bool same_file(const struct chain *a, const struct stat *b)
-{
-    return a->on_disk && a->status.st_dev == b->st_dev && a->status.st_ino == b->st_ino;
-}
-
-static const char *cycle(struct yaml *y, const struct chain *chain, const struct stat *status)
-{
-    for (const struct chain *c = chain; c; c = c->outer)
-        if (same_file(c, status)) return arena_format(y->arena, "'%s' includes itself", c->source->name);
-    return NULL;
-}
-
 static struct yaml_node *include_one(struct yaml *y, const struct chain *chain, const struct yaml_node *entry)
 {
     struct chain inner = {.outer = chain, .depth = chain->depth + 1};
@@ -140,7 +121,10 @@ static struct yaml_node *include_one(struct yaml *y, const struct chain *chain, 
     }
     const char *file = scene_merge_path(y, entry->at.source, entry->text);
     inner.on_disk = stat(file, &inner.status) == 0;
-    const char *circle = inner.on_disk ? cycle(y, chain, &inner.status) : NULL;
+    const char *circle = NULL;
+    for (const struct chain *c = chain; c && inner.on_disk && !circle; c = c->outer)
+        if (c->on_disk && c->status.st_dev == inner.status.st_dev && c->status.st_ino == inner.status.st_ino)
+            circle = arena_format(y->arena, "'%s' includes itself", c->source->name);
     if (circle || inner.depth > DEEPEST || y->sources >= FILES_MAX) {
         diag_add(y->diag, entry->at, "remove this include", "%s", circle ? circle : "too many includes");
         return NULL;
@@ -149,23 +133,7 @@ static struct yaml_node *include_one(struct yaml *y, const struct chain *chain, 
     return inner.source ? read_all(y, &inner) : NULL;
 }
 
-/* Merges the files that `include` lists; false: one of them is in error. One that is not there (y->missing) hides no
- * errors of the others. */
-static bool includes(struct yaml *y, const struct chain *chain, struct yaml_node *list, struct yaml_node *into)
-{
-    bool good = true;
-    if (list->kind != YAML_LIST) {
-        diag_add(y->diag, list->at, "write: include: [materials.yaml]", "include must be a list of file names");
-        return false;
-    }
-    for (const struct yaml_node *entry = list->first; entry; entry = entry->next) {
-        struct yaml_node *tree = include_one(y, chain, entry);
-        if (tree) merge(y, into, tree);
-        good = good && tree;
-    }
-    return good;
-}
-
+/* With what it includes. An included file that is not there (y->missing) hides no errors of the others. */
 static struct yaml_node *read_all(struct yaml *y, const struct chain *chain)
 {
     struct yaml_node *own = yaml_parse(y, chain->source);
@@ -177,7 +145,13 @@ static struct yaml_node *read_all(struct yaml *y, const struct chain *chain)
     struct yaml_node *list = yaml_get(own, "include");
     if (!list || yaml_null(list)) return own;
     struct yaml_node *whole = yaml_make(y, YAML_MAP, own->at, NULL);
-    bool good = includes(y, chain, list, whole);
+    bool good = list->kind == YAML_LIST;
+    if (!good) diag_add(y->diag, list->at, "write: include: [materials.yaml]", "include must be a list of file names");
+    for (const struct yaml_node *entry = good ? list->first : NULL; entry; entry = entry->next) {
+        struct yaml_node *tree = include_one(y, chain, entry);
+        if (tree) merge(y, whole, tree);
+        good = good && tree;
+    }
     merge(y, whole, own);
     return good || y->missing ? whole : NULL;
 }
@@ -222,20 +196,15 @@ static struct yaml_node *step(struct yaml *y, struct yaml_node *at, struct yaml_
     return child;
 }
 
-static void put_at(struct yaml *y, struct yaml_node *at, struct yaml_node *key, struct yaml_node *value)
-{
-    struct yaml_node *old = at->kind == YAML_LIST ? list_entry(y, at, key) : NULL;
-    if (old)
-        replace(at, old, value);
-    else if (at->kind == YAML_MAP)
-        put(y, at, key, value);
-}
-
 static void path_put(struct yaml *y, struct yaml_node *root, struct yaml_node *const *path, struct yaml_node *value)
 {
     for (struct yaml_node *at = root; at && *path; path++) {
         if (!path[1]) {
-            put_at(y, at, *path, value);
+            struct yaml_node *old = at->kind == YAML_LIST ? list_entry(y, at, *path) : NULL;
+            if (old)
+                replace(at, old, value);
+            else if (at->kind == YAML_MAP)
+                put(y, at, *path, value);
             return;
         }
         at = step(y, at, *path);

@@ -78,7 +78,6 @@ void scene_part_refuse(const struct scene_part *p, const char *path, const char 
 /* ------------------------------------------------------------------ unknown keys */
 
 enum { NAMES_MAX = 64, DEEP_MAX = 256 };
-enum role { ROLE_NONE, ROLE_VALUE, ROLE_SECTION };
 
 static const char *const top_names[] = {"include", "contacts", "accuracy", "inputs", NULL};
 
@@ -101,23 +100,6 @@ static bool allowed(const struct walk *w, const struct key *k)
     return w->where == SCENE_PART_SINGLE || (k->of == KEY_CONTACT) == (w->where == SCENE_PART_ENTRY);
 }
 
-static enum role role_of(const char *path, const struct key **found)
-{
-    for (const struct key *k = keys_table; k->path; k++) {
-        *found = k;
-        if (strcmp(k->path, path) == 0) return ROLE_VALUE;
-        if (under(k->path, path)) return ROLE_SECTION;
-    }
-    return ROLE_NONE;
-}
-
-static bool has(const char *const *names, const char *word)
-{
-    for (; *names; names++)
-        if (strcmp(*names, word) == 0) return true;
-    return false;
-}
-
 /* The keys that may stand in a section, NULL-terminated. */
 static const char **names_in(const struct walk *w, const char *section)
 {
@@ -127,7 +109,7 @@ static const char **names_in(const struct walk *w, const char *section)
         const char *rest = allowed(w, k) ? under(k->path, section) : NULL;
         if (!rest) continue;
         const char *name = arena_format(w->y->arena, "%.*s", (int)strcspn(rest, "."), rest);
-        if (!has(names, name)) names[n++] = name;
+        if (!text_is_one(name, names)) names[n++] = name;
     }
     for (int i = 0; !*section && w->where != SCENE_PART_ENTRY && top_names[i]; i++)
         names[n++] = top_names[i];
@@ -142,33 +124,6 @@ static const char *joined(struct arena *a, const char *const *names, const char 
     return all;
 }
 
-/* Full paths of the keys whose last part is the word; NULL: there are none. */
-static const char *elsewhere(const struct walk *w, const char *word)
-{
-    const char *paths[5] = {NULL};
-    int n = 0;
-    for (const struct key *k = keys_table; k->path && n < 4; k++) {
-        const char *last = strrchr(k->path, '.');
-        if (allowed(w, k) && last && strcmp(last + 1, word) == 0) paths[n++] = k->path;
-    }
-    for (const struct key_knob *k = keys_knobs; k->name && n < 4; k++)
-        if (strcmp(k->name, word) == 0) paths[n++] = arena_format(w->y->arena, "accuracy.%s", word);
-    return n ? joined(w->y->arena, paths, " or ") : NULL;
-}
-
-static const char *unknown_cure(const struct walk *w, const char *word, const char *section)
-{
-    const char *former = keys_former(arena_format(w->y->arena, "%s.%s", section, word), "");
-    if (former) return former;
-    const char *const *names = names_in(w, section);
-    const char *near = text_nearest(word, names), *other = elsewhere(w, word);
-    struct arena *a = w->y->arena;
-    if (strchr(word, ':')) return "put a space after the colon";
-    if (other) return arena_format(a, "'%s' belongs elsewhere: %s", word, other);
-    if (near) return arena_format(a, "did you mean '%s'?", near);
-    return arena_format(a, "keys here: %s", joined(a, names, ", "));
-}
-
 static void unknown(const struct walk *w, const struct yaml_node *key, const char *section)
 {
     struct diag *d = w->y->diag;
@@ -176,11 +131,28 @@ static void unknown(const struct walk *w, const struct yaml_node *key, const cha
         d->n++;
         return;
     }
+    const char *const *names = names_in(w, section);
+    const char *word = key->text, *near = text_nearest(word, names), *paths[5] = {NULL};
+    int n = 0; /* full paths of keys whose last part is the word */
+    for (const struct key *k = keys_table; k->path && n < 4; k++) {
+        const char *last = strrchr(k->path, '.');
+        if (allowed(w, k) && last && strcmp(last + 1, word) == 0) paths[n++] = k->path;
+    }
+    for (const struct key_knob *k = keys_knobs; k->name && n < 4; k++)
+        if (strcmp(k->name, word) == 0) paths[n++] = arena_format(d->arena, "accuracy.%s", word);
+    const char *cure = keys_former(arena_format(d->arena, "%s.%s", section, word), "");
+    if (!cure && strchr(word, ':'))
+        cure = "put a space after the colon";
+    else if (!cure && n)
+        cure = arena_format(d->arena, "'%s' belongs elsewhere: %s", word, joined(d->arena, paths, " or "));
+    else if (!cure && near)
+        cure = arena_format(d->arena, "did you mean '%s'?", near);
+    else if (!cure)
+        cure = arena_format(d->arena, "keys here: %s", joined(d->arena, names, ", "));
     bool top = !*section && !*w->prefix;
     const char *place = *section ? arena_format(d->arena, "%s%s", w->prefix, section)
                                  : arena_format(d->arena, "%.*s", (int)strlen(w->prefix) - !top, w->prefix);
-    diag_add(d, key->at, unknown_cure(w, key->text, section), "unknown key '%s'%s%s", diag_shown(d, key->text),
-             top ? "" : " in ", place);
+    diag_add(d, key->at, cure, "unknown key '%s'%s%s", diag_shown(d, word), top ? "" : " in ", place);
 }
 
 static void misplaced(const struct walk *w, const struct yaml_node *key, const struct key *k)
@@ -200,19 +172,21 @@ static void misplaced(const struct walk *w, const struct yaml_node *key, const s
 static void walk_map(const struct walk *w, const struct yaml_node *map, const char *section)
 {
     for (const struct yaml_node *item = map->first; item; item = item->next) {
-        const struct key *k;
+        const struct key *k = keys_table;
         char path[DEEP_MAX];
         int n = snprintf(path, sizeof path, "%s%s%s", section, *section ? "." : "", item->key->text);
-        enum role role =
-            n < DEEP_MAX && *item->key->text && !strchr(item->key->text, '.') ? role_of(path, &k) : ROLE_NONE;
-        if (!*section && w->where != SCENE_PART_ENTRY && has(top_names, item->key->text)) continue;
-        if (role == ROLE_NONE)
+        bool may_be = n < DEEP_MAX && *item->key->text && !strchr(item->key->text, '.');
+        while (may_be && k->path && strcmp(k->path, path) != 0 && !under(k->path, path))
+            k++;
+        bool is_section = may_be && k->path && strcmp(k->path, path) != 0;
+        if (!*section && w->where != SCENE_PART_ENTRY && text_is_one(item->key->text, top_names)) continue;
+        if (!may_be || !k->path)
             unknown(w, item->key, section);
         else if (!allowed(w, k))
             misplaced(w, item->key, k);
-        else if (role == ROLE_SECTION && item->kind == YAML_MAP)
+        else if (is_section && item->kind == YAML_MAP)
             walk_map(w, item, path);
-        else if (role == ROLE_SECTION)
+        else if (is_section)
             diag_add(w->y->diag, item->at,
                      arena_format(w->y->arena, "keys here: %s", joined(w->y->arena, names_in(w, path), ", ")),
                      "%s%s must be a map of keys, not %s", w->prefix, path, scene_values_kind(w->y, item));
@@ -247,14 +221,6 @@ static enum applies applies(const struct scene_part *p, const struct key *k)
     return keys_applies_with(k, node ? decides->choices[i].word : decides->standard) ? APPLIES_YES : APPLIES_NO;
 }
 
-/* Of a key that does not apply and those that decide it, in a chain: the one whose own decider has the wrong value. */
-static const struct key *barred(const struct scene_part *p, const struct key *k)
-{
-    while ((keys_words(k) || k->applies[0] == '!') && applies(p, keys_decider(k)) == APPLIES_NO)
-        k = keys_decider(k);
-    return k;
-}
-
 /* A ball's keys are called as a scraper's: of a key of one that is meant for the other, the line that says so; "" of
  * all else. */
 static const char *twin(const struct scene_part *p, const struct key *k)
@@ -274,7 +240,9 @@ static const char *twin(const struct scene_part *p, const struct key *k)
 static void not_applicable(const struct scene_part *p, const struct key *k, const struct yaml_node *node)
 {
     struct arena *a = p->yaml->arena;
-    const struct key *bar = barred(p, k);
+    const struct key *bar = k; /* of the chain of those that decide it, the one whose own decider has the wrong value */
+    while ((keys_words(bar) || bar->applies[0] == '!') && applies(p, keys_decider(bar)) == APPLIES_NO)
+        bar = keys_decider(bar);
     const char *label = scene_part_label(p, k->path), *other = scene_part_label(p, keys_decider(bar)->path), *cure;
     const struct yaml_node *now = yaml_find(p->map, keys_decider(bar)->path);
     const char *when = keys_words(bar) ? arena_format(a, "where %s is %s", other, keys_text_words(bar, a))

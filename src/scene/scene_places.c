@@ -157,14 +157,6 @@ static const struct scene_place *nearest(const struct scene *s, const char *cont
     return p;
 }
 
-static const struct scene_place *by_file(const struct scene *s, const char *text)
-{
-    const struct scene_place *best = NULL;
-    for (const struct scene_place *p = s->places; p; p = p->next)
-        if (p->value && begins(text, p->value) && (!best || strlen(p->value) > strlen(best->value))) best = p;
-    return best;
-}
-
 /* Of "contact 'NAME': rest" the contact, and the rest; NULL: it does not begin so. */
 static const struct contact *contact_of(const struct scene *s, const char *text, const char **rest)
 {
@@ -202,7 +194,9 @@ static const struct scene_place *by_text(const struct scene *s, const char *text
     const char *rest;
     char path[KEY_MAX];
     const struct contact *c = contact_of(s, text, &rest);
-    const struct scene_place *file = by_file(s, text);
+    const struct scene_place *file = NULL;
+    for (const struct scene_place *p = s->places; p; p = p->next)
+        if (p->value && begins(text, p->value) && (!file || strlen(p->value) > strlen(file->value))) file = p;
     bool contacts = leading_key(rest, path) == KEY_CONTACT;
     if (file || !*path) return file;
     c = c || s->n_contacts != 1 ? c : s->contacts;
@@ -227,16 +221,6 @@ static const struct scene_place *by_mention(const struct scene *s, const struct 
     return section;
 }
 
-/* Every scene says what a contact is. */
-static const struct scene_place *by_contact(const struct scene *s, const struct contact *c)
-{
-    static const char *const sections[] = {"contact", "motion", "surface", NULL};
-    const struct scene_place *p = NULL;
-    for (int i = 0; c && !p && sections[i]; i++)
-        p = find(s, c->name, sections[i], NULL);
-    return p ? p : s->places;
-}
-
 /* No refusal of a scene is without a place: the key that the code says, the file or key that the text begins with, one
  * that the text names, or the contact. */
 static const struct scene_place *place_of(const struct scene *s, const struct err *e)
@@ -246,7 +230,11 @@ static const struct scene_place *place_of(const struct scene *s, const struct er
     const struct scene_place *p = e->key ? nearest(s, e->contact, e->key, e->text) : by_text(s, e->text);
     c = c || s->n_contacts != 1 ? c : s->contacts;
     if (!p && e->kind == ERR_SCENE) p = by_mention(s, c, e->text);
-    return p || e->kind != ERR_SCENE ? p : by_contact(s, c);
+    if (p || e->kind != ERR_SCENE) return p;
+    static const char *const sections[] = {"contact", "motion", "surface", NULL}; /* every scene says what it is */
+    for (int i = 0; c && !p && sections[i]; i++)
+        p = find(s, c->name, sections[i], NULL);
+    return p ? p : s->places;
 }
 
 /* ------------------------------------------------------------------ telling */
@@ -258,47 +246,18 @@ const char *scene_places_text(const struct scene *s, const struct scene_place *p
     return p->line > 0 || strcmp(p->file, s->file) == 0 ? where : arena_format(a, "%s: %s", s->file, where);
 }
 
-/* What stands before a contact's keys in messages: "contacts.rod.", or "". */
-static const char *prefix_of(const struct scene *s, const char *contact, struct arena *a)
-{
-    for (const struct scene_place *p = s->places; p && contact; p = p->next)
-        if (same(p->contact, contact))
-            return arena_format(a, "%.*s", (int)(strlen(p->label) - strlen(p->key)), p->label);
-    return "";
-}
-
 /* Of a scene with contacts: "contacts.rod.surface.moving: ..." for "contact 'rod': surface.moving: ...". */
 static const char *whole_keys(const struct scene *s, const char *contact, const char *text, struct arena *a)
 {
     char path[KEY_MAX];
     const char *rest;
     const struct contact *c = contact_of(s, text, &rest);
-    const char *prefix = prefix_of(s, c ? c->name : contact, a);
-    bool key = leading_key(rest, path) == KEY_CONTACT && *path;
-    return *prefix && key ? arena_format(a, "%s%s", prefix, rest) : text;
-}
-
-/* The text, with the key that it is about before it where it does not name it. */
-static const char *labelled(const struct scene *s, const struct scene_place *p, const char *text, struct arena *a)
-{
-    const char *rest = text;
-    if (strstr(text, p->label)) return text;
-    if (strcmp(p->label, p->key) != 0) contact_of(s, text, &rest);
-    return arena_format(a, "%s: %s", p->label, rest);
-}
-
-/* Where in the text that was given its parts are. */
-static struct err_place parts_of(const struct scene *s, const struct scene_place *p, const char *place)
-{
-    char shown[sizeof((struct err *)0)->text];
-    struct err_place parts = {0};
-    text_show(p && p->line > 0 ? p->file : s->file, shown, sizeof shown);
-    parts.file = (int)strlen(shown);
-    text_show(place, shown, sizeof shown);
-    bool lines = p && p->line > 0;
-    parts.message = lines ? (int)strlen(shown) + 2 : parts.file + 2;
-    if (lines) parts.line = p->line, parts.column = p->column, parts.width = p->width;
-    return parts;
+    const struct scene_place *p = s->places; /* one of that contact, which says what stands before its keys */
+    contact = c ? c->name : contact;
+    while (contact && p && !same(p->contact, contact))
+        p = p->next;
+    if (!contact || !p || leading_key(rest, path) != KEY_CONTACT || !*path || !strcmp(p->label, p->key)) return text;
+    return arena_format(a, "%.*s%s", (int)(strlen(p->label) - strlen(p->key)), p->label, rest);
 }
 
 bool scene_places_report(const struct scene *s, struct err *e)
@@ -307,8 +266,20 @@ bool scene_places_report(const struct scene *s, struct err *e)
     struct err placed = {.contact = e->contact, .key = e->key};
     const struct scene_place *p = place_of(s, e), *in_text = e->key ? p : by_text(s, e->text);
     const char *place = scene_places_text(s, p, a), *text = whole_keys(s, p ? p->contact : e->contact, e->text, a);
-    if (p && p == in_text && (!e->key || strcmp(p->key, e->key) == 0)) text = labelled(s, p, text, a);
-    placed.place = parts_of(s, p, place);
+    if (p && p == in_text && (!e->key || strcmp(p->key, e->key) == 0) && !strstr(text, p->label)) {
+        const char *rest = text; /* the key that it is about goes before a text that does not name it */
+        if (strcmp(p->label, p->key) != 0) contact_of(s, text, &rest);
+        text = arena_format(a, "%s: %s", p->label, rest);
+    }
+    bool lines = p && p->line > 0;
+    char shown[sizeof e->text];
+    text_show(lines ? p->file : s->file, shown, sizeof shown);
+    placed.place = (struct err_place){.file = (int)strlen(shown), .message = (int)strlen(shown) + 2};
+    if (lines) {
+        text_show(place, shown, sizeof shown);
+        placed.place.message = (int)strlen(shown) + 2;
+        placed.place.line = p->line, placed.place.column = p->column, placed.place.width = p->width;
+    }
     err_set(&placed, e->kind, "%s: %s%s", place, text, p && !strstr(text, p->named) ? p->named : "");
     *e = placed;
     arena_close(a);

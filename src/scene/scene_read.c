@@ -65,15 +65,6 @@ static bool recipe_merge(struct yaml *y, struct yaml_node *map)
     return recipe || !source;
 }
 
-static bool recipes_merge(struct yaml *y, struct yaml_node *root)
-{
-    const struct yaml_node *contacts = yaml_get(root, "contacts");
-    bool good = recipe_merge(y, root);
-    for (struct yaml_node *map = contacts ? contacts->first : NULL; map; map = map->next)
-        good = recipe_merge(y, map) && good;
-    return good;
-}
-
 /* ------------------------------------------------------------------ pinned inputs */
 
 static const char INPUTS[] = "write: - {file: modes.csv, sha256: 64 hexadecimal digits}";
@@ -172,25 +163,6 @@ static void unique_check(struct yaml *y, const struct yaml_node *list, const str
     }
 }
 
-static void entry_read(const struct tree *t, const struct yaml_node *list, struct yaml_node *map, bool sound,
-                       struct contact *c)
-{
-    struct yaml *y = t->yaml;
-    int index = 0, errors = sound ? y->diag->n : -1;
-    for (const struct yaml_node *other = list->first; other != map; other = other->next)
-        index++;
-    const char *name = name_of(map), *prefix = name && is_name(name) ? arena_format(y->arena, "contacts.%s.", name)
-                                                                     : arena_format(y->arena, "contacts.%d.", index);
-    if (map->kind != YAML_MAP) {
-        diag_add(y->diag, map->at, "write for instance: - name: left_hand",
-                 "an entry of contacts must be a map of keys, not %s", scene_values_kind(y, map));
-        return;
-    }
-    unique_check(y, list, map);
-    scene_part_names(y, map, SCENE_PART_ENTRY, prefix);
-    contact_read(t, map, prefix, errors, c);
-}
-
 static void contacts_read(struct yaml *y, struct yaml_node *root, struct scene *s)
 {
     struct yaml_node *list = yaml_get(root, "contacts");
@@ -206,8 +178,20 @@ static void contacts_read(struct yaml *y, struct yaml_node *root, struct scene *
     s->contacts = params_contacts(y->arena, list ? list->n : 1);
     s->n_contacts = !list;
     if (!list) contact_read(&tree, root, "", 0, s->contacts);
-    for (struct yaml_node *map = list ? list->first : NULL; map; map = map->next)
-        entry_read(&tree, list, map, sound, &s->contacts[s->n_contacts++]);
+    for (struct yaml_node *map = list ? list->first : NULL; map; map = map->next) {
+        int index = s->n_contacts++, errors = sound ? y->diag->n : -1;
+        const char *name = name_of(map), *prefix = name && is_name(name)
+                                                       ? arena_format(y->arena, "contacts.%s.", name)
+                                                       : arena_format(y->arena, "contacts.%d.", index);
+        if (map->kind != YAML_MAP) {
+            diag_add(y->diag, map->at, "write for instance: - name: left_hand",
+                     "an entry of contacts must be a map of keys, not %s", scene_values_kind(y, map));
+            continue;
+        }
+        unique_check(y, list, map);
+        scene_part_names(y, map, SCENE_PART_ENTRY, prefix);
+        contact_read(&tree, map, prefix, errors, &s->contacts[index]);
+    }
 }
 
 /* ------------------------------------------------------------------ the scene */
@@ -284,28 +268,23 @@ static void source_read(struct yaml *y, const struct diag_source *source, const 
             scene_merge_set(y, root, over->set[i]);
     if (over && over->seed) scene_merge_seed(y, root, over->seed);
     if (is_other(y, root)) return;
-    bool readable = recipes_merge(y, root);
+    const struct yaml_node *contacts = yaml_get(root, "contacts");
+    bool readable = recipe_merge(y, root);
+    for (struct yaml_node *map = contacts ? contacts->first : NULL; map; map = map->next)
+        readable = recipe_merge(y, map) && readable;
     scene_merge_drop_nulls(root);
     if (readable) tree_read(y, root, s);
-}
-
-/* The files that were read, as an array. */
-static const char **sources_of(struct yaml *y)
-{
-    int n = 0;
-    for (const struct yaml_file *f = y->files; f; f = f->next)
-        n++;
-    const char **all = ARENA_TAKE(y->arena, const char *, n + 1);
-    n = 0;
-    for (const struct yaml_file *f = y->files; f; f = f->next)
-        all[n++] = f->name;
-    return all;
 }
 
 static bool finish(struct yaml *y, struct scene *s, const char **messages, struct err *e)
 {
     *messages = "";
-    s->sources = sources_of(y);
+    int n = 0;
+    for (const struct yaml_file *f = y->files; f; f = f->next)
+        n++;
+    const char **sources = s->sources = ARENA_TAKE(y->arena, const char *, n + 1);
+    for (const struct yaml_file *f = y->files; f; f = f->next)
+        *sources++ = f->name;
     if (y->diag->n == 0) return true;
     s->diag = y->diag;
     *messages = diag_text(y->diag);

@@ -45,6 +45,7 @@ const char *scene_values_example(struct yaml *y, const struct key *k)
     case KEY_TEXT:
         return "some words";
     case KEY_FILE:
+    case KEY_LIST:
         return file_example(k->path);
     case KEY_POINT:
         return arena_format(y->arena, "[%s, 0]", one);
@@ -55,8 +56,6 @@ const char *scene_values_example(struct yaml *y, const struct key *k)
     case KEY_RANGE:
         return arena_format(y->arena, "[%s, %s]", units_text(1, k->dimension, y->arena),
                             units_text(5, k->dimension, y->arena));
-    case KEY_LIST:
-        return file_example(k->path);
     case KEY_CHOICE:
         return k->choices[0].word;
     }
@@ -111,21 +110,19 @@ bool scene_values_quantity(struct yaml *y, const struct yaml_node *node, const c
     return true;
 }
 
-static const char *range_text(const struct key *k, struct arena *a)
-{
-    if (k->low >= k->high) return units_text(k->low, k->dimension, a);
-    return arena_format(a, "from %s to %s", units_text(k->low, k->dimension, a), units_text(k->high, k->dimension, a));
-}
-
 bool scene_values_number(const struct scene_part *p, const struct key *k, const struct yaml_node *node,
                          const char *label, double *x)
 {
     struct yaml *y = p->yaml;
     double value;
     if (!scene_values_quantity(y, node, label, k->dimension, &value)) return false;
-    if (value < k->low || value > k->high)
+    if (value < k->low || value > k->high) {
+        const char *range = units_text(k->low, k->dimension, y->arena);
+        if (k->low < k->high)
+            range = arena_format(y->arena, "from %s to %s", range, units_text(k->high, k->dimension, y->arena));
         return diag_add(y->diag, node->at, arena_format(y->arena, "%s: %s", k->path, k->meaning),
-                        "%s must be %s, not %s", label, range_text(k, y->arena), scene_values_kind(y, node));
+                        "%s must be %s, not %s", label, range, scene_values_kind(y, node));
+    }
     *x = value;
     return true;
 }
@@ -188,72 +185,55 @@ static const struct kind {
 } kinds[] = {{2, 10000, "point", "points", "a pair [x, y]", "0"},
              {1, 64, "place", "places", "three numbers [x, y, z]", "0, 1 m"}};
 
-struct points {
-    const struct scene_part *part;
-    const struct key *key;
-    const char *label;
-    const struct kind *kind;
-    int width;
-};
-
-static bool point_read(const struct points *p, const struct yaml_node *node, int number, double *point)
+static bool point_read(const struct value *v, const struct kind *kind, const struct yaml_node *node, int number,
+                       double *point)
 {
-    struct yaml *y = p->part->yaml;
+    struct yaml *y = v->part->yaml;
     struct arena *a = y->arena;
-    const char *label = arena_format(a, "%s %d of %s", p->kind->one, number, p->label);
+    const int width = keys_points_width(v->key);
+    const char *label = arena_format(a, "%s %d of %s", kind->one, number, v->label);
     const struct yaml_node *item = node->first;
     bool good = true;
-    if (node->kind != YAML_LIST || node->n != p->width)
+    if (node->kind != YAML_LIST || node->n != width)
         return diag_add(
             y->diag, node->at,
-            arena_format(a, "write for instance: [%s, %s]", units_example(p->key->dimension), p->kind->example),
-            "%s must be %s, not %s", label, p->kind->form,
+            arena_format(a, "write for instance: [%s, %s]", units_example(v->key->dimension), kind->example),
+            "%s must be %s, not %s", label, kind->form,
             node->kind == YAML_LIST ? arena_format(a, "a list of %d", node->n) : scene_values_kind(y, node));
-    for (int i = 0; i < p->width; i++, item = item->next)
-        good =
-            scene_values_number(p->part, p->key, item, arena_format(a, "%c of %s", "xyz"[i], label), &point[i]) && good;
+    for (int i = 0; i < width; i++, item = item->next)
+        good = number_read(v, item, arena_format(a, "%c of %s", "xyz"[i], label), &point[i]) && good;
     return good;
 }
 
-static bool point_differs(const struct points *p, const struct yaml_node *node, int number, const double *point)
+/* [n][keys_points_width(k)] in the arena; a point of KEY_POINTS lies at least 1 nm from the one before. NULL: errors,
+   each reported where it stands. */
+static bool points_set(const struct value *v)
 {
-    double x = point[0] - point[-2], y = point[1] - point[-1];
-    return sqrt(x * x + y * y) >= DISTINCT ||
-           diag_add(p->part->yaml->diag, node->at, "remove one of the two", "point %d of %s lies where point %d does",
-                    number, p->label, number - 1);
-}
-
-static bool list_check(const struct points *p, const struct yaml_node *list)
-{
-    struct yaml *y = p->part->yaml;
-    if (list->kind == YAML_LIST && list->n >= p->kind->least && list->n <= p->kind->most) return true;
-    return diag_add(y->diag, list->at,
-                    arena_format(y->arena, "write for instance: %s", scene_values_example(y, p->key)),
-                    "%s must be a list of %d to %d %s %s, not %s", p->label, p->kind->least, p->kind->most,
-                    p->kind->many, strchr(p->kind->form, '['),
-                    list->kind == YAML_LIST ? arena_format(y->arena, "of %d", list->n) : scene_values_kind(y, list));
-}
-
-/* [*n][keys_points_width(k)] in the arena, in the key's SI unit, each number within its range; a point of KEY_POINTS
-   lies at least 1 nm from the one before. NULL: errors, each reported where it stands. `label` is the key's name in
-   messages. */
-static const double *points_read(const struct scene_part *part, const struct key *k, const struct yaml_node *list,
-                                 const char *label, int *n)
-{
-    const int width = keys_points_width(k);
-    const struct points p = {part, k, label, &kinds[width == 3], width};
+    struct yaml *y = v->part->yaml;
+    const int width = keys_points_width(v->key);
+    const struct kind *kind = &kinds[width == 3];
     bool good = true, before = false;
     int i = 0;
-    *n = 0;
-    if (!list_check(&p, list)) return NULL;
-    double *all = ARENA_TAKE(part->yaml->arena, double, (size_t)width *(size_t)list->n);
-    for (const struct yaml_node *item = list->first; item; item = item->next, i++) {
-        bool read = point_read(&p, item, i + 1, all + width * i);
-        good = read && (!before || k->type == KEY_PLACES || point_differs(&p, item, i + 1, all + width * i)) && good;
+    if (v->node->kind != YAML_LIST || v->node->n < kind->least || v->node->n > kind->most)
+        return diag_add(y->diag, v->node->at,
+                        arena_format(y->arena, "write for instance: %s", scene_values_example(y, v->key)),
+                        "%s must be a list of %d to %d %s %s, not %s", v->label, kind->least, kind->most, kind->many,
+                        strchr(kind->form, '['), given_list(v));
+    double *all = ARENA_TAKE(y->arena, double, (size_t)width *(size_t)v->node->n), *at = all;
+    for (const struct yaml_node *item = v->node->first; item; item = item->next, at += width) {
+        bool read = point_read(v, kind, item, ++i, at);
+        good = good && read;
+        if (read && before && v->key->type != KEY_PLACES) {
+            double dx = at[0] - at[-2], dy = at[1] - at[-1];
+            if (sqrt(dx * dx + dy * dy) < DISTINCT)
+                good = diag_add(y->diag, item->at, "remove one of the two", "point %d of %s lies where point %d does",
+                                i, v->label, i - 1);
+        }
         before = read;
     }
-    *n = good ? i : 0;
-    return good ? all : NULL;
+    *(const double **)v->field = good ? all : NULL;
+    *keys_points_count(v->field) = good ? i : 0;
+    return good;
 }
 
 /* ------------------------------------------------------------------ pairs */
@@ -282,13 +262,6 @@ static bool range_set(const struct value *v)
     pair[0] = pair[1] = NAN;
     return diag_add(v->part->yaml->diag, v->node->at, example_cure(v),
                     "the first number of %s must be less than the second", v->label);
-}
-
-static bool points_set(const struct value *v)
-{
-    const double *points = points_read(v->part, v->key, v->node, v->label, keys_points_count(v->field));
-    *(const double **)v->field = points;
-    return points != NULL;
 }
 
 /* ------------------------------------------------------------------ words */

@@ -26,7 +26,7 @@ struct list {
     const struct scene *scene;
     struct arena *arena;
     const char **files;
-    int n, room;
+    int n;
 };
 
 /* A file that is listed here, and not written as a key: a recipe, whose keys are written among the scene's own. */
@@ -36,23 +36,8 @@ static void add(struct list *l, const char *file)
 {
     for (int i = 0; i < l->n; i++)
         if (!strcmp(l->files[i], file)) return;
-    if (l->n == l->room) {
-        l->room = 2 * l->room + 16;
-        const char **more = ARENA_TAKE(l->arena, const char *, l->room);
-        if (l->n) memcpy(more, l->files, (size_t)l->n * sizeof *more);
-        l->files = more;
-    }
+    l->files = arena_more(l->arena, l->files, l->n, sizeof *l->files);
     l->files[l->n++] = file;
-}
-
-/* A file; or what is read of a folder. */
-static void add_all(struct list *l, const char *name)
-{
-    int n;
-    const char **files = csv_folder_files(name, &n, l->arena);
-    if (n == 0) add(l, name);
-    for (int i = 0; i < n; i++)
-        add(l, files[i]);
 }
 
 static void add_keys(struct list *l, bool only)
@@ -61,13 +46,17 @@ static void add_keys(struct list *l, bool only)
         for (const struct key *k = keys_table; k->path; k++) {
             bool mine = k->of == KEY_CONTACT && k->type == KEY_FILE && inputs_only(k) == only;
             const char *file = mine ? *(const char *const *)keys_field(k, &l->scene->contacts[i]) : NULL;
-            if (file) add_all(l, file);
+            int n = 0; /* files that are read of it, where it is a folder */
+            const char **files = file ? csv_folder_files(file, &n, l->arena) : NULL;
+            if (file && n == 0) add(l, file);
+            for (int m = 0; m < n; m++)
+                add(l, files[m]);
         }
 }
 
 const char **scene_write_inputs(const struct scene *s, int *n, struct arena *a)
 {
-    struct list l = {s, a, NULL, 0, 0};
+    struct list l = {s, a, NULL, 0};
     if (!s->inputs_known) {
         add_keys(&l, false);
         add_keys(&l, true);
@@ -107,15 +96,13 @@ struct writer {
     int n;
 };
 
-static const void *field(const struct key *k, const void *owner) { return keys_field(k, owner); }
+static double number(const struct key *k, const void *owner) { return *(const double *)keys_field(k, owner); }
 
-static double number(const struct key *k, const void *owner) { return *(const double *)field(k, owner); }
-
-static const char *text(const struct key *k, const void *owner) { return *(const char *const *)field(k, owner); }
+static const char *text(const struct key *k, const void *owner) { return *(const char *const *)keys_field(k, owner); }
 
 static const char *word(const struct key *k, const void *owner)
 {
-    return k->choices[*(const int *)field(k, owner)].word;
+    return k->choices[*(const int *)keys_field(k, owner)].word;
 }
 
 static const char *numbers_value(const double *x, int n, struct arena *a)
@@ -140,15 +127,6 @@ static const char *points_value(const void *field, int width, struct arena *a)
     const char *copy = arena_text(a, memory);
     free(memory);
     return copy;
-}
-
-static const char *list_value(const char *const *items, struct arena *a)
-{
-    const char *all = "";
-    if (!items) return NULL;
-    for (int i = 0; items[i]; i++)
-        all = arena_format(a, "%s%s%s", all, i ? ", " : "", keys_yaml_quoted(items[i], a));
-    return arena_format(a, "[%s]", all);
 }
 
 /* Is the key or section of that path given? */
@@ -190,6 +168,7 @@ static double instead(const struct key *k, const void *owner)
 /* YAML text of the key's value; NULL: not given. */
 static const char *value(const struct key *k, const void *owner, struct writer *w)
 {
+    const char *const *items, *all = "";
     switch (k->type) {
     case KEY_NUMBER:
     case KEY_WHOLE: {
@@ -199,9 +178,9 @@ static const char *value(const struct key *k, const void *owner, struct writer *
     case KEY_TIME_OR_AUTO:
         return isnan(number(k, owner)) ? "auto" : keys_yaml_number(number(k, owner), w->a);
     case KEY_COUNT:
-        return arena_format(w->a, "%d", *(const int *)field(k, owner));
+        return arena_format(w->a, "%d", *(const int *)keys_field(k, owner));
     case KEY_SEED:
-        return arena_format(w->a, "%" PRIu64, *(const uint64_t *)field(k, owner));
+        return arena_format(w->a, "%" PRIu64, *(const uint64_t *)keys_field(k, owner));
     case KEY_TEXT:
     case KEY_FILE: {
         const char *s = text(k, owner);
@@ -209,12 +188,15 @@ static const char *value(const struct key *k, const void *owner, struct writer *
     }
     case KEY_POINT:
     case KEY_RANGE:
-        return isnan(number(k, owner)) ? NULL : numbers_value(field(k, owner), 2, w->a);
+        return isnan(number(k, owner)) ? NULL : numbers_value(keys_field(k, owner), 2, w->a);
     case KEY_POINTS:
     case KEY_PLACES:
-        return points_value(field(k, owner), keys_points_width(k), w->a);
+        return points_value(keys_field(k, owner), keys_points_width(k), w->a);
     case KEY_LIST:
-        return list_value(*(const char **const *)field(k, owner), w->a);
+        items = *(const char **const *)keys_field(k, owner);
+        for (int i = 0; items && items[i]; i++)
+            all = arena_format(w->a, "%s%s%s", all, i ? ", " : "[", keys_yaml_quoted(items[i], w->a));
+        return items ? arena_format(w->a, "%s]", all) : NULL;
     case KEY_CHOICE:
         return word(k, owner);
     }
@@ -231,19 +213,14 @@ static bool applies(const struct key *k, const void *owner)
            keys_applies_beside(k, there); /* a ball's radius stands where a scraper's would */
 }
 
-/* Is every section that the key stands in given? */
-static bool in_given_sections(const struct key *k, const void *owner)
-{
-    for (const struct key_section *s = keys_sections; s->path; s++) {
-        size_t n = strlen(s->path);
-        if (!strncmp(k->path, s->path, n) && k->path[n] == '.' && !*keys_given(s, owner)) return false;
-    }
-    return true;
-}
-
 static void take(struct writer *w, const struct key *k, const void *owner)
 {
-    const char *v = !inputs_only(k) && applies(k, owner) && in_given_sections(k, owner) ? value(k, owner, w) : NULL;
+    if (inputs_only(k) || !applies(k, owner)) return;
+    for (const struct key_section *s = keys_sections; s->path; s++) { /* all that it stands in must be given */
+        size_t n = strlen(s->path);
+        if (!strncmp(k->path, s->path, n) && k->path[n] == '.' && !*keys_given(s, owner)) return;
+    }
+    const char *v = value(k, owner, w);
     if (v) w->lines[w->n++] = (struct keys_line){.path = k->path, .value = v};
 }
 
@@ -281,16 +258,6 @@ static void write_keys(struct writer *w, const struct scene *s)
     flush(w, 0, false);
 }
 
-static void write_accuracy(struct writer *w, const struct scene *s)
-{
-    fputs("accuracy:\n", w->f);
-    if (s->accuracy.preset) fprintf(w->f, "  preset: %s\n", s->accuracy.preset);
-    if (!isnan(s->accuracy.error)) fprintf(w->f, "  error: %s\n", keys_yaml_number(s->accuracy.error, w->a));
-    for (const struct key_knob *k = keys_knobs; k->name; k++)
-        fprintf(w->f, "  %s: %s\n", k->name,
-                keys_yaml_number(*(const double *)((const char *)&s->accuracy + k->offset), w->a));
-}
-
 const char *scene_write(const struct scene *s, const char *beside, struct arena *a)
 {
     char *memory = NULL;
@@ -300,7 +267,12 @@ const char *scene_write(const struct scene *s, const char *beside, struct arena 
         n_keys++;
     struct writer w = {memory_stream(&memory, &size), beside, a, ARENA_TAKE(a, struct keys_line, n_keys), 0};
     write_keys(&w, s);
-    write_accuracy(&w, s);
+    fputs("accuracy:\n", w.f);
+    if (s->accuracy.preset) fprintf(w.f, "  preset: %s\n", s->accuracy.preset);
+    if (!isnan(s->accuracy.error)) fprintf(w.f, "  error: %s\n", keys_yaml_number(s->accuracy.error, a));
+    for (const struct key_knob *k = keys_knobs; k->name; k++)
+        fprintf(w.f, "  %s: %s\n", k->name,
+                keys_yaml_number(*(const double *)((const char *)&s->accuracy + k->offset), a));
     inputs_write(w.f, s, beside, a);
     memory_stream_end(w.f, &memory);
     const char *copy = arena_text(a, memory);

@@ -110,24 +110,19 @@ static const struct prefix {
 } prefixes[] = {{"n", 'n', -9}, {"u", 'u', -6}, {"\xc2\xb5", 'u', -6}, {"\xce\xbc", 'u', -6}, {"m", 'm', -3},
                 {"c", 'c', -2}, {"k", 'k', 3},  {"M", 'M', 6},         {"G", 'G', 9}};
 
-static bool matches(const struct units_unit *u, const char *text, int *power)
-{
-    *power = u->power;
-    if (strcmp(u->name, text) == 0) return true;
-    for (size_t i = 0; i < sizeof prefixes / sizeof prefixes[0]; i++) {
-        size_t n = strlen(prefixes[i].name);
-        *power = u->power + prefixes[i].power;
-        if (strncmp(text, prefixes[i].name, n) == 0 && strcmp(text + n, u->name) == 0 &&
-            strchr(u->prefixes, prefixes[i].letter))
-            return true;
-    }
-    return false;
-}
-
 const struct units_unit *units_find(const char *text, int *power)
 {
-    for (size_t i = 0; i < sizeof units / sizeof units[0]; i++)
-        if (matches(&units[i], text, power)) return &units[i];
+    for (const struct units_unit *u = units; u < units + sizeof units / sizeof *units; u++) {
+        *power = u->power;
+        if (strcmp(u->name, text) == 0) return u;
+        for (size_t i = 0; i < sizeof prefixes / sizeof prefixes[0]; i++) {
+            size_t n = strlen(prefixes[i].name);
+            *power = u->power + prefixes[i].power;
+            if (strncmp(text, prefixes[i].name, n) == 0 && strcmp(text + n, u->name) == 0 &&
+                strchr(u->prefixes, prefixes[i].letter))
+                return u;
+        }
+    }
     return NULL;
 }
 
@@ -142,28 +137,17 @@ static bool units_fits(const struct units_unit *u, enum key_dimension d)
     return u->dimension == d;
 }
 
-/* A unit's prefixes as a class; micro has two more letters. */
-static const char *prefix_pattern(const struct units_unit *u, struct arena *a)
-{
-    if (!*u->prefixes) return "";
-    return arena_format(a, "[%s%s]?", u->prefixes, strchr(u->prefixes, 'u') ? "\xc2\xb5\xce\xbc" : "");
-}
-
-static const char *escaped(const char *name, struct arena *a)
-{
-    const char *all = "";
-    for (const char *p = name; *p; p++)
-        all = arena_format(a, "%s%s%c", all, strchr("^$.*+?()[]{}|\\", *p) ? "\\" : "", *p);
-    return all;
-}
-
 const char *units_pattern(enum key_dimension d, struct arena *a)
 {
     const char *all = "";
-    for (size_t i = 0; i < sizeof units / sizeof units[0]; i++)
-        if (units_fits(&units[i], d))
-            all = arena_format(a, "%s%s%s%s", all, *all ? "|" : "", prefix_pattern(&units[i], a),
-                               escaped(units[i].name, a));
+    for (const struct units_unit *u = units; u < units + sizeof units / sizeof *units; u++) {
+        if (!units_fits(u, d)) continue;
+        if (*all) all = arena_format(a, "%s|", all);
+        if (*u->prefixes) /* as a class; micro has two more letters */
+            all = arena_format(a, "%s[%s%s]?", all, u->prefixes, strchr(u->prefixes, 'u') ? "\xc2\xb5\xce\xbc" : "");
+        for (const char *p = u->name; *p; p++)
+            all = arena_format(a, "%s%s%c", all, strchr("^$.*+?()[]{}|\\", *p) ? "\\" : "", *p);
+    }
     return all;
 }
 
@@ -194,18 +178,6 @@ static const char *example_cure(enum key_dimension d, struct arena *a)
 
 static bool has_common(enum key_dimension d) { return dimensions[d].common[0][0] || dimensions[d].common[1]; }
 
-static const char *unit_cure(const char *number, const char *unit, enum key_dimension d, struct arena *a)
-{
-    const char *const *common = dimensions[d].common;
-    const char *all = "";
-    for (int i = 0; common[i]; i++) {
-        if (common[i][0] && strcasecmp(common[i], unit) == 0)
-            return arena_format(a, "did you mean %s %s?", number, common[i]);
-        all = arena_format(a, "%s%s%s", all, *all ? ", " : "", common[i]);
-    }
-    return arena_format(a, "units: %s; write for instance: %s", all, units_example(d));
-}
-
 static bool unit_fault(struct units_fault *f, const char *number, const char *unit, enum key_dimension d,
                        struct arena *a)
 {
@@ -226,8 +198,13 @@ static bool unit_fault(struct units_fault *f, const char *number, const char *un
     if (!has_common(d))
         return fault_set(f, arena_format(a, "needs %s; '%s' follows it", needs, unit),
                          arena_format(a, "write: %s", number));
-    return fault_set(f, arena_format(a, "needs %s; '%s' is not a unit that is known", needs, unit),
-                     unit_cure(number, unit, d, a));
+    const char *says = arena_format(a, "needs %s; '%s' is not a unit that is known", needs, unit), *all = "";
+    for (const char *const *common = dimensions[d].common; *common; common++) {
+        if (**common && strcasecmp(*common, unit) == 0)
+            return fault_set(f, says, arena_format(a, "did you mean %s %s?", number, *common));
+        all = arena_format(a, "%s%s%s", all, *all ? ", " : "", *common);
+    }
+    return fault_set(f, says, arena_format(a, "units: %s; write for instance: %s", all, units_example(d)));
 }
 
 /* The text with each character of `of` replaced by `by` (0: left out). */
@@ -265,15 +242,6 @@ static bool word_fault(struct units_fault *f, const char *text, enum key_dimensi
     return fault_set(f, arena_format(a, "needs %s, not '%s'", needs, text), example_cure(d, a));
 }
 
-static const char *clock_cure(const char *text, enum key_dimension d, struct arena *a)
-{
-    double minutes, seconds;
-    const char *colon = strchr(text, ':');
-    if (d == KEY_TIME && text_scaled(text, (size_t)(colon - text), 0, &minutes) && text_double(colon + 1, &seconds))
-        return arena_format(a, "write it in seconds: %g s", minutes * 60 + seconds);
-    return example_cure(d, a);
-}
-
 /* Notations that other readers take for a number in their own way: leading zeros, 0x.., 1_000, 1,5, 1:30, 1 000. */
 static bool notation_fault(struct units_fault *f, const char *text, enum key_dimension d, struct arena *a)
 {
@@ -294,22 +262,17 @@ static bool notation_fault(struct units_fault *f, const char *text, enum key_dim
     if (text[n] == ',')
         return !fault_set(f, "needs a number with a decimal point, not a comma",
                           arena_format(a, "write: %s", replaced(text, ',', '.', a)));
-    if (text[n] == ':') return !fault_set(f, "needs one number, not a clock time or ratio", clock_cure(text, d, a));
+    if (text[n] == ':') {
+        double minutes, seconds;
+        bool time = d == KEY_TIME && text_scaled(text, n, 0, &minutes) && text_double(text + n + 1, &seconds);
+        return !fault_set(f, "needs one number, not a clock time or ratio",
+                          time ? arena_format(a, "write it in seconds: %g s", minutes * 60 + seconds)
+                               : example_cure(d, a));
+    }
     if (strncmp(rest, "1/", 2) == 0 && units_find(rest, &power)) return false;
     if ((*rest >= '0' && *rest <= '9') || *rest == '.' || *rest == '+' || *rest == '-')
         return !fault_set(f, arena_format(a, "needs one number; '%s' follows it", rest), example_cure(d, a));
     return false;
-}
-
-static bool number_read(const char *text, size_t n, int power, double *x)
-{
-    char copy[LONGEST + 1];
-    if (power != DEGREES) return text_scaled(text, n, power, x);
-    if (!text_scaled(text, n, 0, x)) return false;
-    memcpy(copy, text, n);
-    copy[n] = '\0';
-    *x = (double)(strtold(copy, NULL) * (3.14159265358979323846264338327950288L / 180));
-    return true;
 }
 
 bool units_read(const char *text, enum key_dimension d, double *x, struct arena *a, struct units_fault *f)
@@ -325,7 +288,10 @@ bool units_read(const char *text, enum key_dimension d, double *x, struct arena 
         const struct units_unit *u = units_find(unit, &power);
         if (!u || !units_fits(u, d)) return unit_fault(f, number, unit, d, a);
     }
-    if (number_read(text, n, power, x)) return true;
+    if (text_scaled(text, n, power == DEGREES ? 0 : power, x)) {
+        if (power == DEGREES) *x = (double)(strtold(number, NULL) * (3.14159265358979323846264338327950288L / 180));
+        return true;
+    }
     return fault_set(f, "is a number too large, too small or too long to be read", example_cure(d, a));
 }
 
@@ -344,35 +310,23 @@ static const char *decimal(const char *digits, int e, struct arena *a)
     return arena_format(a, "%.*s.%s", e, digits, digits + e);
 }
 
-/* The largest common unit that leaves at least 1, else the smallest; SI's for a zero. */
-static const struct units_unit *fitting_unit(enum key_dimension d, int exponent, int *power, const char **name)
-{
-    const struct units_unit *best = NULL;
-    for (int i = 0; dimensions[d].common[i]; i++) {
-        int p;
-        const struct units_unit *u = units_find(dimensions[d].common[i], &p);
-        if (!u || p == DEGREES || p == -2) continue;
-        bool has_rest = exponent - p >= 1, best_has_rest = best && exponent - *power >= 1;
-        if (!best || (has_rest && (!best_has_rest || p > *power)) || (!has_rest && !best_has_rest && p < *power)) {
-            best = u;
-            *power = p;
-            *name = dimensions[d].common[i];
-        }
-    }
-    return best;
-}
-
 const char *units_text(double x, enum key_dimension d, struct arena *a)
 {
     char digits[20];
     int exponent, power = 0;
     const char *name = "";
+    bool bare = d == KEY_OUTPUT || d == KEY_STIFFNESS || d == KEY_NONE;
     text_digits(fabs(x), digits, &exponent);
-    bool known =
-        d != KEY_OUTPUT && d != KEY_STIFFNESS && d != KEY_NONE && fitting_unit(d, x == 0 ? 1 : exponent, &power, &name);
-    if (x == 0 && known) {
-        power = 0;
-        name = dimensions[d].common[0];
+    /* The largest common unit that leaves at least 1, else the smallest; SI's for a zero. */
+    for (const char *const *common = dimensions[d].common; !bare && x != 0 && *common; common++) {
+        int p;
+        if (!units_find(*common, &p) || p == DEGREES || p == -2) continue;
+        bool has_rest = exponent - p >= 1, best_has_rest = *name && exponent - power >= 1;
+        if (!*name || (has_rest && (!best_has_rest || p > power)) || (!has_rest && !best_has_rest && p < power)) {
+            power = p;
+            name = *common;
+        }
     }
-    return arena_format(a, "%s%s%s%s", x < 0 ? "-" : "", decimal(digits, exponent - power, a), known ? " " : "", name);
+    if (!bare && x == 0) name = dimensions[d].common[0];
+    return arena_format(a, "%s%s%s%s", x < 0 ? "-" : "", decimal(digits, exponent - power, a), *name ? " " : "", name);
 }
