@@ -441,7 +441,7 @@ static bool make(struct budgeting *m, struct err *e)
 {
     for (int k = 0; k < KNOBS; k++)
         if (!is_users(m, k)) accuracy_turn(&m->chosen->accuracy, (enum knob)k, keys_knobs[k].preset[0]);
-    m->parts = render_parts_make(m->chosen, "", m->arena);
+    m->parts = render_parts_make(m->chosen, m->arena);
     if (!render_parts_plan(&m->parts, e)) return false;
     m->sounds = m->parts.asked & ITEM_BIT(ITEM_SOUND);
     for (int i = 0; i < m->chosen->n_contacts; i++)

@@ -12,13 +12,6 @@
 #include "scene/scene_write.h"
 #include "trajectory/contact.h"
 
-/* A response may be a folder, whose reader looks for its places in index.csv (response/ir.h). */
-static bool may_be_folder(const char *where, const char *file)
-{
-    struct stat s;
-    return file && strcmp(where, "surface.response") == 0 && stat(file, &s) == 0 && S_ISDIR(s.st_mode);
-}
-
 struct missing {
     const struct scene *scene;
     struct arena *arena;
@@ -30,9 +23,10 @@ struct missing {
    is given: it has a place. */
 static void add(struct missing *m, const char *contact, const char *key, const char *file)
 {
-    const char *index = may_be_folder(key, file) ? arena_format(m->arena, "%s/index.csv", file) : NULL;
-    const char *read = index ? index : file;
     struct stat s;
+    /* A response may be a folder, whose reader looks for its places in index.csv (response/ir.h). */
+    bool folder = file && strcmp(key, "surface.response") == 0 && stat(file, &s) == 0 && S_ISDIR(s.st_mode);
+    const char *index = folder ? arena_format(m->arena, "%s/index.csv", file) : NULL, *read = index ? index : file;
     bool there = read && stat(read, &s) == 0 && access(read, R_OK) == 0;
     if (!read || (there && S_ISREG(s.st_mode))) return;
     const char *why = there ? "is not a file" : strerror(errno);
@@ -47,18 +41,6 @@ static void add(struct missing *m, const char *contact, const char *key, const c
     m->key = m->key ? m->key : key;
 }
 
-static bool is_pinned(const struct scene *s, const struct input *p, struct arena *a, struct err *e)
-{
-    const char *hex = p->sha256 ? file_cache_sha256(s->file_cache, p->file, a, e) : NULL;
-    if (!hex) return !p->sha256;
-    if (!strcmp(hex, p->sha256)) return true;
-    err_about(e, NULL, "inputs");
-    return err_set(
-        e, ERR_SCENE,
-        "inputs: %s has changed: its sha256 is %s, not %s; restore the file, or remove its entry to use it as it is",
-        p->file, hex, p->sha256);
-}
-
 bool inputs_check(const struct scene *s, struct arena *a, struct err *e)
 {
     struct missing m = {.scene = s, .arena = a, .text = ""};
@@ -69,8 +51,16 @@ bool inputs_check(const struct scene *s, struct arena *a, struct err *e)
     for (int i = 0; i < s->n_inputs && !m.key; i++)
         add(&m, NULL, "inputs", s->inputs[i].file);
     if (m.key) return err_set(e, ERR_INPUT, "%s", m.text) || err_about(e, m.contact, m.key);
-    for (int i = 0; i < s->n_inputs; i++)
-        if (!is_pinned(s, &s->inputs[i], a, e)) return false;
+    for (const struct input *p = s->inputs; p < s->inputs + s->n_inputs; p++) {
+        const char *hex = p->sha256 ? file_cache_sha256(s->file_cache, p->file, a, e) : NULL;
+        if (p->sha256 && !hex) return false;
+        if (!p->sha256 || !strcmp(hex, p->sha256)) continue;
+        err_about(e, NULL, "inputs");
+        return err_set(e, ERR_SCENE,
+                       "inputs: %s has changed: its sha256 is %s, not %s; restore the file, or remove its entry to use "
+                       "it as it is",
+                       p->file, hex, p->sha256);
+    }
     return true;
 }
 

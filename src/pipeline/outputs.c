@@ -214,13 +214,6 @@ bool outputs_replace(const struct outputs *o, int n, bool force, struct arena *a
 
 /* ------------------------------------------------------------------ what an earlier render left */
 
-static bool writes(const struct outputs *o, const char *path)
-{
-    for (int i = 0; i < o->n; i++)
-        if (strcmp(o->paths[i], path) == 0) return true;
-    return false;
-}
-
 const char **outputs_older(const struct scene *s, const char *base, struct arena *a)
 {
     struct outputs o = outputs_make(s, base, a), most = outputs_none(s, base, a);
@@ -239,8 +232,12 @@ const char **outputs_older(const struct scene *s, const char *base, struct arena
         add(&most, (enum output_kind)kind, NULL, a);
     for (int k = 0; k < 3 && s->n_contacts > 1; k++)
         most.paths[most.n++] = arena_format(a, "%s%s", base, ((const char *[]){".csv", ".impacts.csv", ".npy"})[k]);
-    for (int i = 0; i < most.n; i++)
-        if (!writes(&o, most.paths[i]) && stat(most.paths[i], &status) == 0 && !source_find(&all, most.paths[i]))
+    for (int i = 0; i < most.n; i++) {
+        bool writes = false;
+        for (int k = 0; k < o.n; k++)
+            writes = writes || strcmp(o.paths[k], most.paths[i]) == 0;
+        if (!writes && stat(most.paths[i], &status) == 0 && !source_find(&all, most.paths[i]))
             older[n++] = most.paths[i];
+    }
     return older;
 }

@@ -101,18 +101,6 @@ static bool choose_body(const struct contact *c, const struct scene *s, enum rin
     return !rings || *choice || ring_choice_make(c, s, body, a, choice, e);
 }
 
-/* The contact with its engines chosen, unless they are already (pipeline/error_budget.h). */
-static const struct contact *plan_choose(const struct contact *asked, const struct scene *s, struct arena *a,
-                                         struct err *e)
-{
-    struct contact *c = ARENA_TAKE(a, struct contact, 1);
-    *c = *asked;
-    if (!choose_body(asked, s, RING_SURFACE, a, &c->surface.response.choice, e) ||
-        !choose_body(asked, s, RING_SCRAPER, a, &c->scraper.response.choice, e))
-        return NULL;
-    return c;
-}
-
 bool plan_make(const struct stage *const *table, const struct contact *c, const struct scene *s, struct arena *a,
                struct plan *p, struct err *e)
 {
@@ -124,9 +112,14 @@ bool plan_make(const struct stage *const *table, const struct contact *c, const 
                        "output.diagnostics for "
                        "a table of its physics",
                        c->name, contact_tool(c));
-    if (p->targets & ITEM_BIT(ITEM_SOUND) && s->output.quantity != QUANTITY_FORCE &&
-        !(p->contact = c = plan_choose(c, s, a, e)))
-        return false;
+    if (p->targets & ITEM_BIT(ITEM_SOUND) && s->output.quantity != QUANTITY_FORCE) {
+        struct contact *own = ARENA_TAKE(a, struct contact, 1); /* with its engines chosen, unless they are already */
+        *own = *c;
+        if (!choose_body(c, s, RING_SURFACE, a, &own->surface.response.choice, e) ||
+            !choose_body(c, s, RING_SCRAPER, a, &own->scraper.response.choice, e))
+            return false;
+        p->contact = c = own;
+    }
     while (table[p->n])
         p->n++;
     p->rows = ARENA_TAKE(a, struct plan_row, p->n);
@@ -192,17 +185,6 @@ static void names_text(unsigned items, char *out, size_t size)
             snprintf(out + strlen(out), size - strlen(out), "%s%s", out[0] ? " " : "", plan_names[i]);
 }
 
-static void row_print(const struct plan *p, const struct plan_row *r, double whole, FILE *out)
-{
-    char from[200], to[200];
-    names_text(r->reads & p->alive, from, sizeof from);
-    names_text(r->stage->gives & p->alive, to, sizeof to);
-    fprintf(out, "  %-20s %5.1f %%  %s%s-> %s\n", r->stage->name, whole > 0 ? 100 * r->work / whole : 0, from,
-            from[0] ? " " : "", to);
-    fprintf(out, "  %-20s          %s%s%s%s\n", "", r->stage->does, r->stage->paper[0] ? " [" : "", r->stage->paper,
-            r->stage->paper[0] ? "]" : "");
-}
-
 void plan_print(const struct plan *p, FILE *out)
 {
     char targets[200];
@@ -211,8 +193,16 @@ void plan_print(const struct plan *p, FILE *out)
     for (int i = 0; i < p->n; i++)
         whole += p->rows[i].work;
     fprintf(out, "contact '%s': %s\n", p->contact->name, p->targets ? targets : "nothing, its gain is 0");
-    for (int i = 0; i < p->n; i++)
-        if (p->rows[i].verdict == PLAN_RUNS) row_print(p, &p->rows[i], whole, out);
+    for (const struct plan_row *r = p->rows; r < p->rows + p->n; r++) {
+        char from[200], to[200];
+        if (r->verdict != PLAN_RUNS) continue;
+        names_text(r->reads & p->alive, from, sizeof from);
+        names_text(r->stage->gives & p->alive, to, sizeof to);
+        fprintf(out, "  %-20s %5.1f %%  %s%s-> %s\n", r->stage->name, whole > 0 ? 100 * r->work / whole : 0, from,
+                from[0] ? " " : "", to);
+        fprintf(out, "  %-20s          %s%s%s%s\n", "", r->stage->does, r->stage->paper[0] ? " [" : "", r->stage->paper,
+                r->stage->paper[0] ? "]" : "");
+    }
     fprintf(out, "  about %.0f cycles per audio sample%s\n", whole, whole > REAL_TIME ? ": slower than real time" : "");
     struct arena *a = arena_open();
     fprintf(out, "  turned by accuracy: %s\n", plan_knobs_text(plan_knobs(p), a));
@@ -256,7 +246,7 @@ static bool open_parts(struct render_parts *p, struct arena *a, struct plan_scen
 
 const struct plan *plan_scene(const struct scene *s, struct arena *a, const char ***warnings, struct err *e)
 {
-    struct render_parts p = render_parts_make(s, "", a);
+    struct render_parts p = render_parts_make(s, a);
     struct plan *plans = ARENA_TAKE(a, struct plan, s->n_contacts);
     struct plan_scene_estimate x;
     if (!inputs_check(s, a, e) || !render_parts_plan(&p, e) || !open_parts(&p, a, &x, e) ||
@@ -270,7 +260,7 @@ const struct plan *plan_scene(const struct scene *s, struct arena *a, const char
 
 bool plan_scene_estimate(const struct scene *s, struct arena *a, struct plan_scene_estimate *x, struct err *e)
 {
-    struct render_parts p = render_parts_make(s, "", a);
+    struct render_parts p = render_parts_make(s, a);
     if (!inputs_check(s, a, e) || !render_parts_plan(&p, e) || !open_parts(&p, a, x, e)) return false;
     x->cycles = 0;
     x->sounds = p.asked & ITEM_BIT(ITEM_SOUND);
@@ -284,7 +274,7 @@ bool plan_scene_estimate(const struct scene *s, struct arena *a, struct plan_sce
 
 static bool add_knobs(const struct scene *s, struct arena *a, unsigned *knobs, struct err *e)
 {
-    struct render_parts p = render_parts_make(s, "", a);
+    struct render_parts p = render_parts_make(s, a);
     bool ok = render_parts_plan(&p, e);
     for (int i = 0; ok && i < s->n_contacts; i++)
         *knobs |= plan_knobs(&p.parts[i].plan);

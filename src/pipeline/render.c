@@ -40,9 +40,22 @@ static bool render_open(struct render *r, struct err *e)
 {
     if (!inputs_check(r->scene, r->arena, e) || !render_parts_plan(&r->parts, e) ||
         (!r->waits && !outfile_open(&r->effective, r->scene_path, e)) ||
-        (!r->set && !outfile_open(&r->summary, r->summary_path, e)) || !render_parts_open(&r->parts, e) ||
-        !render_parts_length(&r->parts, &r->length, e))
+        (!r->set && !outfile_open(&r->summary, r->summary_path, e)))
         return false;
+    for (struct render_part *one = r->parts.parts; one < r->parts.parts + r->scene->n_contacts; one++) {
+        unsigned targets = one->plan.targets;
+        one->table_path = outputs_path(r->scene, r->base, OUTPUT_TABLE, one->plan.contact, r->arena);
+        one->listing_path = outputs_path(r->scene, r->base, OUTPUT_LISTING, one->plan.contact, r->arena);
+        if ((targets & ITEM_BIT(ITEM_TABLE) && !outfile_open(&one->table, one->table_path, e)) ||
+            (targets & ITEM_BIT(ITEM_LISTING) && !outfile_open(&one->listing, one->listing_path, e)))
+            return false;
+        one->rows.stream = one->table.stream;
+        one->impacts.stream = one->listing.stream;
+        if (!targets) continue;
+        if (!run_open(&one->run, &one->plan, r->scene, &(struct run_sinks){&one->rows, &one->impacts}, e)) return false;
+        one->open = true;
+    }
+    if (!render_parts_agree(&r->parts, e) || !render_parts_length(&r->parts, &r->length, e)) return false;
     r->sounds = r->parts.asked & ITEM_BIT(ITEM_SOUND);
     r->block = ARENA_TAKE(r->arena, double, STAGE_BLOCK *listener_channels(&r->scene->output));
     if (r->sounds && !(r->sound = sound_open(r->scene, r->wav_path, r->length.frames, r->arena, e))) return false;
@@ -50,20 +63,43 @@ static bool render_open(struct render *r, struct err *e)
            (r->stems = stems_open(r->scene, r->stem_paths, r->length.frames, r->arena, e)) != NULL;
 }
 
+/* Adds what a contact gives; a body's sound times the contact's gain, as the sound itself is. */
+static void part_sum(const struct render_part *p, enum item item, const long range[2], double *sum)
+{
+    long begin = range[0] > p->start ? range[0] - p->start : 0, end = range[1] - p->start;
+    bool body = item == ITEM_SURFACE_SOUND || item == ITEM_SCRAPER_SOUND;
+    if (end <= begin || !p->open || !(p->plan.targets & ITEM_BIT(item))) return;
+    const double *x = board_at(&p->run.board, item, begin);
+    double gain = body ? p->plan.contact->gain : 1;
+    int width = p->run.board.signals[item].per_frame;
+    sum += (begin + p->start - range[0]) * width;
+    scaled_add(sum, gain, x, (end - begin) * width);
+}
+
 static bool render_blocks(struct render *r, struct err *e)
 {
+    static const enum item items[STEMS] = {ITEM_FORCE, ITEM_SURFACE_SOUND, ITEM_SCRAPER_SOUND, ITEM_SCRAPER_SOUND};
+    const struct output *o = &r->scene->output;
+    struct render_part *parts = r->parts.parts;
+    int n = r->scene->n_contacts;
     for (long from = 0, to; from < r->length.frames; from = to) {
         to = from + STAGE_BLOCK < r->length.frames ? from + STAGE_BLOCK : r->length.frames;
         if (interrupt_seen())
             return err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written, run the same command again");
-        if (!render_parts_run(&r->parts, to, e)) return false;
+        for (struct render_part *one = parts; one < parts + n; one++)
+            if (one->open && to > one->start && !run_block(&one->run, to - one->start, e)) return false;
         for (int k = 0; k < STEMS; k++) {
-            if (!stems_asked(&r->scene->output, (enum stem)k)) continue;
-            render_parts_stem(&r->parts, (enum stem)k, from, to, r->block);
+            if (!stems_asked(o, (enum stem)k)) continue;
+            memset(r->block, 0, (size_t)((to - from) * stems_channels(o, (enum stem)k)) * sizeof *r->block);
+            for (int i = 0; i < n; i++) /* what touches the surface is of one stem or of the other */
+                if (k != (contact_rolls(&r->scene->contacts[i]) ? STEM_SCRAPER : STEM_BALL))
+                    part_sum(&parts[i], items[k], (const long[2]){from, to}, r->block);
             if (!stems_add(r->stems, (enum stem)k, r->block, to - from, e)) return false;
         }
         if (!r->sound) continue;
-        render_parts_sum(&r->parts, from, to, r->block);
+        memset(r->block, 0, (size_t)((to - from) * listener_channels(o)) * sizeof *r->block);
+        for (int i = 0; i < n; i++)
+            part_sum(&parts[i], ITEM_SOUND, (const long[2]){from, to}, r->block);
         if (!sound_add(r->sound, r->block, to - from, e)) return false;
     }
     return true;
@@ -135,7 +171,9 @@ static bool render_finish(struct render *r, double start[2], struct err *e)
     report->seconds = stopwatch_wall() - start[0];
     report->cpu = stopwatch_cpu() - start[1];
     report->older = r->set ? ARENA_TAKE(r->arena, const char *, 1) : outputs_older(r->scene, r->base, r->arena);
-    const struct run *const *runs = render_parts_runs(&r->parts);
+    const struct run **runs = ARENA_TAKE(r->arena, const struct run *, r->scene->n_contacts);
+    for (int i = 0; i < r->scene->n_contacts; i++)
+        runs[i] = r->parts.parts[i].open ? &r->parts.parts[i].run : NULL;
     const char *effective = outputs_effective(r->scene, r->scene_path, r->arena);
     if (!render_list(r, effective, e)) return false;
     summary_notes(r->scene, runs, report, r->arena);
@@ -143,18 +181,6 @@ static bool render_finish(struct render *r, double start[2], struct err *e)
     report->summary = summary_text(r->scene, runs, report, !r->set, r->arena);
     if (!r->waits) fputs(effective, r->effective.stream);
     if (!r->set) fputs(report->summary, r->summary.stream);
-    return true;
-}
-
-/* Whatever can fail is done for every file before the first takes its name: a full disk leaves all earlier results or
- * none. */
-static bool render_finalise(struct render *r, struct err *e)
-{
-    for (int k = 0; k < r->report->n_files; k++) {
-        struct render_file *f = &r->report->files[k];
-        if (!(f->file ? outfile_finalise(f->file, e) : track_finalise(f->track, e))) return false;
-        f->temporary = f->file ? f->file->temporary : wav_temporary(f->track->wav);
-    }
     return true;
 }
 
@@ -198,7 +224,7 @@ static struct render *make(const struct scene *s, const char *base, const struct
     *report = (struct render_report){.quantity = -1};
     if (!error_budget_apply(s, a, copy, &report->error_budget, e)) return NULL;
     report->accuracy = copy->accuracy;
-    r->parts = render_parts_make(copy, base, a);
+    r->parts = render_parts_make(copy, a);
     r->effective.fd = r->summary.fd = -1;
     const char *sounds = r->waits ? names->sounds : base;
     r->wav_path = outputs_path(copy, sounds, OUTPUT_SOUND, NULL, a);
@@ -206,9 +232,14 @@ static struct render *make(const struct scene *s, const char *base, const struct
     r->summary_path = outputs_path(copy, base, OUTPUT_SUMMARY, NULL, a);
     for (int k = 0; k < STEMS; k++)
         r->stem_paths[k] = outputs_path(copy, sounds, OUTPUT_STEM + k, NULL, a);
-    if (render_open(r, e) && render_blocks(r, e) && render_finish(r, start, e) && render_finalise(r, e) &&
-        inputs_still(&r->inputs, e))
-        return r;
+    bool ok = render_open(r, e) && render_blocks(r, e) && render_finish(r, start, e);
+    /* Whatever can fail is done for every file before the first takes its name: a full disk leaves all earlier results
+       or none. */
+    for (struct render_file *f = report->files; ok && f < report->files + report->n_files; f++) {
+        ok = f->file ? outfile_finalise(f->file, e) : track_finalise(f->track, e);
+        if (ok) f->temporary = f->file ? f->file->temporary : wav_temporary(f->track->wav);
+    }
+    if (ok && inputs_still(&r->inputs, e)) return r;
     render_drop(r);
     return NULL;
 }
@@ -225,10 +256,9 @@ bool render_scene(const struct scene *s, const char *base, struct arena *a, stru
     return r && render_commit(r, e);
 }
 
-struct render_parts render_parts_make(const struct scene *s, const char *base, struct arena *a)
+struct render_parts render_parts_make(const struct scene *s, struct arena *a)
 {
-    struct render_parts p = {
-        .scene = s, .base = base, .arena = a, .parts = ARENA_TAKE(a, struct render_part, s->n_contacts)};
+    struct render_parts p = {.scene = s, .arena = a, .parts = ARENA_TAKE(a, struct render_part, s->n_contacts)};
     for (int i = 0; i < s->n_contacts; i++)
         p.parts[i].table.fd = p.parts[i].listing.fd = -1;
     return p;
@@ -290,44 +320,20 @@ bool render_parts_agree(const struct render_parts *p, struct err *e)
     return true;
 }
 
-bool render_parts_open(struct render_parts *p, struct err *e)
-{
-    for (int i = 0; i < p->scene->n_contacts; i++) {
-        struct render_part *one = &p->parts[i];
-        unsigned targets = one->plan.targets;
-        one->table_path = outputs_path(p->scene, p->base, OUTPUT_TABLE, one->plan.contact, p->arena);
-        one->listing_path = outputs_path(p->scene, p->base, OUTPUT_LISTING, one->plan.contact, p->arena);
-        if ((targets & ITEM_BIT(ITEM_TABLE) && !outfile_open(&one->table, one->table_path, e)) ||
-            (targets & ITEM_BIT(ITEM_LISTING) && !outfile_open(&one->listing, one->listing_path, e)))
-            return false;
-        one->rows.stream = one->table.stream;
-        one->impacts.stream = one->listing.stream;
-        if (!targets) continue;
-        if (!run_open(&one->run, &one->plan, p->scene, &(struct run_sinks){&one->rows, &one->impacts}, e)) return false;
-        one->open = true;
-    }
-    return render_parts_agree(p, e);
-}
-
-/* Frames of a contact's motion; of a muted one, which has no run, too. */
-static bool part_frames(const struct render_parts *p, const struct render_part *one, long *frames, struct err *e)
-{
-    struct trajectory tr;
-    *frames = one->open ? one->run.board.moving : 0;
-    if (one->open) return true;
-    if (!trajectory_make(&one->plan.contact->motion, trajectory_seed(p->scene, one->plan.contact), p->arena, &tr, e))
-        return err_at(e, "contact '%s'", one->plan.contact->name);
-    *frames = trajectory_frames(&tr, p->scene->output.sample_rate);
-    return true;
-}
-
 bool render_parts_length(const struct render_parts *p, struct render_length *length, struct err *e)
 {
     double tail = p->scene->output.tail, ring = 0, rate = p->scene->output.sample_rate;
-    long end = 0, moving;
+    long end = 0;
     for (int i = 0; i < p->scene->n_contacts; i++) {
-        struct render_part *one = &p->parts[i];
-        if (!part_frames(p, one, &moving, e)) return false;
+        const struct render_part *one = &p->parts[i];
+        const struct contact *c = one->plan.contact;
+        struct trajectory tr;
+        long moving = one->open ? one->run.board.moving : 0;
+        if (!one->open) { /* a muted one has no run */
+            if (!trajectory_make(&c->motion, trajectory_seed(p->scene, c), p->arena, &tr, e))
+                return err_at(e, "contact '%s'", c->name);
+            moving = trajectory_frames(&tr, rate);
+        }
         end = one->start + moving > end ? one->start + moving : end;
         if (one->open) ring = fmax(ring, one->run.board.ring);
     }
@@ -336,53 +342,6 @@ bool render_parts_length(const struct render_parts *p, struct render_length *len
         end + (p->asked & ITEM_BIT(ITEM_SOUND) ? (long)ceil((isnan(tail) ? fmin(ring, 60) : tail) * rate) : 0);
     length->frames = !isnan(p->scene->output.duration) ? (long)rint(p->scene->output.duration * rate) : length->natural;
     return true;
-}
-
-bool render_parts_run(struct render_parts *p, long to, struct err *e)
-{
-    for (int i = 0; i < p->scene->n_contacts; i++) {
-        struct render_part *one = &p->parts[i];
-        if (one->open && to > one->start && !run_block(&one->run, to - one->start, e)) return false;
-    }
-    return true;
-}
-
-static void part_sum(const struct render_part *p, enum item item, const long range[2], double *sum)
-{
-    long begin = range[0] > p->start ? range[0] - p->start : 0, end = range[1] - p->start;
-    bool body = item == ITEM_SURFACE_SOUND || item == ITEM_SCRAPER_SOUND;
-    if (end <= begin || !p->open || !(p->plan.targets & ITEM_BIT(item))) return;
-    const double *x = board_at(&p->run.board, item, begin);
-    double gain = body ? p->plan.contact->gain : 1;
-    int width = p->run.board.signals[item].per_frame;
-    sum += (begin + p->start - range[0]) * width;
-    scaled_add(sum, gain, x, (end - begin) * width);
-}
-
-void render_parts_sum(const struct render_parts *p, long from, long to, double *sum)
-{
-    memset(sum, 0, (size_t)((to - from) * listener_channels(&p->scene->output)) * sizeof *sum);
-    for (int i = 0; i < p->scene->n_contacts; i++)
-        part_sum(&p->parts[i], ITEM_SOUND, (const long[2]){from, to}, sum);
-}
-
-void render_parts_stem(const struct render_parts *p, enum stem stem, long from, long to, double *sum)
-{
-    static const enum item items[STEMS] = {ITEM_FORCE, ITEM_SURFACE_SOUND, ITEM_SCRAPER_SOUND, ITEM_SCRAPER_SOUND};
-    memset(sum, 0, (size_t)((to - from) * stems_channels(&p->scene->output, stem)) * sizeof *sum);
-    for (int i = 0; i < p->scene->n_contacts; i++) { /* what touches the surface is of one stem or of the other */
-        bool rolls = contact_rolls(&p->scene->contacts[i]);
-        if (stem != (rolls ? STEM_SCRAPER : STEM_BALL))
-            part_sum(&p->parts[i], items[stem], (const long[2]){from, to}, sum);
-    }
-}
-
-const struct run *const *render_parts_runs(const struct render_parts *p)
-{
-    const struct run **runs = ARENA_TAKE(p->arena, const struct run *, p->scene->n_contacts);
-    for (int i = 0; i < p->scene->n_contacts; i++)
-        runs[i] = p->parts[i].open ? &p->parts[i].run : NULL;
-    return runs;
 }
 
 void render_parts_close(struct render_parts *p)

@@ -25,23 +25,18 @@ struct render_part { /* one contact at work */
 
 struct render_parts {
     const struct scene *scene;
-    const char *base;
     struct arena *arena;
     struct render_part *parts; /* [scene->n_contacts] */
     unsigned asked;            /* items that some contact is asked for */
 };
 
 /* Nothing open yet. */
-struct render_parts render_parts_make(const struct scene *s, const char *base, struct arena *a);
+struct render_parts render_parts_make(const struct scene *s, struct arena *a);
 
 /* Makes all plans. ERR_SCENE: of the plans; nothing is left to render. */
 bool render_parts_plan(struct render_parts *p, struct err *e);
 
-/* Opens the tables, so that the stages can write their headers, then the stages; all that is summed is of one quantity.
- */
-bool render_parts_open(struct render_parts *p, struct err *e);
-
-/* Once all are open (render_parts_open asks too): can the contacts' sounds be summed, and does the level fit what they
+/* Once all are open: can the contacts' sounds be summed, and does the level fit what they
  * are? ERR_SCENE */
 bool render_parts_agree(const struct render_parts *p, struct err *e);
 
@@ -50,18 +45,6 @@ int render_parts_quantity(const struct render_parts *p);
 
 /* Once all are open. ERR_SCENE and what making a motion gives. */
 bool render_parts_length(const struct render_parts *p, struct render_length *length, struct err *e);
-
-/* Runs every contact up to frame `to` of the scene. */
-bool render_parts_run(struct render_parts *p, long to, struct err *e);
-
-/* The contacts' sound for frames [from, to), just run, interleaved. */
-void render_parts_sum(const struct render_parts *p, long from, long to, double *sum);
-
-/* The contacts' sum of a stem likewise; a body's sound times the contact's gain, like the sound itself. */
-void render_parts_stem(const struct render_parts *p, enum stem stem, long from, long to, double *sum);
-
-/* The runs, [n_contacts]; NULL where nothing runs. */
-const struct run *const *render_parts_runs(const struct render_parts *p);
 
 void render_parts_close(struct render_parts *p);
 

@@ -17,17 +17,13 @@
 #include "num/lanes.h"
 #include "response/listener.h"
 
-unsigned run_reads(const struct stage_run *r)
+/* The set of items that a stage reads. */
+static unsigned run_reads(const struct stage_run *r)
 {
     return r->stage->needs | r->stage->takes | (r->stage->asks ? r->stage->asks(r->contact, r->scene) : 0);
 }
 
-static int item_per_frame(const struct board *b, enum item item)
-{
-    if (item == ITEM_MOTION || item == ITEM_SURFACE || item == ITEM_TABLE || item == ITEM_LISTING) return 0;
-    if (item == ITEM_ROLL) return ROLL_VALUES;
-    return item < ITEM_FORCE ? b->over : item == ITEM_FORCE ? 1 : b->channels;
-}
+#define NO_SIGNALS (ITEM_BIT(ITEM_MOTION) | ITEM_BIT(ITEM_SURFACE) | ITEM_BIT(ITEM_TABLE) | ITEM_BIT(ITEM_LISTING))
 
 /* Frames before its own that the slowest reader looks back to. */
 static long run_behind(const struct run *r, enum item item)
@@ -44,7 +40,13 @@ static void run_signal(struct run *r, enum item item)
 {
     struct signal *s = &r->board.signals[item];
     long lead = 0, behind = run_behind(r, item);
-    int per_frame = item_per_frame(&r->board, item);
+    int per_frame = r->board.channels;
+    if (ITEM_BIT(item) & NO_SIGNALS)
+        per_frame = 0;
+    else if (item == ITEM_ROLL)
+        per_frame = ROLL_VALUES;
+    else if (item <= ITEM_FORCE)
+        per_frame = item < ITEM_FORCE ? r->board.over : 1;
     if (!(r->plan.alive & ITEM_BIT(item)) || !per_frame) return;
     for (int i = 0; i < r->n; i++)
         if (r->stages[i].stage->gives & ITEM_BIT(item) && r->stages[i].offset > lead) lead = r->stages[i].offset;
@@ -87,7 +89,6 @@ static bool run_open_stages(struct run *r, struct err *e)
    in place and says that zeros follow relies on what it no longer touches being zero: the givers before it stop with
    it. Measured on a glass plate scraped at draft, 28 s after the motion: 235 instructions a sample without limits, 121
    with them. */
-#define NO_SIGNALS (ITEM_BIT(ITEM_MOTION) | ITEM_BIT(ITEM_SURFACE) | ITEM_BIT(ITEM_TABLE) | ITEM_BIT(ITEM_LISTING))
 
 static long later(long frame, long by) { return frame > LONG_MAX - by ? LONG_MAX : frame + by; }
 
@@ -120,17 +121,6 @@ static long wanted_until(const struct run *r, int i)
     return until;
 }
 
-/* Stops what gives the same before a stage that makes zeros of it. */
-static void stop_givers(struct run *r, int refiner)
-{
-    const struct stage_run *by = &r->stages[refiner];
-    unsigned refined = by->stage->gives & by->stage->needs & ~NO_SIGNALS;
-    if (by->stage->spreads || by->limit != by->ends) return;
-    assert(!refined || by->ends == LONG_MAX || by->ahead == 0);
-    for (int i = 0; i < refiner; i++)
-        if (r->stages[i].stage->gives & refined && by->limit < r->stages[i].limit) r->stages[i].limit = by->limit;
-}
-
 /* Sets the `limit` of all stages, which are open and have their leads (offset): the frame from which what a stage
    gives is zero, or is read by nobody. The runner makes zeros of it there. LONG_MAX: none is known. */
 static void run_limits(struct run *r)
@@ -138,8 +128,13 @@ static void run_limits(struct run *r)
     find_zeros(r);
     for (int i = r->n - 1; i >= 0; i--) {
         long until = wanted_until(r, i);
-        if (until < r->stages[i].limit) r->stages[i].limit = until;
-        stop_givers(r, i);
+        struct stage_run *by = &r->stages[i];
+        if (until < by->limit) by->limit = until;
+        unsigned refined = by->stage->gives & by->stage->needs & ~NO_SIGNALS;
+        if (by->stage->spreads || by->limit != by->ends) continue;
+        assert(!refined || by->ends == LONG_MAX || by->ahead == 0);
+        for (int k = 0; k < i; k++) /* what gives the same before one that makes zeros of it stops */
+            if (r->stages[k].stage->gives & refined && by->limit < r->stages[k].limit) r->stages[k].limit = by->limit;
     }
 }
 

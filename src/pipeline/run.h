@@ -30,9 +30,6 @@ bool run_block(struct run *r, long to, struct err *e);
    be. */
 void run_skip(struct run *r, long frame);
 
-/* The set of items that a stage reads. */
-unsigned run_reads(const struct stage_run *r);
-
 void run_close(struct run *r);
 
 #endif

@@ -193,18 +193,6 @@ static void choose(struct segments *x, const struct trajectory *tr, double first
     stretch_add(x, 0, some, (double)x->moving / (double)some / (2 * TAPERED));
 }
 
-/* One power for all, or of a response that moves, that in the middle of each third of the stretches. */
-static bool hear(const struct scene *s, const struct contact *c, bool moves, struct segments *x, struct err *e)
-{
-    int n = moves && x->n >= SEGMENTS_PLACES ? SEGMENTS_PLACES : 1;
-    for (int k = 0; k < n; k++)
-        if (!audible_power(s, c, x->stretch[(2 * k + 1) * x->n / (2 * n)].place, x->power + k * AUDIBLE_BINS, e))
-            return false;
-    for (int i = 0; i < x->n; i++)
-        x->stretch[i].weighting = i * n / x->n;
-    return true;
-}
-
 bool segments_make(const struct scene *s, const struct contact *c, double first, bool moves, struct arena *a,
                    struct segments *x, struct err *e)
 {
@@ -235,7 +223,14 @@ bool segments_make(const struct scene *s, const struct contact *c, double first,
         x->frames += at->frames;
     }
     x->drift = c->contact.model == CONTACT_ROLL_COUPLED ? fmax(1, (double)x->moving / (double)x->frames) : 1;
-    if (!plan_make(stages_table, &x->contact, &x->scene, a, &x->plan, e) || !hear(s, c, moves, x, e)) return false;
+    if (!plan_make(stages_table, &x->contact, &x->scene, a, &x->plan, e)) return false;
+    /* One power for all, or of a response that moves, that in the middle of each third of the stretches. */
+    int n = moves && x->n >= SEGMENTS_PLACES ? SEGMENTS_PLACES : 1;
+    for (int k = 0; k < n; k++)
+        if (!audible_power(s, c, x->stretch[(2 * k + 1) * x->n / (2 * n)].place, x->power + k * AUDIBLE_BINS, e))
+            return false;
+    for (int i = 0; i < x->n; i++)
+        x->stretch[i].weighting = i * n / x->n;
     x->knobs = plan_knobs(&x->plan);
     return true;
 }

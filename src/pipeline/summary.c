@@ -50,18 +50,6 @@ static void reports_drop(const struct stage_report *all, int n)
 
 static const char *times(long n, struct arena *a) { return n == 1 ? "once" : arena_format(a, "%ld times", n); }
 
-static const char *rolled_contacts(const struct roll_report *o, struct arena *a)
-{
-    double share = o->time > 0 ? 100 * o->contact / o->time : 0;
-    const char *flights = o->steps ? arena_format(a, " (for longer than an audio sample %s)",
-                                                  o->bounces > 0 ? times(o->bounces, a) : "never")
-                                   : "";
-    if (o->lift_offs == 0)
-        return o->contact > 0 ? arena_format(a, "in contact %.4g %% of the time, never lifts off", share)
-                              : "never in contact";
-    return arena_format(a, "in contact %.4g %% of the time, lifts off %s%s", share, times(o->lift_offs, a), flights);
-}
-
 /* Of the coupled model: how long contacts are, and how well energy is kept. */
 static const char *rolled_steps(const struct roll_report *o, struct arena *a)
 {
@@ -82,7 +70,17 @@ static const char *rolled(const struct roll_report *o, struct arena *a)
         o->rest > 0 ? arena_format(a, "; stiffness %.4g N/m^1.5, %.3g m deep at rest", o->stiffness, o->rest) : "";
     const char *rings =
         o->resonance > 0 ? arena_format(a, "; on its contact it resonates at %.3g Hz", o->resonance) : "";
-    return arena_format(a, "%s%s%s%s", rolled_contacts(o, a), rests, rolled_steps(o, a), rings);
+    double share = o->time > 0 ? 100 * o->contact / o->time : 0;
+    const char *touches =
+        o->contact > 0 || o->lift_offs ? arena_format(a, "in contact %.4g %% of the time", share) : "never in contact";
+    if (o->lift_offs)
+        touches = arena_format(a, "%s, lifts off %s", touches, times(o->lift_offs, a));
+    else if (o->contact > 0)
+        touches = arena_format(a, "%s, never lifts off", touches);
+    if (o->lift_offs && o->steps)
+        touches = arena_format(a, "%s (for longer than an audio sample %s)", touches,
+                               o->bounces > 0 ? times(o->bounces, a) : "never");
+    return arena_format(a, "%s%s%s%s", touches, rests, rolled_steps(o, a), rings);
 }
 
 /* ------------------------------------------------------------------ notes */
@@ -173,19 +171,6 @@ static void warn_cut(const struct scene *s, struct render_report *report, struct
              fmax(0, -decibel(o->end / o->before_ramps))));
 }
 
-/* Samples that wait for the set's gain are none of a file yet: batch/stimulus.c tells of those that will be. */
-static void warn_written(const struct scene *s, struct render_report *report, struct arena *a)
-{
-    bool later = s->output.level.later;
-    for (int i = 0; i < report->n_files; i++) {
-        const struct render_file *f = &report->files[i];
-        const char *silent = summary_silent(s, f, report->sound.gain * report->sound.peak, a),
-                   *beyond = later ? NULL : summary_beyond(s, f, a);
-        if (silent) warn(report, silent);
-        if (beyond) warn(report, beyond);
-    }
-}
-
 void summary_warnings(const struct scene *s, const struct run *const *runs, struct render_report *report,
                       struct arena *a)
 {
@@ -204,7 +189,14 @@ void summary_warnings(const struct scene *s, const struct run *const *runs, stru
                                       "slowly, and less evenly, than accuracy.error counts on: measure them "
                                       "(--verify)",
                                       s->contacts[i].name));
-    warn_written(s, report, a);
+    for (int i = 0; i < report->n_files; i++) {
+        const struct render_file *f = &report->files[i];
+        /* Samples that wait for the set's gain are none of a file yet: batch/stimulus.c tells of those that will be. */
+        const char *silent = summary_silent(s, f, report->sound.gain * report->sound.peak, a),
+                   *beyond = s->output.level.later ? NULL : summary_beyond(s, f, a);
+        if (silent) warn(report, silent);
+        if (beyond) warn(report, beyond);
+    }
     if (report->sounds && report->sound.ramp < s->output.ramp - 0.5 / s->output.sample_rate)
         warn(report,
              arena_format(a,
@@ -237,28 +229,6 @@ static json_t *sound_json(const struct scene *s, const struct render_report *rep
     return sound;
 }
 
-static json_t *stages_json(const struct run *run, double cpu)
-{
-    json_t *all = json_array();
-    for (int i = 0; i < run->n; i++) {
-        const struct stage_run *st = &run->stages[i];
-        json_array_append_new(all, json_value_object("stage:s cpu_s:n share:n blocks:l bytes:l", st->stage->name,
-                                                     st->seconds, cpu > 0 ? st->seconds / cpu : 0.0, (long)st->blocks,
-                                                     (long)st->bytes));
-    }
-    return all;
-}
-
-/* How a surface that rings by modes is convolved. */
-static json_t *response_json(const struct ring_choice *c, const struct scene *s)
-{
-    static const char *const readings[] = {"auto", "fixed", "launch", "glide", "readout"};
-    json_t *r = json_value_object("moving:s modes:i", readings[c->reading], c->modes.n);
-    if (c->moves && c->engine != RING_RESONATORS)
-        json_value_set(r, "hop_s:n", ring_choice_hop(c, &s->accuracy) / s->output.sample_rate);
-    return r;
-}
-
 static json_t *roll_json(const struct roll_report *o)
 {
     json_t *r = json_value_object("contact_share:n contact_s:n lift_offs:l stiffness:n rest_penetration_m:n",
@@ -281,8 +251,21 @@ static json_t *contact_json(const struct run *run, const struct scene *s, double
     const struct board *b = &run->board;
     const struct ring_choice *choice = run->plan.contact->surface.response.choice;
     json_t *c = json_value_object("name:s lifted_off_s:n", run->plan.contact->name, b->lifted);
-    if (!isnan(cpu)) json_object_set_new(c, "stages", stages_json(run, cpu));
-    if (choice && !choice->recorded) json_object_set_new(c, "response", response_json(choice, s));
+    json_t *stages = isnan(cpu) ? NULL : json_array();
+    for (int i = 0; stages && i < run->n; i++) {
+        const struct stage_run *st = &run->stages[i];
+        json_array_append_new(stages, json_value_object("stage:s cpu_s:n share:n blocks:l bytes:l", st->stage->name,
+                                                        st->seconds, cpu > 0 ? st->seconds / cpu : 0.0,
+                                                        (long)st->blocks, (long)st->bytes));
+    }
+    if (stages) json_object_set_new(c, "stages", stages);
+    if (choice && !choice->recorded) { /* how a surface that rings by modes is convolved */
+        static const char *const readings[] = {"auto", "fixed", "launch", "glide", "readout"};
+        json_t *r = json_value_object("moving:s modes:i", readings[choice->reading], choice->modes.n);
+        if (choice->moves && choice->engine != RING_RESONATORS)
+            json_value_set(r, "hop_s:n", ring_choice_hop(choice, &s->accuracy) / s->output.sample_rate);
+        json_object_set_new(c, "response", r);
+    }
     if (b->rolls) json_object_set_new(c, "roll", roll_json(&b->roll));
     struct stage_report all[REPORTS];
     int n = reports_make(run, a, all);
@@ -307,18 +290,6 @@ static json_t *files_json(const struct render_report *report)
     return all;
 }
 
-/* What an earlier render wrote under these names and this one does not, so that a later one may replace it. */
-static void set_older(json_t *whole, const struct render_report *report, struct arena *a)
-{
-    for (int i = 0; i < report->n_files; i++) {
-        json_t *older = strcmp(report->files[i].kind, "summary")
-                            ? NULL
-                            : mark_older(report->files[i].path, json_object_get(whole, "files"), a);
-        if (json_array_size(older)) json_object_set(whole, "older", older);
-        json_decref(older);
-    }
-}
-
 /* What accuracy.error asked for, and what the knobs that leave an error are predicted to leave. */
 static json_t *error_budget_json(const struct error_budget *p, bool times)
 {
@@ -330,13 +301,6 @@ static json_t *error_budget_json(const struct error_budget *p, bool times)
     json_t *j = json_value_object("asked_db:n predicted_db:n chosen:b by:o", p->error, p->predicted, p->chosen, by);
     if (times) json_value_set(j, "cpu_s:n", p->cpu);
     return j;
-}
-
-static void add_times(json_t *whole, const struct render_report *report, double duration, struct arena *a)
-{
-    json_value_set(whole, "wall_s:n cpu_s:n real_time_factor:n", report->seconds, report->cpu,
-                   report->cpu > 0 ? duration / report->cpu : HUGE_VAL);
-    set_older(whole, report, a);
 }
 
 const char *summary_text(const struct scene *s, const struct run *const *runs, const struct render_report *report,
@@ -351,7 +315,17 @@ const char *summary_text(const struct scene *s, const struct run *const *runs, c
     json_t *whole = json_value_object("scene:s frames:l sample_rate_hz:n duration_s:n contacts:o warnings:o files:o",
                                       s->title ? s->title : "", (long)report->frames, s->output.sample_rate, duration,
                                       contacts, remarks, files_json(report));
-    if (times) add_times(whole, report, duration, a);
+    if (times)
+        json_value_set(whole, "wall_s:n cpu_s:n real_time_factor:n", report->seconds, report->cpu,
+                       report->cpu > 0 ? duration / report->cpu : HUGE_VAL);
+    for (int i = 0; times && i < report->n_files; i++) {
+        /* What an earlier render wrote under these names and this one does not, so that a later one may replace it. */
+        json_t *older = strcmp(report->files[i].kind, "summary")
+                            ? NULL
+                            : mark_older(report->files[i].path, json_object_get(whole, "files"), a);
+        if (json_array_size(older)) json_object_set(whole, "older", older);
+        json_decref(older);
+    }
     if (report->error_budget.asked)
         json_object_set_new(whole, "accuracy", error_budget_json(&report->error_budget, times));
     if (report->sounds) json_object_set_new(whole, "sound", sound_json(s, report));

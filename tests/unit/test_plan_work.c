@@ -47,7 +47,7 @@ static void planned(const char *file)
     struct scene s;
     struct err e = {0};
     ck_assert_msg(read_it(file, NULL, NULL, 0, a, &s), "%s", file);
-    struct render_parts p = render_parts_make(&s, "", a);
+    struct render_parts p = render_parts_make(&s, a);
     ck_assert_msg(render_parts_plan(&p, &e), "%s: %s", file, e.text);
     for (int i = 0; i < s.n_contacts; i++) {
         double whole = 0;
