@@ -81,17 +81,6 @@ static struct span line_of(const struct diag_source *source, int line)
     return (struct span){start, (size_t)(s - start)};
 }
 
-/* A long line is shown from a little before the column; *column is moved with it. */
-static struct span line_window(struct span line, int *column)
-{
-    size_t n = text_utf8_count(line.start, line.size);
-    if (n <= LINE_SHOWN) return line;
-    size_t skip = *column > LINE_BEFORE ? (size_t)(*column - LINE_BEFORE) : 0;
-    size_t from = bytes_of(line.start, line.size, skip);
-    *column -= (int)skip;
-    return (struct span){line.start + from, bytes_of(line.start + from, line.size - from, LINE_SHOWN)};
-}
-
 static void show_caret(FILE *out, struct span line, int column, int width)
 {
     size_t before = bytes_of(line.start, line.size, (size_t)(column - 1)), rest = line.size - before;
@@ -113,7 +102,14 @@ static void show_caret(FILE *out, struct span line, int column, int width)
 static void show_line(FILE *out, const struct diag_place *at)
 {
     int column = at->column < 1 ? 1 : at->column;
-    struct span line = line_window(line_of(at->source, at->line), &column);
+    struct span line = line_of(at->source, at->line);
+    if (text_utf8_count(line.start, line.size) > LINE_SHOWN) { /* a long one from a little before the column */
+        size_t skip = column > LINE_BEFORE ? (size_t)(column - LINE_BEFORE) : 0;
+        size_t from = bytes_of(line.start, line.size, skip);
+        column -= (int)skip;
+        line.start += from;
+        line.size = bytes_of(line.start, line.size - from, LINE_SHOWN);
+    }
     if (at->source->option)
         fputs("      | ", out);
     else

@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "base/text.h"
@@ -53,21 +54,15 @@ static bool as_json;
 
 void err_last_words_as_json(void) { as_json = true; }
 
-/* The text of a JSON string; what is not plain ASCII becomes ?. */
-static void escaped(const char *text, char *to, size_t size)
-{
-    size_t n = 0;
-    for (; *text && n + 3 < size; text++) {
-        if (*text == '"' || *text == '\\') to[n++] = '\\';
-        to[n++] = (char)(*text >= ' ' && *text <= '~' ? *text : '?');
-    }
-    to[n] = '\0';
-}
-
 void err_last_words(enum err_kind kind, const char *text)
 {
     char line[LONGEST], inner[LONGEST / 2];
-    escaped(text, inner, sizeof inner);
+    size_t m = 0; /* the text of a JSON string; what is not plain ASCII becomes ? */
+    for (const char *s = text; *s && m + 3 < sizeof inner; s++) {
+        if (*s == '"' || *s == '\\') inner[m++] = '\\';
+        inner[m++] = (char)(*s >= ' ' && *s <= '~' ? *s : '?');
+    }
+    inner[m] = '\0';
     const char *anew = isatty(STDERR_FILENO) ? "\r\033[K" : ""; /* where progress is shown */
     if (as_json)
         snprintf(line, sizeof line,
@@ -76,9 +71,7 @@ void err_last_words(enum err_kind kind, const char *text)
                  inner, kind);
     else
         snprintf(line, sizeof line, "%srasp: error: %.900s\n", anew, text);
-    size_t n = 0;
-    while (line[n])
-        n++;
+
     struct pollfd ready = {.fd = STDERR_FILENO, .events = POLLOUT};
-    if (poll(&ready, 1, PATIENCE) > 0 && write(STDERR_FILENO, line, n) < 0) return;
+    if (poll(&ready, 1, PATIENCE) > 0 && write(STDERR_FILENO, line, strlen(line)) < 0) return;
 }

@@ -90,22 +90,20 @@ static bool set_target(struct outfile *o, const char *target, struct err *e)
     return true;
 }
 
-/* Of ENOENT: there is no folder, or one in which there can be no such file, as in /proc. */
-static const char *missing(const struct outfile *o)
-{
-    char folder[sizeof o->target + 2];
-    struct stat s;
-    snprintf(folder, sizeof folder, "%.*s.", folder_length(o->target), o->target);
-    return stat(folder, &s) == 0 ? "its folder is none in which files can be made: choose another"
-                                 : "its folder does not exist";
-}
-
 static bool open_one(struct outfile *o, const char *target, bool unnamed, struct err *e)
 {
     *o = (struct outfile){.fd = -1};
     if (set_target(o, target, e) && ((unnamed && open_unnamed(o)) || try_registered(o, try_hidden))) return true;
-    err_set(e, err_system(ERR_CREATE), "%s: cannot be created: %s", target,
-            errno == ENOENT ? missing(o) : strerror(errno));
+    const char *why = strerror(errno);
+    if (errno == ENOENT) { /* there is no folder, or one in which there can be no such file, as in /proc */
+        char folder[sizeof o->target + 2];
+        struct stat s;
+        snprintf(folder, sizeof folder, "%.*s.", folder_length(o->target), o->target);
+        why = stat(folder, &s) == 0 ? "its folder is none in which files can be made: choose another"
+                                    : "its folder does not exist";
+        errno = ENOENT;
+    }
+    err_set(e, err_system(ERR_CREATE), "%s: cannot be created: %s", target, why);
     o->target[0] = '\0';
     return false;
 }

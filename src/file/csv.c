@@ -208,20 +208,6 @@ const char *csv_comment(const struct csv *t, const char *key)
     return NULL;
 }
 
-void csv_put_text(FILE *f, const char *text)
-{
-    if (!text[strcspn(text, ",\"\r\n#")]) {
-        fputs(text, f);
-        return;
-    }
-    fputc('"', f);
-    for (; *text; text++) {
-        if (*text == '"') fputc('"', f);
-        fputc(*text, f);
-    }
-    fputc('"', f);
-}
-
 void csv_put_number(FILE *f, double value)
 {
     char text[DECIMAL_ROOM];

@@ -49,9 +49,7 @@ bool csv_number(const struct csv *t, size_t row, int column, double *value, stru
 /* The value of a comment, or NULL. */
 const char *csv_comment(const struct csv *t, const char *key);
 
-/* Writing: a cell of text, quoted where that is needed, and one of a number (%.9g; "nan", "inf"); the caller puts the
- * commas. */
-void csv_put_text(FILE *f, const char *text);
+/* Writes a cell of a number (%.9g; "nan", "inf"); the caller puts the commas. */
 
 void csv_put_number(FILE *f, double value);
 

@@ -116,24 +116,20 @@ static struct sums level_sums(const struct heightfile *h)
     return s;
 }
 
-/* Solves [n u v; u uu uv; v uv vv] x = [z zu zv]; a pivot that is nothing beside its diagonal is a direction without
- * extent. */
-static void level_solve(const struct sums *s, double x[3])
-{
-    double l10 = s->u / s->n, l20 = s->v / s->n, d1 = s->uu - l10 * s->u, b1 = s->zu - l10 * s->z;
-    bool wide = d1 > 1e-9 * (s->uu + 1);
-    double c21 = s->uv - l10 * s->v, l21 = wide ? c21 / d1 : 0;
-    double d2 = s->vv - l20 * s->v - l21 * c21, b2 = s->zv - l20 * s->z - l21 * b1;
-    x[2] = d2 > 1e-9 * (s->vv + 1) ? b2 / d2 : 0;
-    x[1] = wide ? b1 / d1 - l21 * x[2] : 0;
-    x[0] = s->z / s->n - l10 * x[1] - l20 * x[2];
-}
-
 struct heightfile_plane heightfile_level_fit(const struct heightfile *h)
 {
     struct sums s = level_sums(h);
     double x[3] = {0};
-    if (s.n > 0) level_solve(&s, x);
+    if (s.n > 0) { /* [n u v; u uu uv; v uv vv] x = [z zu zv]; a pivot that is nothing beside its diagonal is a
+                      direction without extent */
+        double l10 = s.u / s.n, l20 = s.v / s.n, d1 = s.uu - l10 * s.u, b1 = s.zu - l10 * s.z;
+        bool wide = d1 > 1e-9 * (s.uu + 1);
+        double c21 = s.uv - l10 * s.v, l21 = wide ? c21 / d1 : 0;
+        double d2 = s.vv - l20 * s.v - l21 * c21, b2 = s.zv - l20 * s.z - l21 * b1;
+        x[2] = d2 > 1e-9 * (s.vv + 1) ? b2 / d2 : 0;
+        x[1] = wide ? b1 / d1 - l21 * x[2] : 0;
+        x[0] = s.z / s.n - l10 * x[1] - l20 * x[2];
+    }
     return (struct heightfile_plane){x[0], isnan(h->pitch_x) ? x[1] : x[1] / h->pitch_x,
                                      isnan(h->pitch_y) ? x[2] : x[2] / h->pitch_y};
 }
@@ -261,21 +257,6 @@ static void extremes(const struct heightfile *h, double *low, double *high)
     }
 }
 
-/* A profile's gaps are straight lines: no need of steps. */
-static void fill_profile(struct heightfile *h)
-{
-    size_t n = h->columns;
-    for (size_t from = 0, to; from < n; from = to + 1) {
-        for (to = from; to < n && isnan(h->z[to]); to++)
-            ;
-        double before = from > 0 ? h->z[from - 1] : h->z[to], after = to < n ? h->z[to] : before;
-        for (size_t i = from; i < to; i++) {
-            double share = (double)(i - from + 1) / (double)(to - from + 1);
-            h->z[i] = before * (1 - share) + after * share;
-        }
-    }
-}
-
 static bool fill_map(const char *path, struct heightfile *h, struct err *e)
 {
     struct arena *own = arena_open();
@@ -307,10 +288,16 @@ bool heightfile_fill(const char *path, struct heightfile *h, struct err *e)
                        "%s: %zu of %zu points are missing: too many to be filled (more than half): cut out a part that "
                        "has them (rasp surface convert --crop), or mend the file",
                        path, h->holes, n);
-    if (h->rows == 1)
-        fill_profile(h);
-    else if (!fill_map(path, h, e))
-        return false;
+    if (h->rows > 1 && !fill_map(path, h, e)) return false;
+    for (size_t from = 0, to; h->rows == 1 && from < n; from = to + 1) { /* a profile's gaps are straight lines */
+        for (to = from; to < n && isnan(h->z[to]); to++)
+            ;
+        double before = from > 0 ? h->z[from - 1] : h->z[to], after = to < n ? h->z[to] : before;
+        for (size_t i = from; i < to; i++) {
+            double share = (double)(i - from + 1) / (double)(to - from + 1);
+            h->z[i] = before * (1 - share) + after * share;
+        }
+    }
     h->filled = h->holes;
     h->holes = 0;
     return true;

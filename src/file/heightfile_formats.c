@@ -314,70 +314,55 @@ bool heightfile_formats_gsf_read(const char *path, const struct bytes *b, struct
 /* Heights from NPY (npy.h): an array of one or two dimensions, of plain numbers. The data must fill the rest of the
  * file exactly. */
 
-struct npy_heights {
-    const char *path, *at, *start, *end; /* of the file's bytes; at .. end: the numbers */
-    struct npy head;
-    struct err *e;
-};
-
 static const struct npy_type {
     char name[3];
     size_t size;
     int bits;
 } npy_types[] = {{"f4", 4, 24}, {"f8", 8, 53}, {"i2", 2, 16}, {"u2", 2, 16}, {"i4", 4, 32}};
 
-static const struct npy_type *npy_type(const struct npy_heights *p)
+bool heightfile_formats_npy_read(const char *path, const struct bytes *b, struct arena *a, struct heightfile *h,
+                                 struct err *e)
 {
+    struct npy head;
+    const struct npy_type *type = NULL;
+    if (!npy_read(path, b, a, &head, e)) return false;
+    if (head.n_fields)
+        return err_set(e, ERR_SCENE,
+                       "%s: a table of %zu fields, not an array of plain numbers; save one of them, as in "
+                       "numpy.save(file, t['%s'])",
+                       path, head.n_fields, head.fields[0]);
     for (size_t i = 0; i < sizeof npy_types / sizeof npy_types[0]; i++)
-        if (strchr("<>", p->head.descr[0]) && !strcmp(p->head.descr + 1, npy_types[i].name)) return &npy_types[i];
-    err_set(p->e, ERR_SCENE, "%s: NPY numbers of type '%s'; f4, f8, i2, u2 and i4 are read: save the array as float64",
-            p->path, p->head.descr);
-    return NULL;
-}
-
-static bool npy_data(const struct npy_heights *p, struct arena *a, struct heightfile *h)
-{
-    const struct npy_type *type = npy_type(p);
-    size_t n, bytes, there = (size_t)(p->end - p->at);
-    if (!type) return false;
-    h->rows = p->head.dimensions == 2 ? p->head.shape[0] : 1;
-    h->columns = p->head.shape[p->head.dimensions - 1];
+        if (strchr("<>", head.descr[0]) && !strcmp(head.descr + 1, npy_types[i].name)) type = &npy_types[i];
+    if (!type)
+        return err_set(e, ERR_SCENE,
+                       "%s: NPY numbers of type '%s'; f4, f8, i2, u2 and i4 are read: save the array as float64", path,
+                       head.descr);
+    const char *at = b->at + head.data;
+    size_t n, bytes, there = b->n - head.data;
+    h->pitch_x = h->pitch_y = NAN;
+    h->rows = head.dimensions == 2 ? head.shape[0] : 1;
+    h->columns = head.shape[head.dimensions - 1];
     if (h->rows == 0 || h->columns == 0)
-        return err_set(p->e, ERR_SCENE, "%s: the array is empty (%zu x %zu)", p->path, h->rows, h->columns);
+        return err_set(e, ERR_SCENE, "%s: the array is empty (%zu x %zu)", path, h->rows, h->columns);
     if (__builtin_mul_overflow(h->rows, h->columns, &n) || __builtin_mul_overflow(n, type->size, &bytes) ||
         bytes != there)
-        return err_set(p->e, ERR_SCENE, "%s: %zu x %zu numbers of %zu bytes should follow byte %td, and %zu bytes do",
-                       p->path, h->rows, h->columns, type->size, p->at - p->start, there);
-    if (!heightfile_room(p->path, h, a, p->e)) return false;
+        return err_set(e, ERR_SCENE, "%s: %zu x %zu numbers of %zu bytes should follow byte %zu, and %zu bytes do",
+                       path, h->rows, h->columns, type->size, head.data, there);
+    if (!heightfile_room(path, h, a, e)) return false;
     h->format = "NPY";
     h->bits = type->bits;
     h->step = type->name[0] == 'f' ? 0 : 1;
-    if (!strcmp(p->head.descr, "<f8")) { /* as in memory: rasp is for x86-64 */
-        memcpy(h->z, p->at, bytes);
+    if (!strcmp(head.descr, "<f8")) { /* as in memory: rasp is for x86-64 */
+        memcpy(h->z, at, bytes);
         return true;
     }
     for (size_t i = 0; i < n; i++) {
         char turned[8]; /* of big-endian numbers the bytes are turned round */
         for (size_t k = 0; k < type->size; k++)
-            turned[k] = p->at[i * type->size + (p->head.descr[0] == '>' ? type->size - 1 - k : k)];
+            turned[k] = at[i * type->size + (head.descr[0] == '>' ? type->size - 1 - k : k)];
         h->z[i] = bytes_number(turned, type->name[0], type->size);
     }
     return true;
-}
-
-bool heightfile_formats_npy_read(const char *path, const struct bytes *b, struct arena *a, struct heightfile *h,
-                                 struct err *e)
-{
-    struct npy_heights p = {.path = path, .start = b->at, .end = b->at + b->n, .e = e};
-    if (!npy_read(path, b, a, &p.head, e)) return false;
-    if (p.head.n_fields)
-        return err_set(e, ERR_SCENE,
-                       "%s: a table of %zu fields, not an array of plain numbers; save one of them, as in "
-                       "numpy.save(file, t['%s'])",
-                       path, p.head.n_fields, p.head.fields[0]);
-    p.at = b->at + p.head.data;
-    h->pitch_x = h->pitch_y = NAN;
-    return npy_data(&p, a, h);
 }
 
 /* 16-bit grey PNG through libpng: heights 0 .. 65535, white being the top. Gamma and physical-size chunks are not

@@ -23,14 +23,6 @@ json_t *json_value_shown(const char *s)
     return j;
 }
 
-json_t *json_value_texts(const char *const *list, int n)
-{
-    json_t *all = json_array();
-    for (int i = 0; i < n; i++)
-        json_array_append_new(all, json_value_text(list[i]));
-    return all;
-}
-
 static json_t *value_of(char type, va_list *list)
 {
     switch (type) {
@@ -71,7 +63,11 @@ static json_t *value_of(char type, va_list *list)
         return va_arg(*list, json_t *);
     case 't': {
         const char *const *texts = va_arg(*list, const char *const *);
-        return json_value_texts(texts, va_arg(*list, int));
+        int n = va_arg(*list, int);
+        json_t *all = json_array();
+        for (int i = 0; i < n; i++)
+            json_array_append_new(all, json_value_text(texts[i]));
+        return all;
     }
     case 'a': {
         const double *x = va_arg(*list, const double *);

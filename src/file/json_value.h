@@ -9,7 +9,6 @@
 json_t *json_value_number(double x);     /* null: not finite                     */
 json_t *json_value_text(const char *s);  /* null: NULL, or no UTF-8              */
 json_t *json_value_shown(const char *s); /* as messages show it (text_shown): what is no UTF-8 is \xHH */
-json_t *json_value_texts(const char *const *list, int n);
 
 enum { JSON_VALUE_DEPTH = 8 };
 

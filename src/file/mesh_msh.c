@@ -167,20 +167,6 @@ static int by_surface(const void *p, const void *q)
     return (a->physical > b->physical) - (a->physical < b->physical);
 }
 
-/* The first of those of a surface. */
-static size_t first_of(const struct mesh_msh *g, int64_t surface)
-{
-    size_t low = 0, high = g->belongs;
-    while (low < high) {
-        size_t mid = (low + high) / 2;
-        if (g->to[mid].surface < surface)
-            low = mid + 1;
-        else
-            high = mid;
-    }
-    return low;
-}
-
 static bool skip_reals(struct mesh_source *s, int n, const char *what)
 {
     double x;
@@ -295,7 +281,14 @@ static bool read_element_block(struct mesh_msh *g, size_t *left)
         return false;
     if (n > *left) return mesh_source_bad(s, "a block of %zu elements, and %zu are left", n, *left);
     *left -= n;
-    size_t first = first_of(g, entity), end = first;
+    size_t first = 0, end = g->belongs; /* of those of the surface */
+    while (first < end) {
+        size_t mid = (first + end) / 2;
+        if (g->to[mid].surface < entity)
+            first = mid + 1;
+        else
+            end = mid;
+    }
     while (end < g->belongs && g->to[end].surface == entity)
         end++;
     for (size_t i = 0; i < n; i++)

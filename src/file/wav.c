@@ -57,17 +57,6 @@ static const struct {
                  {32, SF_FORMAT_PCM_32}, {8, SF_FORMAT_PCM_S8},  {8, SF_FORMAT_PCM_U8}};
 enum { WRITTEN = 4, ENCODINGS = sizeof encodings / sizeof encodings[0] }; /* the first of them */
 
-/* A hostile header may claim more than any machine holds; no encoding gets 32768 samples out of a byte. */
-static bool check_info(const char *path, const SF_INFO *i, struct err *e)
-{
-    struct stat s;
-    if (i->frames <= 0) return err_set(e, ERR_SCENE, "%s: has no samples: name another file", path);
-    if (stat(path, &s) != 0 || (double)i->frames * i->channels > 32768.0 * (double)s.st_size)
-        return err_set(e, ERR_SCENE, "%s: its header says %lld frames, more than the file can hold", path,
-                       (long long)i->frames);
-    return true;
-}
-
 static SNDFILE *sound_read(const char *path, SF_INFO *i, struct err *e)
 {
     /* libsndfile shortens a truncated RIFF file without a word: the data chunk's length is held against the file's */
@@ -100,7 +89,12 @@ bool wav_read(const char *path, struct arena *a, struct wav *w, struct err *e)
 {
     SF_INFO i = {0};
     SNDFILE *f = sound_read(path, &i, e);
-    bool ok = f && check_info(path, &i, e);
+    struct stat s;
+    bool ok = f && (i.frames > 0 || err_set(e, ERR_SCENE, "%s: has no samples: name another file", path));
+    /* A hostile header may claim more than any machine holds; no encoding gets 32768 samples out of a byte. */
+    if (ok && (stat(path, &s) != 0 || (double)i.frames * i.channels > 32768.0 * (double)s.st_size))
+        ok = err_set(e, ERR_SCENE, "%s: its header says %lld frames, more than the file can hold", path,
+                     (long long)i.frames);
     if (ok) {
         *w = (struct wav){.rate = i.samplerate, .channels = i.channels, .frames = (size_t)i.frames};
         for (int k = 0; k < ENCODINGS; k++)

@@ -183,13 +183,6 @@ static int column_of(const struct parse *p, const yaml_mark_t *mark)
     return (int)mark->column + 1 + (mark->line == 0 ? p->shift : 0);
 }
 
-static struct diag_place place_of(const struct parse *p, const yaml_mark_t *from, const yaml_mark_t *to)
-{
-    bool one_line = from->line == to->line;
-    int width = one_line && to->column > from->column ? (int)(to->column - from->column) : one_line ? 1 : 0;
-    return (struct diag_place){p->source, (int)from->line + 1, column_of(p, from), width};
-}
-
 static void syntax_error(struct parse *p)
 {
     if (p->parser->error == YAML_MEMORY_ERROR) memory_out("for %.200s", p->source->name);
@@ -213,29 +206,6 @@ static const char *copy_of(struct parse *p, const yaml_char_t *s, size_t size)
     return copy;
 }
 
-static struct event event_of(struct parse *p, const yaml_event_t *from)
-{
-    struct event ev = {.type = from->type, .at = place_of(p, &from->start_mark, &from->end_mark)};
-    const yaml_char_t *anchor = NULL;
-    if (from->type == YAML_SCALAR_EVENT) {
-        ev.text = copy_of(p, from->data.scalar.value, from->data.scalar.length);
-        ev.size = from->data.scalar.length;
-        ev.plain = from->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
-        ev.tagged = from->data.scalar.tag != NULL;
-        anchor = from->data.scalar.anchor;
-    } else if (from->type == YAML_SEQUENCE_START_EVENT) {
-        ev.tagged = from->data.sequence_start.tag != NULL;
-        anchor = from->data.sequence_start.anchor;
-    } else if (from->type == YAML_MAPPING_START_EVENT) {
-        ev.tagged = from->data.mapping_start.tag != NULL;
-        anchor = from->data.mapping_start.anchor;
-    } else if (from->type == YAML_ALIAS_EVENT) {
-        anchor = from->data.alias.anchor;
-    }
-    ev.anchor = anchor ? copy_of(p, anchor, strlen((const char *)anchor)) : NULL;
-    return ev;
-}
-
 static bool event_next(struct parse *p, struct event *ev)
 {
     yaml_event_t raw;
@@ -243,7 +213,26 @@ static bool event_next(struct parse *p, struct event *ev)
         syntax_error(p);
         return false;
     }
-    *ev = event_of(p, &raw);
+    const yaml_mark_t *from = &raw.start_mark, *to = &raw.end_mark;
+    bool one_line = from->line == to->line;
+    int width = one_line && to->column > from->column ? (int)(to->column - from->column) : one_line;
+    *ev = (struct event){.type = raw.type, .at = {p->source, (int)from->line + 1, column_of(p, from), width}};
+    const yaml_char_t *anchor = NULL;
+    if (raw.type == YAML_SCALAR_EVENT) {
+        ev->text = copy_of(p, raw.data.scalar.value, raw.data.scalar.length);
+        ev->size = raw.data.scalar.length;
+        ev->plain = raw.data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
+        ev->tagged = raw.data.scalar.tag != NULL;
+        anchor = raw.data.scalar.anchor;
+    } else if (raw.type == YAML_SEQUENCE_START_EVENT) {
+        ev->tagged = raw.data.sequence_start.tag != NULL;
+        anchor = raw.data.sequence_start.anchor;
+    } else if (raw.type == YAML_MAPPING_START_EVENT) {
+        ev->tagged = raw.data.mapping_start.tag != NULL;
+        anchor = raw.data.mapping_start.anchor;
+    } else if (raw.type == YAML_ALIAS_EVENT)
+        anchor = raw.data.alias.anchor;
+    ev->anchor = anchor ? copy_of(p, anchor, strlen((const char *)anchor)) : NULL;
     yaml_event_delete(&raw);
     return true;
 }
@@ -320,9 +309,12 @@ static struct yaml_node *list_read(struct parse *p, const struct event *start)
     return NULL;
 }
 
-/* Is the pair to be kept? If not, says why. */
-static bool key_good(struct parse *p, const struct yaml_node *map, const struct yaml_node *key)
+static bool pair_read(struct parse *p, struct yaml_node *map, const struct event *key_event)
 {
+    struct yaml_node *key = node_read(p, key_event), *value = NULL;
+    struct event ev;
+    if (!key || !event_next(p, &ev) || !(value = node_read(p, &ev))) return false;
+    if (map->n == KEYS_MAX) return diag_add(p->y->diag, key->at, NULL, "more than %d keys in one map", KEYS_MAX);
     const struct yaml_node *same = key->kind == YAML_SCALAR ? yaml_get(map, key->text) : NULL;
     if (key->kind != YAML_SCALAR)
         diag_add(p->y->diag, key->at, "write a word, a colon and a space", "a key must be a word, not a map or list");
@@ -333,17 +325,7 @@ static bool key_good(struct parse *p, const struct yaml_node *map, const struct 
         diag_add(p->y->diag, key->at, arena_format(p->y->arena, "first set on line %d", same->key->at.line),
                  "duplicate key '%s'", diag_shown(p->y->diag, key->text));
     else
-        return true;
-    return false;
-}
-
-static bool pair_read(struct parse *p, struct yaml_node *map, const struct event *key_event)
-{
-    struct yaml_node *key = node_read(p, key_event), *value = NULL;
-    struct event ev;
-    if (!key || !event_next(p, &ev) || !(value = node_read(p, &ev))) return false;
-    if (map->n == KEYS_MAX) return diag_add(p->y->diag, key->at, NULL, "more than %d keys in one map", KEYS_MAX);
-    if (key_good(p, map, key)) yaml_append(map, key, value);
+        yaml_append(map, key, value);
     return true;
 }
 
