@@ -188,8 +188,6 @@ static bool level_all(struct batch *b, struct err *e)
            err_set(e, b->stop.kind, "%s; run the same command again, and it goes on from here", b->stop.text);
 }
 
-/* ------------------------------------------------------------------ before */
-
 /* ------------------------------------------------------------------ only looking */
 
 /* What of the set is there, and why the rest would be made. A gain is known when all are. */

@@ -116,8 +116,6 @@ static bool is_text(const struct yaml_node *node, const char *word)
     return node->kind == YAML_SCALAR && strcmp(node->text, word) == 0;
 }
 
-/* ------------------------------------------------------------------ numbers */
-
 /* A whole number as a scene has it: no sign, no leading zeros. */
 static void seed_read(const struct design_reading *r, const struct yaml_node *node, const char *label, uint64_t *seed)
 {
@@ -144,29 +142,6 @@ static void order_read(const struct design_reading *r)
 
 /* ------------------------------------------------------------------ level */
 
-static void level_value(const struct design_reading *r, const char *rule, const struct yaml_node *map)
-{
-    static const char *const names[] = {"peak", "rms", "lufs", "full_scale", "dbfs_at_1_pa", NULL};
-    const struct yaml_node *value = map->first;
-    if (map->kind != YAML_MAP || map->n != 1) {
-        diag_add(r->yaml->diag, map->at, level_cure, "level.%s must be one of: %s", rule,
-                 design_reading_joined(r, names));
-        return;
-    }
-    struct level *l = &r->design->level;
-    double *const fields[] = {&l->peak, &l->rms, &l->lufs, &l->full_scale, &l->dbfs_at_1_pa};
-    int i = 0;
-    while (names[i] && strcmp(names[i], value->key->text) != 0)
-        i++;
-    if (!names[i]) {
-        design_reading_known(r, map, names, arena_format(r->arena, " in level.%s", rule));
-        return;
-    }
-    const struct key *k = keys_find(arena_format(r->arena, "output.level.%s", value->key->text));
-    struct scene_part part = {r->yaml, r->root, "", KEY_SCENE, NULL};
-    scene_values_number(&part, k, value, arena_format(r->arena, "level.%s.%s", rule, value->key->text), fields[i]);
-}
-
 static void level_read(const struct design_reading *r)
 {
     struct design *d = r->design;
@@ -182,7 +157,26 @@ static void level_read(const struct design_reading *r)
         diag_add(r->yaml->diag, node->at, level_cure, "level must be {common: ...}, {each: ...} or scene");
         return;
     }
-    level_value(r, rule->key->text, rule);
+    static const char *const names[] = {"peak", "rms", "lufs", "full_scale", "dbfs_at_1_pa", NULL};
+    double *const fields[] = {&d->level.peak, &d->level.rms, &d->level.lufs, &d->level.full_scale,
+                              &d->level.dbfs_at_1_pa};
+    const char *word = rule->key->text;
+    const struct yaml_node *value = rule->first;
+    if (rule->kind != YAML_MAP || rule->n != 1) {
+        diag_add(r->yaml->diag, rule->at, level_cure, "level.%s must be one of: %s", word,
+                 design_reading_joined(r, names));
+        return;
+    }
+    int i = 0;
+    while (names[i] && strcmp(names[i], value->key->text) != 0)
+        i++;
+    if (!names[i]) {
+        design_reading_known(r, rule, names, arena_format(r->arena, " in level.%s", word));
+        return;
+    }
+    const struct key *k = keys_find(arena_format(r->arena, "output.level.%s", names[i]));
+    struct scene_part part = {r->yaml, r->root, "", KEY_SCENE, NULL};
+    scene_values_number(&part, k, value, arena_format(r->arena, "level.%s.%s", word, names[i]), fields[i]);
 }
 
 /* ------------------------------------------------------------------ length */
@@ -274,10 +268,15 @@ static bool is_field(const char *s, size_t n, const char *name)
     return strlen(name) == n && strncmp(s, name, n) == 0;
 }
 
-/* ------------------------------------------------------------------ checking */
-
-static void fields_check(const struct design_reading *r, const struct yaml_node *node)
+static void design_text_read(const struct design_reading *r)
 {
+    const struct yaml_node *node = design_reading_value(r, "text");
+    if (!node) return;
+    if (node->kind != YAML_SCALAR || !*node->text) {
+        design_reading_must(r, node, "text", "what the text of a trial is", text_cure);
+        return;
+    }
+    r->design->text = node->text;
     for (const char *s = node->text + strcspn(node->text, "{}"); *s; s += strcspn(s, "{}")) {
         size_t n = strcspn(s + 1, "{}");
         if (*s == '}' || s[1 + n] != '}') {
@@ -290,18 +289,6 @@ static void fields_check(const struct design_reading *r, const struct yaml_node 
                 r, yaml_make(r->yaml, YAML_SCALAR, node->at, arena_format(r->arena, "%.*s", (int)n, s + 1)));
         s += n + 2;
     }
-}
-
-static void design_text_read(const struct design_reading *r)
-{
-    const struct yaml_node *node = design_reading_value(r, "text");
-    if (!node) return;
-    if (node->kind != YAML_SCALAR || !*node->text) {
-        design_reading_must(r, node, "text", "what the text of a trial is", text_cure);
-        return;
-    }
-    r->design->text = node->text;
-    fields_check(r, node);
 }
 
 /* ------------------------------------------------------------------ making */
@@ -404,16 +391,10 @@ struct table {
     FILE *f;
     const char *const *states; /* NULL: none */
     int *width;                /* [columns] */
-    bool replicates, recordings;
+    bool recordings;
 };
 
 enum { COLUMN_NAME, COLUMN_REPLICATE, COLUMN_SEED, COLUMN_RECORDING, COLUMN_STATE, COLUMN_FACTORS };
-
-static bool shown(const struct table *t, int column)
-{
-    return (column != COLUMN_REPLICATE || t->replicates) && (column != COLUMN_RECORDING || t->recordings) &&
-           (column != COLUMN_STATE || t->states);
-}
 
 /* The cell_text's text, row -1 the head; `number` is room for numbers. */
 static const char *cell_text(const struct table *t, int row, int column, char number[24])
@@ -440,30 +421,10 @@ static void put_cell(const struct table *t, int row, int column, bool last)
     fprintf(t->f, "  %s%*s", text, last ? 0 : t->width[column] - width_of(text), "");
 }
 
-/* Name and labels first, then what follows from them. */
-static void put_row(const struct table *t, int row, int digits)
-{
-    int last = shown(t, COLUMN_STATE) ? COLUMN_STATE : shown(t, COLUMN_RECORDING) ? COLUMN_RECORDING : COLUMN_SEED;
-    if (row < 0)
-        fprintf(t->f, "%*s", digits, "#");
-    else
-        fprintf(t->f, "%*d", digits, row + 1);
-    put_cell(t, row, COLUMN_NAME, false);
-    for (int f = 0; f < t->d->n_factors; f++)
-        put_cell(t, row, COLUMN_FACTORS + f, false);
-    for (int c = COLUMN_REPLICATE; c <= last; c++)
-        if (shown(t, c)) put_cell(t, row, c, c == last);
-    fputc('\n', t->f);
-}
-
 void design_print(const struct design *d, const bool *mine, const char *const *states, FILE *f)
 {
     struct arena *a = arena_open();
-    struct table t = {.d = d,
-                      .f = f,
-                      .states = states,
-                      .width = ARENA_TAKE(a, int, COLUMN_FACTORS + d->n_factors),
-                      .replicates = d->replicates > 1};
+    struct table t = {.d = d, .f = f, .states = states, .width = ARENA_TAKE(a, int, COLUMN_FACTORS + d->n_factors)};
     int digits = snprintf(NULL, 0, "%d", d->n_stimuli);
     for (int i = 0; i < d->n_stimuli; i++)
         t.recordings = t.recordings || d->stimuli[i].recording;
@@ -473,8 +434,21 @@ void design_print(const struct design *d, const bool *mine, const char *const *s
             int n = width_of(cell_text(&t, row, c, number));
             t.width[c] = n > t.width[c] ? n : t.width[c];
         }
-    for (int row = -1; row < d->n_stimuli; row++)
-        if (row < 0 || !mine || mine[row]) put_row(&t, row, digits);
+    int last = states ? COLUMN_STATE : t.recordings ? COLUMN_RECORDING : COLUMN_SEED;
+    for (int row = -1; row < d->n_stimuli; row++) { /* name and labels first, then what follows from them */
+        if (row >= 0 && mine && !mine[row]) continue;
+        if (row < 0)
+            fprintf(f, "%*s", digits, "#");
+        else
+            fprintf(f, "%*d", digits, row + 1);
+        put_cell(&t, row, COLUMN_NAME, false);
+        for (int k = 0; k < d->n_factors; k++)
+            put_cell(&t, row, COLUMN_FACTORS + k, false);
+        for (int c = COLUMN_REPLICATE; c <= last; c++)
+            if ((c != COLUMN_REPLICATE || d->replicates > 1) && (c != COLUMN_RECORDING || t.recordings))
+                put_cell(&t, row, c, c == last);
+        fputc('\n', f);
+    }
     arena_close(a);
 }
 
@@ -483,23 +457,6 @@ void design_print(const struct design *d, const bool *mine, const char *const *s
 static const char *const keys[] = {"rasp-design", "title",   "text",  "base",       "seed",       "set",
                                    "factors",     "exclude", "cells", "recordings", "replicates", "independent",
                                    "order",       "name",    "level", "length",     NULL};
-
-/* The parts after another, as far as the earlier ones are good. */
-static void parts_read(struct design_reading *r)
-{
-    const struct diag *errors = r->yaml->diag;
-    design_reading_known(r, r->root, keys, "");
-    design_rules_read(r);
-    design_factors_read(r);
-    design_rules_independent(r);
-    design_names_template(r);
-    design_text_read(r);
-    if (errors->n == 0) design_rows_cells(r);
-    if (errors->n == 0) design_rows_stimuli(r);
-    if (errors->n == 0) design_names_make(r);
-    r->texts->cells = r->cells;
-    if (errors->n == 0) design_rows_hash(r);
-}
 
 static void text_read(struct yaml *y, const struct diag_source *source, struct design *d)
 {
@@ -526,7 +483,17 @@ static void text_read(struct yaml *y, const struct diag_source *source, struct d
                  "this is a scene, not a design of many scenes");
     } else {
         r.keys = keys_text_names(y->arena);
-        parts_read(&r);
+        design_reading_known(&r, root, keys, "");
+        design_rules_read(&r);
+        design_factors_read(&r);
+        design_rules_independent(&r);
+        design_names_template(&r);
+        design_text_read(&r); /* those after it as far as the earlier ones are good */
+        if (y->diag->n == 0) design_rows_cells(&r);
+        if (y->diag->n == 0) design_rows_stimuli(&r);
+        if (y->diag->n == 0) design_names_make(&r);
+        r.texts->cells = r.cells;
+        if (y->diag->n == 0) design_rows_hash(&r);
     }
 }
 

@@ -185,19 +185,6 @@ struct measure {
 
 /* ------------------------------------------------------------------ quantities */
 
-/* `bare` is the dimension of a number without a unit. False: the label is none. */
-static bool quantity_of(const char *label, enum key_dimension bare, struct measure *q)
-{
-    int power;
-    double x;
-    size_t n = text_number_length(label);
-    const char *unit = label + n + strspn(label + n, " \t");
-    const struct units_unit *u = *unit ? units_find(unit, &power) : NULL;
-    if (n == 0 || (*unit && !u) || !text_scaled(label, n, 0, &x)) return false;
-    *q = (struct measure){label, *unit ? unit : keys_text_unit(bare), n, u ? u->dimension : bare};
-    return true;
-}
-
 /* Are the labels quantities of one dimension, those of levels that scenes have? Then that of each (number NULL: a
    recorded one that is none), and whether all have the same unit; the first. NULL: they are not */
 static const struct measure *quantities(const struct design_factor *f, struct measure *q, bool *same)
@@ -207,7 +194,15 @@ static const struct measure *quantities(const struct design_factor *f, struct me
     bool numbers =
         !k || k->type == KEY_NUMBER || k->type == KEY_WHOLE || k->type == KEY_COUNT || k->type == KEY_TIME_OR_AUTO;
     for (int i = 0; numbers && i < f->n_levels; i++) {
-        bool good = quantity_of(f->levels[i].label, k ? k->dimension : KEY_NONE, &q[i]);
+        enum key_dimension bare = k ? k->dimension : KEY_NONE; /* of a number without a unit */
+        int power;
+        double x;
+        const char *label = f->levels[i].label;
+        size_t n = text_number_length(label);
+        const char *unit = label + n + strspn(label + n, " \t");
+        const struct units_unit *u = *unit ? units_find(unit, &power) : NULL;
+        bool good = n > 0 && (!*unit || u) && text_scaled(label, n, 0, &x);
+        if (good) q[i] = (struct measure){label, *unit ? unit : keys_text_unit(bare), n, u ? u->dimension : bare};
         if (f->levels[i].recorded) continue;
         if (!good || (first && q[i].dimension != first->dimension)) return NULL;
         first = first ? first : &q[i];
@@ -303,35 +298,28 @@ static void put(struct name *name, const char *s)
             name->to[name->n++] = (char)tolower((unsigned char)*s);
 }
 
-/* What stands for a character of a unit that no name has; *n: its bytes. */
-static const char *spelt(const char *s, int *n)
-{
-    static const struct {
-        const char *of, *by;
-    } signs[] = {{"/", "_per_"},    {"^", ""},         {"(", ""},         {")", ""},          {"\xc2\xb5", "u"},
-                 {"\xce\xbc", "u"}, {"\xc2\xb2", "2"}, {"\xc2\xb3", "3"}, {"\xc2\xb0", "deg"}};
-    for (size_t i = 0; i < sizeof signs / sizeof signs[0]; i++)
-        if (strncmp(s, signs[i].of, strlen(signs[i].of)) == 0) {
-            *n = (int)strlen(signs[i].of);
-            return signs[i].by;
-        }
-    *n = 1;
-    return "_";
-}
-
 /* "_cm_per_s"; mega is written out, as milli and mega differ by case alone. */
 static void put_unit(struct name *name, const char *unit)
 {
+    static const struct {
+        const char *of, *by; /* what stands for a character that no name has */
+    } signs[] = {{"/", "_per_"},    {"^", ""},         {"(", ""},         {")", ""},          {"\xc2\xb5", "u"},
+                 {"\xce\xbc", "u"}, {"\xc2\xb2", "2"}, {"\xc2\xb3", "3"}, {"\xc2\xb0", "deg"}};
     put(name, "_");
     if (strncmp(unit, "1/", 2) == 0) unit++;
     if (unit[0] == 'M' && unit[1]) {
         put(name, "mega");
         unit++;
     }
-    for (int n; *unit; unit += n) {
-        const char letter[2] = {*unit, '\0'};
+    for (size_t n; *unit; unit += n) {
+        const char letter[2] = {*unit, '\0'}, *by = isalnum((unsigned char)*unit) ? letter : "_";
         n = 1;
-        put(name, isalnum((unsigned char)*unit) ? letter : spelt(unit, &n));
+        for (size_t i = 0; i < sizeof signs / sizeof signs[0]; i++)
+            if (strncmp(unit, signs[i].of, strlen(signs[i].of)) == 0) {
+                n = strlen(signs[i].of);
+                by = signs[i].by;
+            }
+        put(name, by);
     }
 }
 
@@ -478,19 +466,6 @@ static void map_read(const struct reading_level *l, const struct yaml_node *map)
                      "a level that only recordings have has no %s", *other);
 }
 
-static void level_read(const struct reading_level *l, const struct yaml_node *item)
-{
-    level_of(l)->label = "";
-    if (item->kind == YAML_MAP)
-        map_read(l, item);
-    else if (item->kind == YAML_SCALAR)
-        scalar_read(l, item);
-    else
-        diag_add(l->r->yaml->diag, item->at, l->key ? "write: - {label: ..., value: [...]}" : map_cure,
-                 "a level of %s that is a list needs a label", l->name->text);
-    level_of(l)->set = design_changes_texts(change_of(l), l->r->arena);
-}
-
 /* ------------------------------------------------------------------ factors */
 
 static bool name_good(const struct design_reading *r, const struct yaml_node *name, bool *key)
@@ -526,7 +501,15 @@ static void factor_read(struct design_reading *r, int f, const struct yaml_node 
     }
     for (const struct yaml_node *item = list->first; good && item; item = item->next) {
         struct reading_level l = {r, f, factor->n_levels++, key, list->key};
-        level_read(&l, item);
+        level_of(&l)->label = "";
+        if (item->kind == YAML_MAP)
+            map_read(&l, item);
+        else if (item->kind == YAML_SCALAR)
+            scalar_read(&l, item);
+        else
+            diag_add(r->yaml->diag, item->at, key ? "write: - {label: ..., value: [...]}" : map_cure,
+                     "a level of %s that is a list needs a label", factor->name);
+        level_of(&l)->set = design_changes_texts(change_of(&l), r->arena);
     }
     find_twice(r, f, false, same_label);
 }

@@ -286,16 +286,6 @@ static struct design_template template_read(const struct design_reading *r, cons
     return (struct design_template){.node = node};
 }
 
-/* All factors, and the replicate where there are several; without either the name of the base. */
-static struct design_template template_default(const struct design_reading *r)
-{
-    const struct design *d = r->design;
-    const char *text = d->n_factors ? "" : label_name(relpath_stem(d->base, r->arena), r->arena);
-    for (int f = 0; f < d->n_factors; f++)
-        text = arena_format(r->arena, "%s%s{%s}", text, f ? "_" : "", d->factors[f].name);
-    return template_of(r, r->root, arena_format(r->arena, "%s%s", text, d->replicates > 1 ? "_r{replicate}" : ""));
-}
-
 /* ------------------------------------------------------------------ making */
 
 /* The name of stimulus i; one that is too long is cut, which is reported later. */
@@ -337,7 +327,13 @@ void design_names_make(struct design_reading *r)
     struct design *d = r->design;
     int errors = r->yaml->diag->n;
     struct names x = {.r = r};
-    struct design_template t = r->template->node ? *r->template : template_default(r);
+    struct design_template t = *r->template;
+    if (!t.node) { /* all factors, and the replicate where there are several; without either the name of the base */
+        const char *text = d->n_factors ? "" : label_name(relpath_stem(d->base, r->arena), r->arena);
+        for (int f = 0; f < d->n_factors; f++)
+            text = arena_format(r->arena, "%s%s{%s}", text, f ? "_" : "", d->factors[f].name);
+        t = template_of(r, r->root, arena_format(r->arena, "%s%s", text, d->replicates > 1 ? "_r{replicate}" : ""));
+    }
     const long most[3] = {d->replicates, d->n_stimuli, r->n_cells};
     for (int k = 0; k < 3; k++)
         x.width[k] = snprintf(NULL, 0, "%ld", most[k]);

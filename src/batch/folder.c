@@ -25,25 +25,20 @@
 
 /* ------------------------------------------------------------------ folders */
 
-/* Of ENOENT. */
-static const char *missing(const char *path)
-{
-    char parent[4096];
-    struct stat s;
-    const char *slash = strrchr(path, '/');
-    snprintf(parent, sizeof parent, "%.*s", slash ? (int)(slash - path) + 1 : 1, slash ? path : ".");
-    return stat(parent, &s) == 0 ? "no folder can be made there: choose another place with -o"
-                                 : "its parent is not there";
-}
-
 static bool make_one(const char *path, struct err *e)
 {
     struct stat s;
     if (mkdir(path, 0777) == 0 || (errno == EEXIST && stat(path, &s) == 0 && S_ISDIR(s.st_mode))) return true;
-    return err_set(e, err_system(ERR_CREATE), "the folder %s cannot be created: %s", path,
-                   errno == ENOENT   ? missing(path)
-                   : errno == EEXIST ? "a file has that name"
-                                     : strerror(errno));
+    const char *why = errno == EEXIST ? "a file has that name" : strerror(errno);
+    if (errno == ENOENT) {
+        char parent[4096];
+        const char *slash = strrchr(path, '/');
+        snprintf(parent, sizeof parent, "%.*s", slash ? (int)(slash - path) + 1 : 1, slash ? path : ".");
+        why = stat(parent, &s) == 0 ? "no folder can be made there: choose another place with -o"
+                                    : "its parent is not there";
+        errno = ENOENT;
+    }
+    return err_set(e, err_system(ERR_CREATE), "the folder %s cannot be created: %s", path, why);
 }
 
 bool folder_make_for(const char *folder, const char *name, struct err *e)
@@ -396,16 +391,6 @@ static bool is_of_another(const struct walk *x, const char *path, const char *na
     return is;
 }
 
-static void remove_file(struct walk *x, const char *file)
-{
-    const char *folder = x->wanted->folder, *slash = strrchr(file, '/');
-    if (unlink(arena_format(x->arena, "%s/%s", folder, file)) != 0) return;
-    x->to->removed++;
-    while (slash &&
-           rmdir(arena_format(x->arena, "%s/%.*s", folder, (int)(slash - file), file)) == 0) /* if nothing is in it */
-        slash = memrchr(file, '/', (size_t)(slash - file));
-}
-
 /* All files of a stimulus go, or none: what somebody changed keeps what it belongs to. */
 static void take_stale(struct walk *x, const char *name, const struct record *r)
 {
@@ -430,13 +415,18 @@ static void take_stale(struct walk *x, const char *name, const struct record *r)
         changed = changed || !same;
     }
     files[n++] = arena_format(x->arena, "%s.json", name);
-    for (int i = 0; i < n; i++)
-        if (w->prune && !changed)
-            remove_file(x, files[i]);
-        else {
+    for (int i = 0; i < n; i++) {
+        const char *slash = strrchr(files[i], '/');
+        if (!w->prune || changed) {
             x->to->files = arena_more(x->arena, x->to->files, x->to->n_files, sizeof *x->to->files);
             x->to->files[x->to->n_files++] = files[i];
+        } else if (unlink(arena_format(x->arena, "%s/%s", w->folder, files[i])) == 0) {
+            x->to->removed++;
+            while (slash && rmdir(arena_format(x->arena, "%s/%.*s", w->folder, (int)(slash - files[i]), files[i])) ==
+                                0) /* if nothing is in it */
+                slash = memrchr(files[i], '/', (size_t)(slash - files[i]));
         }
+    }
 }
 
 static bool is_folder(const char *path, const struct dirent *entry)

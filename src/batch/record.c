@@ -60,7 +60,7 @@ static json_t *file_json(const json_t *listed, const struct record_file *f)
     return j;
 }
 
-static json_t *whole_json(const struct record *r)
+const char *record_text(const struct record *r, struct arena *a)
 {
     json_t *render = r->render ? json_loads(r->render, 0, NULL) : NULL, *files = json_array(), *warnings = json_array();
     for (int i = 0; i < r->n_files; i++)
@@ -80,12 +80,6 @@ static json_t *whole_json(const struct record *r)
     if (render) json_object_update_missing(j, render);
     json_object_del(j, "record");
     json_decref(render);
-    return j;
-}
-
-const char *record_text(const struct record *r, struct arena *a)
-{
-    json_t *j = whole_json(r);
     char hex[HASH_TEXT], *text = json_dumps(j, JSON_INDENT(2) | JSON_REAL_PRECISION(17) | JSON_ENSURE_ASCII);
     size_t n = text ? strlen(text) - 2 : 0; /* without its line end and bracket */
     hash_bytes(text, n, hex);

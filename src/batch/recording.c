@@ -217,12 +217,18 @@ int recording_bits(int encoding)
 }
 
 /* Its own samples, times the gain, with its warnings. */
-static struct wav_out *copy(const struct set *set, const char *file, const char *path, const struct measure *m,
-                            struct record *r, struct arena *a, struct err *e)
+struct wav_out *recording_make(const struct set *set, const char *file, const char *path, struct record *r,
+                               struct arena *a, struct err *e)
 {
+    struct measure m;
+    struct measure_form form = form_of(set);
+    if (!recording_measure(file, &form, !isnan(set->level.lufs), &m, e) || !find_gain(set, file, &m, &r->gain, e))
+        return NULL;
+    r->peak = m.peak, r->rms = m.rms, r->lufs = m.lufs;
+    r->encoding = set->encoding;
+    r->channels = m.channels;
     char comment[80];
     struct measure_source c;
-    struct measure_form form = form_of(set);
     if (!recording_open(&c, file, &form, e)) return NULL;
     snprintf(comment, sizeof comment, "rasp: recording, gain %.9g (%.4f dB)", r->gain, 20 * real_log10(r->gain));
     struct wav_format f = {
@@ -235,25 +241,12 @@ static struct wav_out *copy(const struct set *set, const char *file, const char 
     r->ramp = c.ramp > 0 ? (double)c.ramp / c.in.rate : 0;
     if (ok) {
         struct wav_written w = wav_written(out);
-        r->warnings = warnings_of(m, &w, a);
+        r->warnings = warnings_of(&m, &w, a);
         r->beyond = w.beyond;
         return out;
     }
-    if (out) wav_drop(out);
+    wav_drop(out);
     return NULL;
-}
-
-struct wav_out *recording_make(const struct set *set, const char *file, const char *path, struct record *r,
-                               struct arena *a, struct err *e)
-{
-    struct measure m;
-    struct measure_form form = form_of(set);
-    if (!recording_measure(file, &form, !isnan(set->level.lufs), &m, e) || !find_gain(set, file, &m, &r->gain, e))
-        return NULL;
-    r->peak = m.peak, r->rms = m.rms, r->lufs = m.lufs;
-    r->encoding = set->encoding;
-    r->channels = m.channels;
-    return copy(set, file, path, &m, r, a, e);
 }
 
 const char *recording_key(const struct set *s, const char *sha256, struct arena *a)

@@ -45,23 +45,6 @@ struct work { /* one stimulus at work */
 
 /* ------------------------------------------------------------------ the key */
 
-static bool read_scene(struct work *w, struct err *e)
-{
-    const struct set *set = w->k->set;
-    const char *messages = "";
-    if (!design_scene(set->design, w->i, w->arena, &w->scene, &messages, e)) return false;
-    set_lay(set, &w->scene);
-    design_scene_places(set->design, &w->scene, w->arena);
-    w->scene.file_cache = w->k->file_cache;
-    w->inputs = inputs_watch(&w->scene, w->arena);
-    const char *waits = !set_waits(set)          ? ""
-                        : isnan(set->level.lufs) ? "waits"
-                                                 : "waits, loudness",
-               *effective = outputs_effective(&w->scene, set->design->file, w->arena);
-    w->key = set_hash((const char *const[]){"rasp set 2", "stimulus", set->program, waits, effective}, 5, w->arena);
-    return true;
-}
-
 /* ------------------------------------------------------------------ is it there? */
 
 static bool is_later(const struct timespec *a, const struct timespec *b)
@@ -101,8 +84,18 @@ static bool begin(struct work *w, const struct stimulus_set *k, int i, struct ar
         w->inputs = file_cache_watch(&w->file, 1, a);
         if (!hash_file(w->file, hex, e)) return design_scene_recording(k->set->design, i, e);
         w->key = recording_key(k->set, hex, a);
-    } else if (!read_scene(w, e))
-        return false;
+    } else {
+        const struct set *set = k->set;
+        const char *messages = "", *waits = "";
+        if (!design_scene(set->design, i, a, &w->scene, &messages, e)) return false;
+        set_lay(set, &w->scene);
+        design_scene_places(set->design, &w->scene, a);
+        w->scene.file_cache = k->file_cache;
+        w->inputs = inputs_watch(&w->scene, a);
+        if (set_waits(set)) waits = isnan(set->level.lufs) ? "waits" : "waits, loudness";
+        const char *effective = outputs_effective(&w->scene, set->design->file, a);
+        w->key = set_hash((const char *const[]){"rasp set 2", "stimulus", set->program, waits, effective}, 5, a);
+    }
     struct record *r = ARENA_TAKE(a, struct record, 1);
     w->was = record_read(k->folder, w->name, a, r) ? r : NULL;
     w->state = !w->was                                           ? STIMULUS_NEW
@@ -150,19 +143,6 @@ static void drop(struct made *m)
     m->n = 0;
 }
 
-/* Gives them their names. */
-static bool give(struct made *m, struct err *e)
-{
-    bool ok = (!m->render || render_commit(m->render, e)) && (!m->scene.target[0] || outfile_commit(&m->scene, e));
-    m->render = NULL;
-    for (int k = 0; k < m->n && ok; k++) {
-        ok = wav_commit(m->sounds[k], e);
-        m->sounds[k] = NULL;
-    }
-    drop(m);
-    return ok;
-}
-
 /* Of nothing yet, with room for so many files. */
 static struct record begun(const struct work *w, enum record_status status, int n_files)
 {
@@ -186,8 +166,15 @@ static bool commit(struct work *w, const struct record *to, struct made *m, bool
     else if (whole && file_cache_watch_changed(&w->inputs))
         whole = err_set(e, ERR_INPUT, "%s: has changed while it was copied: run the same command again", w->file);
     bool ok = whole && record_write(w->k->folder, w->name, &before, e);
-    if (!ok) drop(m);
-    ok = ok && give(m, e);
+    if (ok) { /* they get their names */
+        ok = (!m->render || render_commit(m->render, e)) && (!m->scene.target[0] || outfile_commit(&m->scene, e));
+        m->render = NULL;
+        for (int k = 0; k < m->n && ok; k++) {
+            ok = wav_commit(m->sounds[k], e);
+            m->sounds[k] = NULL;
+        }
+    }
+    drop(m);
     for (int k = 0; ok && k < n; k++) { /* what is not written any more goes, unless somebody changed it */
         const struct record_file *f = &w->was->files[k];
         const char *path = arena_format(w->arena, "%s/%s", w->k->folder, f->path);
