@@ -71,7 +71,8 @@ const char *keys_text_range(const struct key *k, struct arena *a)
     return arena_format(a, "%s to %s", units_text(k->low, k->dimension, a), units_text(k->high, k->dimension, a));
 }
 
-const char *keys_text_default(const struct key *k)
+/* "4 um", "must be given", "not given" */
+static const char *default_text(const struct key *k)
 {
     return !k->standard ? "must be given" : *k->standard ? k->standard : "not given";
 }
@@ -114,7 +115,8 @@ static bool within(const char *path, const char *map)
     return !strncmp(path, map, n) && (path[n] == '.' || !path[n]);
 }
 
-bool keys_text_has(const struct key_alternative *t, const char *path)
+/* Is it one of them, or excluded as a part of one? */
+static bool has(const struct key_alternative *t, const char *path)
 {
     for (int i = 0; t->paths[i]; i++)
         if (t->most > 1 ? strcmp(path, t->paths[i]) == 0 : within(path, t->paths[i])) return true;
@@ -184,7 +186,7 @@ static void print_fact(FILE *f, const char *name, const char *text)
 static void print_choose(FILE *f, const char *path, struct arena *a)
 {
     for (const struct key_alternative *t = keys_alternatives; t->paths[0]; t++)
-        if (keys_text_has(t, path))
+        if (has(t, path))
             print_fact(f, "choose", arena_format(a, "%s%s", keys_text_rivals(t, a), keys_text_rivals_apply(t, a)));
 }
 
@@ -194,7 +196,7 @@ void keys_text_print_key(FILE *f, const struct key *k, struct arena *a)
     text_wrap(f, k->meaning, n, MARGIN);
     print_fact(f, "type", keys_text_type(k, a));
     print_fact(f, "range", keys_text_range(k, a));
-    print_fact(f, "default", keys_text_default(k));
+    print_fact(f, "default", default_text(k));
     print_fact(f, "applies", keys_text_applies(k, a));
     print_choose(f, k->path, a);
     print_fact(f, "belongs",
@@ -221,7 +223,7 @@ void keys_text_print_map(FILE *f, const char *path, struct arena *a)
     for (const struct key *k = keys_table; k->path; k++) {
         if (strncmp(k->path, path, length) != 0 || k->path[length] != '.') continue;
         int n = fprintf(f, "  %-33s ", k->path);
-        text_wrap(f, arena_format(a, "%s (%s)", k->meaning, keys_text_default(k)), n,
+        text_wrap(f, arena_format(a, "%s (%s)", k->meaning, default_text(k)), n,
                   "                                    ");
     }
 }
@@ -317,7 +319,7 @@ static void put_key(FILE *f, const struct key *k, struct arena *a)
     else
         put_sentence(f, arena_format(a, "Type: %s", keys_text_type(k, a)));
     if (range) put_sentence(f, arena_format(a, "Range: %s", range));
-    put_sentence(f, arena_format(a, "Default: %s", k->standard ? keys_text_default(k) : "none, it must be given"));
+    put_sentence(f, arena_format(a, "Default: %s", k->standard ? default_text(k) : "none, it must be given"));
     if (when) put_opening(f, arena_format(a, "only %s", when), a);
     put_rivals(f, k->path, a);
     if (!k->choices || keys_same_words(k)) return;

@@ -16,14 +16,11 @@ extern const struct keys_text_frame keys_text_frames[];
 const char *keys_text_unit(enum key_dimension d);                    /* SI unit; "": none                        */
 const char *keys_text_type(const struct key *k, struct arena *a);    /* "length (a bare number is in m)"          */
 const char *keys_text_range(const struct key *k, struct arena *a);   /* "1 nm to 1 cm"; NULL: no range           */
-const char *keys_text_default(const struct key *k);                  /* "4 um", "must be given", "not given"     */
 const char *keys_text_applies(const struct key *k, struct arena *a); /* "where motion.path is line"; NULL: always */
 const char *keys_text_words(const struct key *k, struct arena *a);   /* "circle or scribble"; only with keys_words() */
 const char *keys_text_rivals(const struct key_alternative *t, struct arena *a); /* "exactly one of a, b"             */
 const char *keys_text_rivals_apply(const struct key_alternative *t,
                                    struct arena *a); /* " where contact.model is scrape"; "": always */
-bool keys_text_has(const struct key_alternative *t,
-                   const char *path); /* is it one of them, or excluded as a part of one? */
 
 /* Every path a scene may use: keys, sections and the maps between them, knobs, frames. NULL-terminated, each once. */
 const char **keys_text_names(struct arena *a);

@@ -29,10 +29,19 @@ struct diag_place scene_part_place(const struct scene_part *p, const struct yaml
     return (struct diag_place){map->at.source, 1, 1, 0};
 }
 
+/* Was a laid down before b? An included file's keys before the including file's, those before the command line's. */
+static bool laid_before(const struct diag_place *a, const struct diag_place *b)
+{
+    const struct diag_source *of_a = a->source, *of_b = b->source;
+    if (of_a == of_b) return a->line != b->line ? a->line < b->line : a->column < b->column;
+    if (of_a->option != of_b->option) return of_b->option;
+    return of_a->option == (of_a->order < of_b->order);
+}
+
 struct diag_place scene_part_later(const struct scene_part *p, const char *path, const char *other)
 {
     const struct yaml_node *a = yaml_find(p->map, path), *b = yaml_find(p->map, other);
-    const struct yaml_node *node = !a ? b : !b ? a : scene_part_before(&a->at, &b->at) ? b : a;
+    const struct yaml_node *node = !a ? b : !b ? a : laid_before(&a->at, &b->at) ? b : a;
     return node ? node->at : scene_part_place(p, p->map);
 }
 
@@ -52,14 +61,6 @@ bool scene_part_known(const struct scene_part *p, const char *path)
     for (const struct choice *c = k->choices; c->word; c++)
         if (node->kind == YAML_SCALAR && strcmp(c->word, node->text) == 0) return true;
     return false;
-}
-
-bool scene_part_before(const struct diag_place *a, const struct diag_place *b)
-{
-    const struct diag_source *of_a = a->source, *of_b = b->source;
-    if (of_a == of_b) return a->line != b->line ? a->line < b->line : a->column < b->column;
-    if (of_a->option != of_b->option) return of_b->option;
-    return of_a->option == (of_a->order < of_b->order);
 }
 
 bool scene_part_given(const struct scene_part *p, const char *path) { return yaml_find(p->map, path) != NULL; }
@@ -310,30 +311,11 @@ static void missing(const struct scene_part *p, const char *path)
 
 /* ------------------------------------------------------------------ keys */
 
-static void key_fill(const struct scene_part *p, const struct key *k)
-{
-    const struct yaml_node *node = yaml_find(p->map, k->path);
-    enum applies a = applies(p, k);
-    scene_values_clear(p, k);
-    if (node && a == APPLIES_NO)
-        not_applicable(p, k, node);
-    else if (node)
-        scene_values_read(p, k, node);
-    else if (a == APPLIES_YES && k->standard)
-        scene_values_default(p, k);
-    else if (a == APPLIES_YES) {
-        bool absent = false; /* is a section that it is in? */
-        for (const struct key_section *s = keys_sections; s->path; s++)
-            absent = absent || (under(k->path, s->path) && !yaml_find(p->map, s->path));
-        if (!absent) missing(p, k->path);
-    }
-}
-
 /* ------------------------------------------------------------------ alternatives */
 
 static void both_given(const struct scene_part *p, const struct yaml_node *const nodes[2], const char *const names[2])
 {
-    bool swap = scene_part_before(&nodes[1]->key->at, &nodes[0]->key->at);
+    bool swap = laid_before(&nodes[1]->key->at, &nodes[0]->key->at);
     const struct yaml_node *first = nodes[swap], *second = nodes[!swap];
     const struct diag_source *other = first->key->at.source;
     struct arena *a = p->yaml->arena;
@@ -391,8 +373,24 @@ static void alternative_check(const struct scene_part *p, const struct key_alter
 
 void scene_part_fill(const struct scene_part *p)
 {
-    for (const struct key *k = keys_table; k->path; k++)
-        if (k->of == p->of) key_fill(p, k);
+    for (const struct key *k = keys_table; k->path; k++) {
+        if (k->of != p->of) continue;
+        const struct yaml_node *node = yaml_find(p->map, k->path);
+        enum applies a = applies(p, k);
+        scene_values_clear(p, k);
+        if (node && a == APPLIES_NO)
+            not_applicable(p, k, node);
+        else if (node)
+            scene_values_read(p, k, node);
+        else if (a == APPLIES_YES && k->standard)
+            scene_values_default(p, k);
+        else if (a == APPLIES_YES) {
+            bool absent = false; /* is a section that it is in? */
+            for (const struct key_section *s = keys_sections; s->path; s++)
+                absent = absent || (under(k->path, s->path) && !yaml_find(p->map, s->path));
+            if (!absent) missing(p, k->path);
+        }
+    }
     for (const struct key_section *s = keys_sections; s->path; s++)
         if (s->of == p->of) *keys_given(s, p->to) = yaml_find(p->map, s->path) != NULL;
     for (const struct key_alternative *x = keys_alternatives; x->paths[0]; x++) {

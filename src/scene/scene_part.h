@@ -41,9 +41,6 @@ void scene_part_refuse(const struct scene_part *p, const char *path, const char 
  * known. */
 bool scene_part_known(const struct scene_part *p, const char *path);
 
-/* Was a laid down before b? An included file's keys before the including file's, those before the command line's. */
-bool scene_part_before(const struct diag_place *a, const struct diag_place *b);
-
 enum scene_part_where {
     SCENE_PART_SINGLE, /* the top level of a scene with one contact: keys of the scene and of the contact */
     SCENE_PART_TOP,    /* the top level beside a list of contacts: a contact's key there is an error      */

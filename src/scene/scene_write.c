@@ -242,22 +242,6 @@ static void write_contacts(struct writer *w, const struct scene *s)
     }
 }
 
-/* The scene's keys in table order, the contacts where the first of their keys stands. */
-static void write_keys(struct writer *w, const struct scene *s)
-{
-    bool contacts = false;
-    for (const struct key *k = keys_table; k->path; k++) {
-        if (k->of == KEY_SCENE) {
-            take(w, k, s);
-        } else if (!contacts) {
-            flush(w, 0, false);
-            write_contacts(w, s);
-            contacts = true;
-        }
-    }
-    flush(w, 0, false);
-}
-
 const char *scene_write(const struct scene *s, const char *beside, struct arena *a)
 {
     char *memory = NULL;
@@ -266,7 +250,16 @@ const char *scene_write(const struct scene *s, const char *beside, struct arena 
     while (keys_table[n_keys].path)
         n_keys++;
     struct writer w = {memory_stream(&memory, &size), beside, a, ARENA_TAKE(a, struct keys_line, n_keys), 0};
-    write_keys(&w, s);
+    bool contacts = false; /* they stand where the first of their keys does */
+    for (const struct key *k = keys_table; k->path; k++)
+        if (k->of == KEY_SCENE)
+            take(&w, k, s);
+        else if (!contacts) {
+            flush(&w, 0, false);
+            write_contacts(&w, s);
+            contacts = true;
+        }
+    flush(&w, 0, false);
     fputs("accuracy:\n", w.f);
     if (s->accuracy.preset) fprintf(w.f, "  preset: %s\n", s->accuracy.preset);
     if (!isnan(s->accuracy.error)) fprintf(w.f, "  error: %s\n", keys_yaml_number(s->accuracy.error, a));
