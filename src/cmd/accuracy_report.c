@@ -210,22 +210,6 @@ static bool shown(const struct accuracy_sweep *s, const struct accuracy_row *w, 
     return r->code == 0 && isfinite(*error) && w->total != s->reference;
 }
 
-/* Rows [from, to) as data, one block. */
-static void put_block(const struct accuracy_sweep *s, int from, int to, struct gnuplot *g)
-{
-    fprintf(g->in, "$b%d << END\n", from);
-    for (int i = from; i < to; i++) {
-        double error;
-        if (!shown(s, &s->rows[i], &error)) continue;
-        bool named = s->rows[i].knob < 0 || !s->rows[i].chosen; /* all knobs' curves meet where the scene is */
-        fprintf(g->in, "%.6g %.6g \"%s\"\n", speed(&s->renders[s->rows[i].total]), error,
-                !named              ? ""
-                : *s->rows[i].value ? s->rows[i].value
-                                    : "scene");
-    }
-    fputs("END\n", g->in);
-}
-
 /* Leading digits of labels, from few to many: the last set has two in whatever spans a factor of 2.25. */
 static const double digits[3][11] = {{1}, {1, 2, 5}, {1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9}};
 
@@ -289,7 +273,16 @@ void accuracy_report_plot(void *sweep, struct gnuplot *g)
     for (int i = 0; i < s->n_rows; i = end) {
         for (end = i; end < s->n_rows && s->rows[end].knob == s->rows[i].knob; end++)
             continue;
-        put_block(s, i, end, g);
+        fprintf(g->in, "$b%d << END\n", i);
+        for (int k = i; k < end; k++) {
+            const struct accuracy_row *w = &s->rows[k];
+            double error;
+            if (!shown(s, w, &error)) continue;
+            const char *name = *w->value ? w->value : "scene";
+            bool named = w->knob < 0 || !w->chosen; /* all knobs' curves meet where the scene is */
+            fprintf(g->in, "%.6g %.6g \"%s\"\n", speed(&s->renders[w->total]), error, named ? name : "");
+        }
+        fputs("END\n", g->in);
     }
     for (int i = 0; i < s->n_rows; i = end) {
         double error;

@@ -119,23 +119,6 @@ static void report_stimuli(struct cmd_call *c, const struct batch_ask *ask, cons
     if (worst) report_more(c, "batch", worst, arena_format(c->arena, "and %d more that failed", failed - FAULTS_SHOWN));
 }
 
-static void report_stale(struct cmd_call *c, const char *folder, const struct folder_stale *l)
-{
-    const char *list = "";
-    if (!l->n_files) return;
-    for (int i = 0; i < l->n_files && i < STALE_NAMED; i++)
-        list = arena_format(c->arena, "%s%s%s", list, i ? ", " : "", l->files[i]);
-    if (l->n_files > STALE_NAMED) list = arena_format(c->arena, "%s and %d more", list, l->n_files - STALE_NAMED);
-    bool one = l->n_files == 1;
-    message_warning(
-        c, folder,
-        arena_format(c->arena,
-                     "%d file%s of an earlier state of the set %s still there, outside the manifest: %s; rasp batch "
-                     "--prune removes %s",
-                     l->n_files, one ? "" : "s", one ? "is" : "are", list,
-                     one ? "it unless it was changed since" : "those of stimuli of which nobody changed a file"));
-}
-
 /* ------------------------------------------------------------------ what was done */
 
 static bool report_json(const struct batch_ask *ask, const struct batch_report *b, struct err *e)
@@ -269,7 +252,21 @@ static int batch_command_run(struct cmd_call *c, struct err *e)
     if (ask.dry) batch_message_warnings(c, &r.plan);
     if (r.rendering) report_stimuli(c, &ask, &r);
     if (*r.no_effect) message_warning(c, ask.design, r.no_effect);
-    report_stale(c, ask.folder, &r.stale);
+    const struct folder_stale *l = &r.stale;
+    const char *list = "";
+    for (int i = 0; i < l->n_files && i < STALE_NAMED; i++)
+        list = arena_format(c->arena, "%s%s%s", list, i ? ", " : "", l->files[i]);
+    if (l->n_files > STALE_NAMED) list = arena_format(c->arena, "%s and %d more", list, l->n_files - STALE_NAMED);
+    bool one = l->n_files == 1;
+    if (l->n_files)
+        message_warning(
+            c, ask.folder,
+            arena_format(
+                c->arena,
+                "%d file%s of an earlier state of the set %s still there, outside the manifest: %s; rasp batch "
+                "--prune removes %s",
+                l->n_files, one ? "" : "s", one ? "is" : "are", list,
+                one ? "it unless it was changed since" : "those of stimuli of which nobody changed a file"));
     batch_close(&r);
     if (!r.rows) return (int)e->kind;
     if (args_given(&c->args, "json"))

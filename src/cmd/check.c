@@ -102,20 +102,6 @@ static bool check_design(struct cmd_call *c, const char *file, const char **rema
     return ok;
 }
 
-/* remark: of a design without fault; NULL: none. */
-static bool check_scene(struct cmd_call *c, const char *file, const char **remark, struct err *e)
-{
-    struct scene s, chosen;
-    const char **warnings = NULL;
-    if (design_is(file)) return check_design(c, file, remark, e);
-    if (!cmd_read_scene(c, file, &s, e)) return false;
-    if (!error_budget_apply(&s, c->arena, &chosen, NULL, e) || !plan_scene(&chosen, c->arena, &warnings, e))
-        return scene_places_report(&s, e);
-    for (int i = 0; warnings[i]; i++)
-        message_warning(c, file, warnings[i]);
-    return true;
-}
-
 static int check_run(struct cmd_call *c, struct err *e)
 {
     int worst = 0;
@@ -124,7 +110,16 @@ static int check_run(struct cmd_call *c, struct err *e)
         struct err mine = {0};
         const char *remark = NULL, *name = text_shown(c->arena, c->args.operands[i]);
         if (r.json) message_collect(c);
-        if (!check_scene(c, c->args.operands[i], &remark, &mine))
+        const char *file = c->args.operands[i], **warnings = NULL;
+        struct scene s, chosen;
+        if (design_is(file))
+            check_design(c, file, &remark, &mine);
+        else if (cmd_read_scene(c, file, &s, &mine) && (!error_budget_apply(&s, c->arena, &chosen, NULL, &mine) ||
+                                                        !plan_scene(&chosen, c->arena, &warnings, &mine)))
+            scene_places_report(&s, &mine);
+        for (int k = 0; !mine.kind && warnings && warnings[k]; k++)
+            message_warning(c, file, warnings[k]);
+        if (mine.kind)
             message_error(c, "check", &mine);
         else
             report_text(&r, "%s: ok\n", name);

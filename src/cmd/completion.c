@@ -76,12 +76,22 @@ static struct place place_of(const char *text, struct arena *a)
    what it means; an option that takes a value ends in =. @files, @folders and @.yaml stand for files, folders and files
    of that ending; @list says that words may be strung together with commas. */
 
-/* KEY=VALUE: the keys, or the words of a key. */
-static void put_settings(const char *prefix, const char *text, struct arena *a)
+/* What may stand where the text does, behind a prefix that stays. */
+static void put_place(const char *prefix, const char *text, const struct place *p, struct arena *a)
 {
     static const char *const own[] = {"accuracy", "accuracy.preset", "accuracy.error", NULL};
-    const char *equals = strchr(text, '=');
-    if (!equals) {
+    const char *comma = p->list && p->words[0] ? strrchr(text, ',') : NULL, *equals = strchr(text, '=');
+    if (p->settings && equals) { /* KEY=VALUE: the words of the key */
+        const char *path = arena_format(a, "%.*s", (int)(equals - text), text);
+        const struct key *key = keys_find(path);
+        printf("%s%s=\n", prefix, path);
+        for (const struct choice *c = key ? key->choices : NULL; c && c->word; c++)
+            puts(c->word);
+        for (int i = 0; (!strcmp(path, own[0]) || !strcmp(path, own[1])) && keys_presets[i]; i++)
+            puts(keys_presets[i]);
+        return;
+    }
+    if (p->settings) { /* the keys */
         puts(prefix);
         for (const struct key *k = keys_table; k->path; k++)
             printf("%s=\n", k->path);
@@ -89,23 +99,6 @@ static void put_settings(const char *prefix, const char *text, struct arena *a)
             printf("%s=\n", own[i]);
         for (const struct key_knob *k = keys_knobs; k->name; k++)
             printf("accuracy.%s=\n", k->name);
-        return;
-    }
-    const char *path = arena_format(a, "%.*s", (int)(equals - text), text);
-    const struct key *key = keys_find(path);
-    printf("%s%s=\n", prefix, path);
-    for (const struct choice *c = key ? key->choices : NULL; c && c->word; c++)
-        puts(c->word);
-    for (int i = 0; (!strcmp(path, own[0]) || !strcmp(path, own[1])) && keys_presets[i]; i++)
-        puts(keys_presets[i]);
-}
-
-/* What may stand where the text does, behind a prefix that stays. */
-static void put_place(const char *prefix, const char *text, const struct place *p, struct arena *a)
-{
-    const char *comma = p->list && p->words[0] ? strrchr(text, ',') : NULL;
-    if (p->settings) {
-        put_settings(prefix, text, a);
         return;
     }
     printf("%s%.*s\n", prefix, comma ? (int)(comma + 1 - text) : 0, text);

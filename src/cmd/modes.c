@@ -217,16 +217,6 @@ struct job {
     int quantity, *order; /* order: of the modes, by frequency */
 };
 
-static bool read_load(struct job *j, struct err *e)
-{
-    const char *text = args_value(&j->c->args, "load");
-    struct units_fault fault = {NULL, NULL};
-    if (text && !units_read(text, KEY_MASS, &j->load, j->c->arena, &fault))
-        return err_set(e, ERR_USAGE, "--load %s: %s", fault.text, fault.cure);
-    return !text || (j->load > 0 && j->load <= 1000) ||
-           err_set(e, ERR_USAGE, "--load: %s is not above 0 and at most 1000 kg", text);
-}
-
 /* What a table holds at a place in the object's coordinates. */
 static double gains_at(const void *self, double x, double y, const struct modes_point *p)
 {
@@ -308,9 +298,15 @@ static int modes_object_run(struct cmd_call *c, struct err *e)
     const char *file = args_value(&c->args, "output");
     if (!file) return err_set(e, ERR_USAGE, "-o FILE.csv is needed: the mode table to write"), (int)e->kind;
     if (!modes_output_spares(file, c->args.operands[0], e) || !mark_absent(file, args_given(&c->args, "force"), e) ||
-        !modes_quantity(c, &j.quantity, e) || !read_load(&j, e) || !body_read(c, c->args.operands[0], &j.body, e) ||
-        !make(&j, e))
+        !modes_quantity(c, &j.quantity, e))
         return (int)e->kind;
+    const char *load = args_value(&c->args, "load");
+    struct units_fault fault = {NULL, NULL};
+    if (load && !units_read(load, KEY_MASS, &j.load, c->arena, &fault))
+        err_set(e, ERR_USAGE, "--load %s: %s", fault.text, fault.cure);
+    else if (load && !(j.load > 0 && j.load <= 1000))
+        err_set(e, ERR_USAGE, "--load: %s is not above 0 and at most 1000 kg", load);
+    if (e->kind || !body_read(c, c->args.operands[0], &j.body, e) || !make(&j, e)) return (int)e->kind;
     /* Modes by rising frequency; those of one frequency as they come. */
     const double *f = j.modes.frequency;
     j.order = ARENA_TAKE(j.c->arena, int, j.modes.n);

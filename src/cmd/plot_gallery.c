@@ -117,7 +117,7 @@ static bool gather(struct page *g, struct err *e)
 /* ------------------------------------------------------------------ pictures */
 
 /* A sound that cannot be drawn leaves a note on the page; what no picture could be drawn without ends all. */
-static bool draw_item(struct page *g, struct item *item, struct err *e)
+static void draw_item(struct page *g, struct item *item, struct err *e)
 {
     struct arena *a = arena_open();
     char *flat = arena_text(g->arena, item->name);
@@ -147,22 +147,6 @@ static bool draw_item(struct page *g, struct item *item, struct err *e)
     else if (mark_permits(target, NULL, g->force, e) && gnuplot_write(target, p.svg, plot_draw, &p, e))
         item->picture = target;
     arena_close(a);
-    return e->kind == ERR_NONE;
-}
-
-static bool draw_all(struct page *g, struct err *e)
-{
-    bool tells = isatty(STDERR_FILENO);
-    if (mkdir(g->files, 0777) != 0 && errno != EEXIST)
-        return err_set(e, ERR_CREATE, "the folder %s cannot be created: %s", g->files, strerror(errno));
-    for (int i = 0; i < g->n; i++) {
-        if (interrupt_seen())
-            return err_set(e, ERR_INTERRUPTED, "interrupted; the page was not written, run the same command again");
-        if (tells) fprintf(stderr, "\r%d of %d", i, g->n);
-        if (g->items[i].kind != FAILED && !draw_item(g, &g->items[i], e)) break;
-    }
-    if (tells) fputs("\r\033[K", stderr);
-    return e->kind == ERR_NONE;
 }
 
 /* ------------------------------------------------------------------ the page */
@@ -304,13 +288,24 @@ int plot_gallery_run(struct cmd_call *c, struct err *e)
     g.output = output ? output : arena_format(c->arena, "%sgallery.html", g.folder);
     g.files = arena_format(c->arena, "%.*s_files", (int)strlen(g.output) - 5, g.output);
     if (!mark_permits(g.output, NULL, g.force, e) || !outfile_open(&o, g.output, e)) return (int)e->kind;
-    if (draw_all(&g, e)) {
+    bool tells = isatty(STDERR_FILENO);
+    if (mkdir(g.files, 0777) != 0 && errno != EEXIST)
+        err_set(e, ERR_CREATE, "the folder %s cannot be created: %s", g.files, strerror(errno));
+    for (int i = 0; i < g.n && e->kind == ERR_NONE; i++) {
+        if (interrupt_seen()) {
+            err_set(e, ERR_INTERRUPTED, "interrupted; the page was not written, run the same command again");
+            break;
+        }
+        if (tells) fprintf(stderr, "\r%d of %d", i, g.n);
+        if (g.items[i].kind != FAILED) draw_item(&g, &g.items[i], e);
+        drawn += g.items[i].picture != NULL;
+    }
+    if (tells) fputs("\r\033[K", stderr);
+    if (e->kind == ERR_NONE) {
         put_page(&g, o.stream);
         outfile_commit(&o, e);
     }
     outfile_drop(&o);
-    for (int i = 0; i < g.n; i++)
-        drawn += g.items[i].picture != NULL;
     if (e->kind == ERR_NONE)
         printf("%s  %s, %d picture%s in %s/\n", g.output, counted(&g), drawn, drawn == 1 ? "" : "s", g.files);
     return (int)e->kind;

@@ -183,24 +183,6 @@ static const char *render_base(struct cmd_call *c, const char *file, struct err 
     return arena_format(c->arena, "%.*s", (int)n - 4, o);
 }
 
-/* Several scenes' summaries are one array. */
-static void render_print(struct cmd_call *c, const struct scene *s, const struct render_report *r)
-{
-    for (int i = 0; i < r->n_warnings; i++)
-        message_warning(c, s->file, r->warnings[i]);
-    if (args_given(&c->args, "json"))
-        fputs(r->summary, stdout);
-    else if (!args_given(&c->args, "quiet")) {
-        for (int i = 0; i < r->n_files; i++)
-            if (strcmp(r->files[i].kind, "scene") != 0 && strcmp(r->files[i].kind, "summary") != 0)
-                printf("%s  %.3f s, %.3g times real time\n", text_shown(c->arena, r->files[i].path),
-                       (double)r->frames / s->output.sample_rate,
-                       (double)r->frames / s->output.sample_rate / (r->cpu > 1e-9 ? r->cpu : 1e-9));
-        for (int i = 0; i < r->n_notes; i++)
-            printf("%s\n", text_shown(c->arena, r->notes[i]));
-    }
-}
-
 /* All scenes, and what each would write; nothing is written yet. */
 static struct outputs *render_read(struct cmd_call *c, struct err *e)
 {
@@ -236,8 +218,18 @@ static int render_run(struct cmd_call *c, struct err *e)
         ok = render_scene(o->scene, o->base, c->arena, &report, e) || scene_places_report(o->scene, e);
         if (!ok) break;
         ok = !args_given(&c->args, "verify") || render_verify(c, c->args.operands[i], o->scene, &report, e);
-        fputs(!array ? "" : done++ ? "," : "[", stdout);
-        render_print(c, o->scene, &report);
+        fputs(!array ? "" : done++ ? "," : "[", stdout); /* several scenes' summaries are one array */
+        for (int k = 0; k < report.n_warnings; k++)
+            message_warning(c, o->scene->file, report.warnings[k]);
+        if (args_given(&c->args, "json")) fputs(report.summary, stdout);
+        if (args_given(&c->args, "json") || args_given(&c->args, "quiet")) continue;
+        double seconds = (double)report.frames / o->scene->output.sample_rate;
+        for (int k = 0; k < report.n_files; k++)
+            if (strcmp(report.files[k].kind, "scene") != 0 && strcmp(report.files[k].kind, "summary") != 0)
+                printf("%s  %.3f s, %.3g times real time\n", text_shown(c->arena, report.files[k].path), seconds,
+                       seconds / (report.cpu > 1e-9 ? report.cpu : 1e-9));
+        for (int k = 0; k < report.n_notes; k++)
+            printf("%s\n", text_shown(c->arena, report.notes[k]));
     }
     if (array && done) puts("]");
     return (int)e->kind;

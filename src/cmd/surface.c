@@ -483,26 +483,6 @@ static bool read_size(struct synth *s, struct err *e)
                    text, s->pitch);
 }
 
-static bool read_surface(struct synth *s, struct err *e)
-{
-    const char *file = s->c->args.operands[0];
-    const char *rest = "scraper: {mass: 1 g}\nmotion: {path: line, to: [1 cm, 0], speed: 1 cm/s}\noutput: "
-                       "{diagnostics: {rate: 1 kHz}}\n";
-    if (!cmd_recipe_read(s->c, file, rest, &s->scene, e)) return false;
-    const struct contact *c = &s->scene.contacts[0];
-    if (s->scene.n_contacts > 1)
-        return err_set(e, ERR_SCENE, "%s: has %d contacts; synth takes a recipe, or a scene of one contact", file,
-                       s->scene.n_contacts);
-    if (params_given(c, height_map_stage.params))
-        return err_set(
-            e, ERR_SCENE,
-            "%s: surface.height_map is measured, and needs no synth; rasp surface convert writes it in another format",
-            file);
-    return params_given(c, roughness_stage.params) || params_given(c, ridges_stage.params) ||
-           params_given(c, grit_stage.params) ||
-           err_set(e, ERR_SCENE, "%s: has no roughness, ridges or grit: there is no procedural surface in it", file);
-}
-
 /* ------------------------------------------------------------------ making */
 
 static bool make(struct synth *s, struct err *e)
@@ -544,13 +524,30 @@ static int surface_synth_run(struct cmd_call *c, struct err *e)
     enum heightfile_format format;
     struct heightfile_written w;
     const char *out = c->args.operands[1];
-    if (!heightfile_write_format(out, &format, e) || !read_size(&s, e) || !read_surface(&s, e)) return (int)e->kind;
+    const char *file = c->args.operands[0],
+               *rest = "scraper: {mass: 1 g}\nmotion: {path: line, to: [1 cm, 0], speed: 1 cm/s}\noutput: "
+                       "{diagnostics: {rate: 1 kHz}}\n";
+    if (!heightfile_write_format(out, &format, e) || !read_size(&s, e) || !cmd_recipe_read(c, file, rest, &s.scene, e))
+        return (int)e->kind;
+    const struct contact *k = &s.scene.contacts[0];
+    if (s.scene.n_contacts > 1)
+        err_set(e, ERR_SCENE, "%s: has %d contacts; synth takes a recipe, or a scene of one contact", file,
+                s.scene.n_contacts);
+    else if (params_given(k, height_map_stage.params))
+        err_set(e, ERR_SCENE,
+                "%s: surface.height_map is measured, and needs no synth; rasp surface convert writes it in another "
+                "format",
+                file);
+    else if (!params_given(k, roughness_stage.params) && !params_given(k, ridges_stage.params) &&
+             !params_given(k, grit_stage.params))
+        err_set(e, ERR_SCENE, "%s: has no roughness, ridges or grit: there is no procedural surface in it", file);
+    if (e->kind) return (int)e->kind;
     int n; /* it is neither the recipe, nor what that includes, nor the map whose statistics it has */
     const struct outputs_source *sources = outputs_sources(&s.scene, &n, c->arena);
     for (int i = 0; i < n; i++)
         if (!cmd_spares(out, "the heights", sources[i].file, "a file of another name", e)) return (int)e->kind;
     static const char *const words[] = {"path", "x", "plane", NULL};
-    int own = s.scene.contacts[0].surface.along, word = -1;
+    int own = k->surface.along, word = -1;
     if (!mark_absent(out, args_given(&c->args, "force"), e) || !args_word(&c->args, "along", words, &word, e))
         return (int)e->kind;
     /* A word of --along, else the scene's, else what the size asks for. */
