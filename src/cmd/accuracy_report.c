@@ -61,24 +61,6 @@ void accuracy_report_table(const struct accuracy_sweep *s, FILE *f)
 
 enum { BAR = 8 };
 
-/* ------------------------------------------------------------------ what it is about */
-
-static const char *own_text(const struct accuracy_sweep *s)
-{
-    struct arena *a = s->call->arena;
-    const char *parts = "";
-    for (int k = 0; k < KNOBS; k++)
-        if (s->own[k] > 0.0)
-            parts = arena_format(a, "%s%s%s %.0f dB", parts, *parts ? ", " : "", keys_knobs[k].name,
-                                 20.0 * real_log10(s->own[k]));
-    if (isfinite(s->until) || s->presets) return "Errors are against the preset reference.";
-    if (isinf(s->own_db)) return "Errors are against the preset reference, which has none that these knobs would show.";
-    return arena_format(a,
-                        "Errors are against the preset reference, whose own is about %.0f dB (%s): of smaller ones (<) "
-                        "believe no more than that.",
-                        -s->own_db, parts);
-}
-
 /* ------------------------------------------------------------------ cells */
 
 static const char *bar(const struct accuracy_sweep *s, double share)
@@ -156,15 +138,26 @@ bool accuracy_report(const struct accuracy_sweep *s, struct err *e)
     report_set(&r, "scene:s compared:s length_s:n rate_hz:n channels:i runs:i", s->file, s->force ? "force" : "sound",
                s->length, s->rate, s->channels, s->runs);
     report_set(&r, "diverges_s:n reference_error_db:n reference_errors_db:{", s->until, -s->own_db);
-    for (int k = 0; k < KNOBS; k++)
-        if (s->knobs & 1u << k)
-            report_set(&r, "$:n", keys_knobs[k].name, s->own[k] > 0.0 ? 20.0 * real_log10(s->own[k]) : NAN);
+    const char *parts = "", *own = "Errors are against the preset reference.";
+    for (int k = 0; k < KNOBS; k++) {
+        double db = s->own[k] > 0.0 ? 20.0 * real_log10(s->own[k]) : NAN;
+        if (s->knobs & 1u << k) report_set(&r, "$:n", keys_knobs[k].name, db);
+        if (!isnan(db)) parts = arena_format(a, "%s%s%s %.0f dB", parts, *parts ? ", " : "", keys_knobs[k].name, db);
+    }
+    bool judged = isinf(s->until) && !s->presets;
+    if (judged && isinf(s->own_db))
+        own = "Errors are against the preset reference, which has none that these knobs would show.";
+    else if (judged)
+        own = arena_format(a,
+                           "Errors are against the preset reference, whose own is about %.0f dB (%s): of smaller ones "
+                           "(<) believe no more than that.",
+                           -s->own_db, parts);
     report_set(&r, "} settings:[");
     report_note(&r, "",
                 arena_format(a, "%s: %s%.3f s, %.9g Hz, %d channel%s; turned by %s.", text_shown(a, s->file),
                              s->force ? "no sound, so its contact force: " : "", s->length, s->rate, s->channels,
                              s->channels == 1 ? "" : "s", plan_knobs_text(s->knobs, a)));
-    report_note(&r, "", own_text(s));
+    report_note(&r, "", own);
     if (isfinite(s->until))
         report_note(
             &r, "",

@@ -87,15 +87,6 @@ static bool finish(struct gnuplot *g, struct err *e)
     return ok;
 }
 
-/* gnuplot does not notice a full disk: is the last thing of the format there? */
-static bool is_whole(int fd, bool svg)
-{
-    char tail[13] = "";
-    struct stat s;
-    if (fstat(fd, &s) != 0 || s.st_size < 12 || pread(fd, tail, 12, s.st_size - 12) != 12) return false;
-    return svg ? strstr(tail, "</svg>") != NULL : memcmp(tail + 4, "IEND", 4) == 0;
-}
-
 bool gnuplot_draw(struct outfile *o, const char *target, bool svg, void (*draw)(void *self, struct gnuplot *g),
                   void *self, struct err *e)
 {
@@ -107,7 +98,12 @@ bool gnuplot_draw(struct outfile *o, const char *target, bool svg, void (*draw)(
     }
     draw(self, &g);
     bool ok = finish(&g, e);
-    if (ok && (!is_whole(o->fd, svg) || !mark_picture(o->fd, svg)))
+    /* gnuplot does not notice a full disk: is the last thing of the format there? */
+    char tail[13] = "";
+    struct stat s;
+    bool whole = ok && fstat(o->fd, &s) == 0 && s.st_size >= 12 && pread(o->fd, tail, 12, s.st_size - 12) == 12 &&
+                 (svg ? strstr(tail, "</svg>") != NULL : memcmp(tail + 4, "IEND", 4) == 0);
+    if (ok && (!whole || !mark_picture(o->fd, svg)))
         ok = err_set(e, ERR_IO, "%s: cannot be written whole (is the disk full?)", target);
     if (!ok) outfile_drop(o);
     return ok;

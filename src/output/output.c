@@ -178,23 +178,6 @@ static const struct yaml_node *column_first(struct yaml_node *root)
 
 /* ------------------------------------------------------------------ all of it */
 
-/* A contact that neither rings nor has a table or a stem. */
-static void asked_check(const struct scene_part *p, const struct scene *s)
-{
-    const struct contact *c = p->to;
-    const struct yaml_node *surface = yaml_get(p->map, "surface");
-    for (int i = 0; s->output.stems && s->output.stems[i]; i++)
-        if (strcmp(s->output.stems[i], "force") == 0) return;
-    if (s->output.diagnostics.given || impact_rows_listed(c, &s->output) || response_audible(c, &s->output)) return;
-    diag_add(p->yaml->diag, scene_part_place(p, surface ? surface : p->map),
-             arena_format(p->yaml->arena,
-                          "give surface.response, surface.object or surface.space (or one of %s) for a sound, set "
-                          "output.quantity to force for the sound of "
-                          "the force alone, or ask for output.diagnostics, a table of its physics, or the stem force",
-                          contact_tool(c)),
-             "nothing is asked of %s", scene_part_contact(p, c->name));
-}
-
 static void output_check(const struct scene_part *top, bool contacts)
 {
     static const char *const rates[2] = {"output.diagnostics.rate", "output.sample_rate"};
@@ -229,8 +212,20 @@ static void output_check(const struct scene_part *top, bool contacts)
 
 static void contact_check(const struct scene_part *p, struct yaml_node *root, const struct scene *s, bool good)
 {
-    if (good) asked_check(p, s); /* a misspelt response is reported already */
     const struct contact *c = p->to;
+    const struct yaml_node *surface = yaml_get(p->map, "surface");
+    bool asked = !good /* a misspelt response is reported already */ || s->output.diagnostics.given ||
+                 impact_rows_listed(c, &s->output) || response_audible(c, &s->output);
+    for (int i = 0; s->output.stems && s->output.stems[i]; i++)
+        asked = asked || strcmp(s->output.stems[i], "force") == 0;
+    if (!asked)
+        diag_add(p->yaml->diag, scene_part_place(p, surface ? surface : p->map),
+                 arena_format(p->yaml->arena,
+                              "give surface.response, surface.object or surface.space (or one of %s) for a sound, set "
+                              "output.quantity to force for the sound of the force alone, or ask for "
+                              "output.diagnostics, a table of its physics, or the stem force",
+                              contact_tool(c)),
+                 "nothing is asked of %s", scene_part_contact(p, c->name));
     for (const struct yaml_node *item = column_first(root); item && s->output.diagnostics.given; item = item->next) {
         int k = column_find(item);
         const char *needs = k < 0 ? "" : params_column_lacks(c, k);

@@ -126,23 +126,6 @@ static bool find_loudness(struct sound *o, double peak, double *lufs, struct err
     return true;
 }
 
-/* The gain that the level asks for, of a sound that is not silent. */
-static bool gain_find(struct sound *o, const struct sound_report *r, double *gain, struct err *e)
-{
-    const struct level *level = &o->scene->output.level;
-    int bits = o->track.format.bits;
-    double lufs, largest = bits > 0 ? 1 - ldexp(1, 1 - bits) : 1;
-    if (!isnan(level->rms))
-        *gain = real_exp10(level->rms / 20) / r->rms;
-    else if (isnan(level->lufs))
-        *gain = fmin(real_exp10((isnan(level->peak) ? SOUND_PEAK : level->peak) / 20), largest) / r->peak;
-    else if (find_loudness(o, r->peak, &lufs, e))
-        *gain = real_exp10((level->lufs - lufs) / 20) / r->peak;
-    else
-        return false;
-    return true;
-}
-
 static struct sound_report report_make(const struct sound *o)
 {
     const struct track *t = &o->track;
@@ -169,11 +152,21 @@ static struct sound_report report_make(const struct sound *o)
 bool sound_finish(struct sound *o, struct sound_report *report, struct err *e)
 {
     struct track *t = &o->track;
+    const struct level *level = &o->scene->output.level;
+    double lufs, largest = t->format.bits > 0 ? 1 - ldexp(1, 1 - t->format.bits) : 1;
     *report = report_make(o);
     report->gain = t->gain;
     if (!t->spool) return true;
-    report->gain = 1;
-    if (!report->silent && !gain_find(o, report, &report->gain, e)) return false;
+    if (report->silent) /* the gain that the level asks for */
+        report->gain = 1;
+    else if (!isnan(level->rms))
+        report->gain = real_exp10(level->rms / 20) / report->rms;
+    else if (isnan(level->lufs))
+        report->gain = fmin(real_exp10((isnan(level->peak) ? SOUND_PEAK : level->peak) / 20), largest) / report->peak;
+    else if (find_loudness(o, report->peak, &lufs, e))
+        report->gain = real_exp10((level->lufs - lufs) / 20) / report->peak;
+    else
+        return false;
     return note(o, report->gain, e) && track_finish(t, report->gain, e);
 }
 

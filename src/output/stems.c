@@ -37,35 +37,32 @@ static bool comment(const struct stems *o, struct track *t, double gain, struct 
     return track_note(t, text, e);
 }
 
-static bool open_one(struct stems *o, enum stem stem, const char *path, struct track_format f, struct arena *a,
-                     struct err *e)
-{
-    struct track *t = &o->tracks[stem];
-    double gain = sound_known_gain(o->scene);
-    f.key = "output.stems: a part of the sound may be louder than the whole: use output.encoding: float32, or a lower "
-            "level";
-    if (stem == STEM_FORCE) {
-        gain = 1;
-        f.places = f.channels = 1, f.bits = -32, f.ramp = 0, f.recede = 0, f.waits = false;
-        f.key = "output.stems: force";
-    }
-    if (!track_open(t, path, &f, gain, a, e)) return false;
-    o->open[stem] = true;
-    return stem == STEM_FORCE ? track_note(t, "rasp: contact force, 1.0 is 1 N", e) : f.waits || comment(o, t, gain, e);
-}
-
 struct stems *stems_open(const struct scene *s, const char *const paths[STEMS], long frames, struct arena *a,
                          struct err *e)
 {
     struct stems *o = ARENA_TAKE(a, struct stems, 1);
-    struct track_format f = sound_format(s, frames);
     o->scene = s;
-    for (int k = 0; k < STEMS; k++)
-        if (stems_asked(&s->output, (enum stem)k) && !open_one(o, (enum stem)k, paths[k], f, a, e)) {
-            stems_drop(o);
-            return NULL;
+    for (int k = 0; k < STEMS && e->kind == ERR_NONE; k++) {
+        struct track *t = &o->tracks[k];
+        struct track_format f = sound_format(s, frames);
+        double gain = sound_known_gain(s);
+        if (!stems_asked(&s->output, (enum stem)k)) continue;
+        f.key = "output.stems: a part of the sound may be louder than the whole: use output.encoding: float32, or a "
+                "lower level";
+        if (k == STEM_FORCE) {
+            gain = 1;
+            f.places = f.channels = 1, f.bits = -32, f.ramp = 0, f.recede = 0, f.waits = false;
+            f.key = "output.stems: force";
         }
-    return o;
+        o->open[k] = track_open(t, paths[k], &f, gain, a, e);
+        if (o->open[k] && k == STEM_FORCE)
+            track_note(t, "rasp: contact force, 1.0 is 1 N", e);
+        else if (o->open[k] && !f.waits)
+            comment(o, t, gain, e);
+    }
+    if (e->kind == ERR_NONE) return o;
+    stems_drop(o);
+    return NULL;
 }
 
 bool stems_add(struct stems *o, enum stem stem, double *x, long n, struct err *e)
