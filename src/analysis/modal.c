@@ -302,23 +302,27 @@ static void fit_gains(struct modal_fit *f)
 
 static double fast(struct modal_fit *f, int i) { return -f->c[i].s.re > f->options->fastest ? f->c[i].s.re : HUGE_VAL; }
 
-/* Is it a hum? It is as loud in all strikes, within 12 dB, as nothing is that they strike; or before the first strike
-   at least half as loud as after most. */
+/* Is it a hum? Before the first strike it is at least half as loud as after most; what does not decay, with the noise
+   there, as it may hide in that. Where the recording begins with a strike a hum does not decay, and is as loud in all
+   strikes, within 12 dB, as nothing is that they strike. */
 static bool is_hum(const struct modal_fit *f, int i, bool undamped)
 {
     double size[MODAL_STRETCHES], of[MODAL_STRETCHES], lead = 0.0;
+    bool before = false;
     int n = 0;
     modal_fit_sizes(f, i, size);
     for (int s = 0; s < f->data->stretches; s++) {
         if (f->data->stretch[s].fitted) of[n++] = size[s];
-        if (f->data->stretch[s].strike < 0) lead = fmax(lead, modal_fit_lead(f, s, i));
+        before = before || f->data->stretch[s].strike < 0;
+        if (f->data->stretch[s].strike < 0) lead = fmax(lead, modal_fit_lead(f, s, i, undamped));
     }
     gsl_sort(of, 1, (size_t)n);
-    return (undamped && of[n - 1] < 4.0 * of[0]) || lead > 0.5 * of[n / 2];
+    return before ? lead > 0.5 * of[n / 2] : undamped && of[n - 1] < 4.0 * of[0];
 }
 
 /* What does not decay by more than chance, or has no gain of more, is no mode: a hum, which stays in the fit, or what a
-   fit of noise needs. Of those the weakest goes first, the others fitted anew: they may decay without it. */
+   fit of noise needs. Of those the weakest goes first, the others fitted anew: they may decay without it. What is there
+   for certain, and is as loud as it is struck, stays, though it rings longer than a recording can tell. */
 static double uncertain(struct modal_fit *f, int i)
 {
     struct modal_gain gain[MODAL_STRETCHES];
@@ -331,7 +335,30 @@ static double uncertain(struct modal_fit *f, int i)
         gains =
             gains || (f->data->stretch[s].fitted && cplx_abs(f->part[i * f->data->stretches + s].gain) > gain[s].se);
     f->c[i].hum = is_hum(f, i, slow && undamped);
-    return f->c[i].hum || (!undamped && gains) ? HUGE_VAL : projected(f, i);
+    bool struck = undamped && gains && modal_converge_rise(f, i) > modal_converge_limit(f, certain);
+    return f->c[i].hum || struck || (!undamped && gains) ? HUGE_VAL : projected(f, i);
+}
+
+/* A mode that falls by less than 2.6 dB in the longest strike, and may as well not decay, is given that. */
+static int slow_down(struct modal_fit *f)
+{
+    int changed = 0;
+    double least = 0.3 / f->longest;
+    for (int i = 0; i < f->m; i++) {
+        struct modal_part total[MODAL_STRETCHES];
+        struct modal_gain gain[MODAL_STRETCHES];
+        struct modal_mode m = {.decay = -f->c[i].s.re, .gain = gain};
+        if (f->c[i].hum || m.decay >= least) continue;
+        errors(f, i, &m);
+        if (m.decay > 2.0 * m.decay_se) continue;
+        modal_fit_totals(f, i, total);
+        for (int s = 0; s < f->data->stretches; s++)
+            total[s].pole.re = fmin(total[s].pole.re, -least);
+        modal_fit_replace(f, i, (cplx){-least, f->c[i].s.im}, total);
+        changed++;
+    }
+    if (changed) fit_gains(f);
+    return changed;
 }
 
 /* The weakest beyond those that are wanted. */
@@ -445,6 +472,7 @@ bool modal_find(const struct modal_data *d, const struct modal_options *o, struc
         n = modal_converge_drop_least(&f, uncertain, 9);
         if (n) modal_converge_sweeps(&f, 8, 4);
     }
+    int longer = slow_down(&f);
     r->explained = ARENA_TAKE(a, double, d->stretches);
     r->fitted = ARENA_TAKE(a, double, d->stretches);
     r->direct = ARENA_TAKE(a, double, d->stretches);
@@ -456,6 +484,9 @@ bool modal_find(const struct modal_data *d, const struct modal_options *o, struc
                 arena_format(a, "components that decay faster than %.4g/s are left out (--fastest)", o->fastest));
     note_number(r, a, chance, "component is left out, whose decay or gain may be chance",
                 "components are left out, whose decays or gains may be chance");
+    note_number(r, a, longer,
+                arena_format(a, "mode rings longer than can be told, its decay is taken as %.3g/s", 0.3 / f.longest),
+                arena_format(a, "modes ring longer than can be told, their decay is taken as %.3g/s", 0.3 / f.longest));
     note_number(r, a, more, arena_format(a, "more mode than the %d strongest was found", o->most),
                 arena_format(a, "more modes than the %d strongest were found", o->most));
     arena_close(inner);

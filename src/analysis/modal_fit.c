@@ -353,7 +353,7 @@ void modal_fit_sizes(const struct modal_fit *f, int i, double *size)
         size[s] = cplx_abs(after[s]);
 }
 
-double modal_fit_lead(const struct modal_fit *f, int stretch, int i)
+double modal_fit_lead(const struct modal_fit *f, int stretch, int i, bool noise)
 {
     const struct modal_bins *b = &f->bins[stretch];
     cplx s = f->c[i].s;
@@ -361,12 +361,15 @@ double modal_fit_lead(const struct modal_fit *f, int stretch, int i)
     long from = (long)ceil((s.im - wide) / b->width) - b->first, to = (long)floor((s.im + wide) / b->width) - b->first;
     for (long k = from > 0 ? from : 0; k <= to && k < b->n; k++) {
         double power = cplx_square(b->y[k]);
-        sum += power - b->variance[k];
+        sum += noise ? power : power - b->variance[k];
         at = power > most ? (double)(b->first + k) * b->width : at;
         most = fmax(most, power);
     }
-    for (int k = 0; k < f->m; k++)
-        if (fabs(f->c[k].s.im - at) < fabs(s.im - at) - 0.5 * b->width) return 0.0;
+    for (int k = 0; k < f->m; k++) {
+        double nearer = fabs(s.im - at) - fabs(f->c[k].s.im - at);
+        bool slower = -s.re > b->width && f->c[k].s.re > 0.1 * s.re;
+        if (nearer > (slower ? -b->width : b->width)) return 0.0;
+    }
     return 2.0 * sqrt(fmax(sum, 0.0) / (double)f->data->stretch[stretch].n);
 }
 

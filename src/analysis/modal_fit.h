@@ -131,9 +131,10 @@ void modal_fit_drop(struct modal_fit *f, int i);
 void modal_fit_totals(const struct modal_fit *f, int i, struct modal_part *total);
 void modal_fit_replace(struct modal_fit *f, int i, cplx pole, const struct modal_part *total);
 void modal_fit_sizes(const struct modal_fit *f, int i, double *size); /* [stretches] |x B| at their pulses' ends */
-/* Amplitude of what a lead holds within a pole's half-width and two bins, noise off. 0 if another component is nearer
- * to the strongest of these bins: a mode beside a hum is none. */
-double modal_fit_lead(const struct modal_fit *f, int stretch, int i);
+/* Amplitude of what a lead holds within a pole's half-width and two bins, with its noise or without. 0 if that is
+   another component's: one that is nearer to the strongest of these bins by more than a bin, or, of a pole that decays
+   within the lead, as near within a bin and hardly decays. */
+double modal_fit_lead(const struct modal_fit *f, int stretch, int i, bool noise);
 void modal_fit_put(struct modal_fit *f, int i, double sign); /* rest += sign (component i) */
 void modal_fit_rest(struct modal_fit *f);                    /* rest anew */
 /* What X of a pole needs on a stretch's bins: p, H - G and its derivative over sqrt(n). */

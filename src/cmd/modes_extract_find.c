@@ -29,8 +29,8 @@ static const double lead_least = 0.05; /* s of silence before the first strike t
 static const double reach = 1e-4;      /* of the force's greatest power: what lies below is noise */
 static const double half = 0.5;        /* of a strike's energy: modes that explain less are not its own */
 static const double enough = 0.9;      /* of all strikes' */
-static const double single = 0.7;      /* of a mode's energy in all strikes: less than that is in any of them */
-static const double much = 0.2;        /* of the energy: what follows the force at once is reported */
+static const double single = 0.7; /* of a mode's parts of all strikes' energies: less than that is in any of them */
+static const double much = 0.2;   /* of the energy: what follows the force at once is reported */
 static const double fastest[2] = {600.0, 0.05}; /* 1/s, and of the rate: what decays faster than the less of the two is
                                                    no mode unless one asks for it */
 static const double air_density = 1.204, air_speed = 343.2; /* kg/m^3, m/s: as output.listen has them by default */
@@ -255,21 +255,29 @@ static void compare(struct modes_extract *x, struct modes_extract_place *p)
                                     &(struct spectral_distance_band){x->rate, x->low, x->high, noise * noise});
 }
 
-/* Are most modes, by their shares, loud in one of the strikes alone? As the modes of different objects are. */
+/* Is a strike's sound mostly of modes that are loud in one of the strikes alone, in the mean over strikes? As the modes
+ * of different objects are. All strikes count alike: one that is louder than all others and rings otherwise is one. */
 static bool alone(const struct modes_extract *x)
 {
-    double all = 0.0, common = 0.0;
-    for (const struct modal_mode *m = x->found.mode; m < x->found.mode + x->found.n; m++) {
-        double most = 0.0, sum = 0.0;
-        for (int s = 0; s < x->data.stretches; s++) {
-            if (!x->data.stretch[s].fitted) continue;
-            most = fmax(most, cplx_square(m->gain[s].a));
-            sum += cplx_square(m->gain[s].a);
+    double all[STRIKES] = {0}, common = 0.0, strikes = 0.0;
+    for (int pass = 0; pass < 2; pass++)
+        for (const struct modal_mode *m = x->found.mode; m < x->found.mode + x->found.n; m++) {
+            double part[STRIKES], most = 0.0, sum = 0.0, square = 0.0; /* of the strike's energy */
+            for (int s = 0; s < x->data.stretches; s++)
+                square += x->data.stretch[s].fitted ? cplx_square(m->gain[s].a) : 0.0;
+            for (int s = 0; s < x->data.stretches; s++) {
+                part[s] = x->data.stretch[s].fitted ? m->share * cplx_square(m->gain[s].a) / square : 0.0;
+                if (pass == 0)
+                    all[s] += part[s];
+                else if (all[s] > 0.0)
+                    part[s] /= all[s];
+                most = fmax(most, part[s]);
+                sum += part[s];
+            }
+            common += pass && most <= single * sum ? sum : 0.0;
+            strikes += pass ? sum : 0.0;
         }
-        all += m->share;
-        common += most / sum <= single ? m->share : 0.0;
-    }
-    return common < 0.5 * all;
+    return common < 0.5 * strikes;
 }
 
 /* The fit must explain nearly all of what it was made of, and of every strike half at least, or it is none of this

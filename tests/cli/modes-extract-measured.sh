@@ -10,6 +10,8 @@ for name in ceramic polycarb wood; do
     rasp modes extract "$data/$name.wav" --force-channel 2 --strikes 2,3 --high 4kHz --modes 12 --json -o $name.csv > $name.json || exit
 done
 rasp modes extract "$data/steel.wav" --force-channel 2 --method spectrogram --json -o steel.csv > steel.json || exit
+# Steel swings: its modes lie up to 1 % apart from strike to strike, and some ring longer than the recording tells.
+rasp modes extract "$data/steel.wav" --force-channel 2 --high 4kHz --json -o swings.csv > swings.json || exit
 python3 - << 'END'
 import json
 decay = {}
@@ -23,5 +25,9 @@ for name, heard, hz in (("ceramic", 8, (2215.5, 2056.2)), ("polycarb", 5, (3372,
     print(name, "as known" if all(good) else ("differs", good, p["explained"], p["predicted"], modes[:3]))
 d = json.load(open("steel.json"))
 print("steel", "as known" if len(d["places"][0]["strikes"]) == 11 and any(abs(m["frequency_hz"] / 1699 - 1) < 0.01 for m in d["modes"]) else d["modes"][:5])
+d = json.load(open("swings.json"))
+p = d["places"][0]
+good = [p["explained"] > 0.95, min(s["explained"] for s in p["strikes"]) > 0.9, all(any(abs(m["frequency_hz"] / f - 1) < 0.002 for m in d["modes"]) for f in (320.5, 889.5, 1699)), any("longer than can be told" in w for w in d["warnings"])]
+print("steel", "as known" if all(good) else (good, p["explained"]))
 print("ceramic < polycarbonate, wood:", max(decay["ceramic"] * 3, 20) < min(decay["polycarb"], decay["wood"]) or decay)
 END
