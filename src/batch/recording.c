@@ -35,10 +35,14 @@ bool recording_open(struct measure_source *c, const char *path, const struct mea
     return true;
 }
 
-static void shape(struct measure_source *c, double *x, long n)
+static bool read_cut(struct measure_source *c, double *x, long most, long *n, struct err *e)
 {
+    long some = c->frames - c->done < most ? c->frames - c->done : most, got;
+    *n = some;
+    memset(x, 0, sizeof *x * (size_t)some * (size_t)c->in.channels);
+    if (!wav_stream_read(&c->in, x, some, &got, e)) return false;
     long last = c->ramp > 1 ? c->ramp : 1;
-    for (long i = 0; i < n; i++) {
+    for (long i = 0; i < some; i++) { /* the ramp, and what is cut off by it */
         long rest = c->frames - 1 - (c->done + i);
         double *frame = x + i * c->in.channels, size = 0;
         for (int k = 0; k < c->in.channels; k++)
@@ -49,15 +53,6 @@ static void shape(struct measure_source *c, double *x, long n)
         for (int k = 0; k < c->in.channels && rest < c->ramp; k++)
             frame[k] *= s * s;
     }
-}
-
-static bool read_cut(struct measure_source *c, double *x, long most, long *n, struct err *e)
-{
-    long some = c->frames - c->done < most ? c->frames - c->done : most, got;
-    *n = some;
-    memset(x, 0, sizeof *x * (size_t)some * (size_t)c->in.channels);
-    if (!wav_stream_read(&c->in, x, some, &got, e)) return false;
-    shape(c, x, some);
     c->done += some;
     return true;
 }

@@ -224,26 +224,6 @@ static bool measure(struct record *r, const char *path, struct arena *a, struct 
 
 /* ------------------------------------------------------------------ rendering */
 
-static struct record of_render(const struct work *w, const struct render_report *report, bool waits)
-{
-    const struct scene *s = &w->scene;
-    struct record r = begun(w, waits ? RECORD_WAITS : RECORD_DONE, report->n_files);
-    r.rate = report->sounds ? s->output.sample_rate : NAN;
-    r.frames = report->frames;
-    r.sounds = report->sounds;
-    r.peak = report->sound.peak, r.rms = report->sound.rms;
-    r.encoding = s->output.encoding;
-    r.channels = sound_format(s, report->frames).channels;
-    r.unit = report->quantity >= 0 ? modes_quantity_unit(report->quantity) : NULL;
-    r.gain = report->sound.gain, r.ramp = report->sound.ramp;
-    r.beyond = report->sounds ? summary_sound(report)->written->beyond : NAN;
-    r.render = report->summary;
-    r.warnings = ARENA_TAKE(w->arena, const char *, report->n_warnings + 1);
-    for (int k = 0; k < report->n_warnings; k++)
-        r.warnings[k] = report->warnings[k];
-    return r;
-}
-
 static bool list_render(const struct work *w, const struct render_report *report, struct record *r, struct err *e)
 {
     const char *wav = NULL;
@@ -279,7 +259,20 @@ static bool render(struct work *w, struct stimulus *s, struct err *e)
     struct made m = {.render = render_make(&made, &(struct render_names){w->base, raw}, w->arena, &report, e),
                      .scene = {.fd = -1}};
     if (!m.render) return scene_places_report(&w->scene, e);
-    struct record r = of_render(w, &report, waits);
+    struct record r = begun(w, waits ? RECORD_WAITS : RECORD_DONE, report.n_files);
+    r.rate = report.sounds ? w->scene.output.sample_rate : NAN;
+    r.frames = report.frames;
+    r.sounds = report.sounds;
+    r.peak = report.sound.peak, r.rms = report.sound.rms;
+    r.encoding = w->scene.output.encoding;
+    r.channels = sound_format(&w->scene, report.frames).channels;
+    r.unit = report.quantity >= 0 ? modes_quantity_unit(report.quantity) : NULL;
+    r.gain = report.sound.gain, r.ramp = report.sound.ramp;
+    r.beyond = report.sounds ? summary_sound(&report)->written->beyond : NAN;
+    r.render = report.summary;
+    r.warnings = ARENA_TAKE(w->arena, const char *, report.n_warnings + 1);
+    for (int k = 0; k < report.n_warnings; k++)
+        r.warnings[k] = report.warnings[k];
     if (!commit(w, &r, &m, list_render(w, &report, &r, e), e)) return false;
     s->wall += report.seconds, s->cpu += report.cpu;
     return true;

@@ -379,21 +379,6 @@ static bool put_own_sum(struct writing *w, int table, struct err *e)
     return ok;
 }
 
-static bool put_all(struct writing *w, struct err *e)
-{
-    const struct set *s = w->t->set;
-    w->cell = (struct cell){.set = s, .level = set_level_text(s, w->t->arena), .f = w->files[MANIFEST].stream};
-    put_row(&w->cell, true);
-    if (w->timings) fputs("stimulus_id,wall_s,cpu_s\n", w->files[TIMINGS].stream);
-    for (int i = 0; i < s->n; i++)
-        if (!put_stimulus(w, i, e)) return false;
-    json_t *j = dictionary(s->design);
-    json_dumpf(j, w->files[DICTIONARY].stream, JSON_INDENT(2) | JSON_ENSURE_ASCII);
-    fputc('\n', w->files[DICTIONARY].stream);
-    json_decref(j);
-    return put_own_sum(w, MANIFEST, e) && put_own_sum(w, DICTIONARY, e);
-}
-
 bool tables_write(const struct tables *t, const char **no_effect, struct err *e)
 {
     const struct design *d = t->set->design;
@@ -410,7 +395,18 @@ bool tables_write(const struct tables *t, const char **no_effect, struct err *e)
     for (int k = 0; k < TABLES && ok; k++)
         ok = (k == TIMINGS && !w.timings) ||
              outfile_open(&w.files[k], arena_format(t->arena, "%s/%s", t->folder, names[k]), e);
-    ok = ok && put_all(&w, e);
+    w.cell = (struct cell){.set = t->set, .level = set_level_text(t->set, t->arena), .f = w.files[MANIFEST].stream};
+    if (ok) put_row(&w.cell, true);
+    if (ok && w.timings) fputs("stimulus_id,wall_s,cpu_s\n", w.files[TIMINGS].stream);
+    for (int i = 0; ok && i < t->set->n; i++)
+        ok = put_stimulus(&w, i, e);
+    if (ok) {
+        json_t *j = dictionary(d);
+        json_dumpf(j, w.files[DICTIONARY].stream, JSON_INDENT(2) | JSON_ENSURE_ASCII);
+        fputc('\n', w.files[DICTIONARY].stream);
+        json_decref(j);
+        ok = put_own_sum(&w, MANIFEST, e) && put_own_sum(&w, DICTIONARY, e);
+    }
     for (int k = 0; k < TABLES; k++)
         if (ok && w.files[k].target[0])
             ok = outfile_commit(&w.files[k], e);
