@@ -180,19 +180,6 @@ static void choose_spread(struct segments *x, const struct trajectory *tr)
     stretch_at(x, sum, tr->duration / GRID, fastest, parts);
 }
 
-static void choose(struct segments *x, const struct trajectory *tr, double first)
-{
-    double rate = x->scene.output.sample_rate;
-    long some = (long)ceil(first * rate);
-    if (anywhere(&x->contact) && tr->top_speed > 0 && x->moving > 2 * SEGMENTS_LEAST * SEGMENTS_WINDOW) {
-        choose_spread(x, tr);
-        return;
-    }
-    if (some > x->moving || anywhere(&x->contact)) some = x->moving;
-    some = some < SEGMENTS_WINDOW ? SEGMENTS_WINDOW : some;
-    stretch_add(x, 0, some, (double)x->moving / (double)some / (2 * TAPERED));
-}
-
 bool segments_make(const struct scene *s, const struct contact *c, double first, bool moves, struct arena *a,
                    struct segments *x, struct err *e)
 {
@@ -215,7 +202,15 @@ bool segments_make(const struct scene *s, const struct contact *c, double first,
     x->scene.output.impacts = LISTING_NONE;
     if (!trajectory_make(&c->motion, trajectory_seed(s, c), a, &tr, e)) return err_at(e, "contact '%s'", c->name);
     x->moving = trajectory_frames(&tr, s->output.sample_rate);
-    choose(x, &tr, first);
+    bool any = anywhere(c);
+    long some = (long)ceil(first * s->output.sample_rate);
+    if (any && tr.top_speed > 0 && x->moving > 2 * SEGMENTS_LEAST * SEGMENTS_WINDOW)
+        choose_spread(x, &tr);
+    else {
+        if (some > x->moving || any) some = x->moving;
+        some = some < SEGMENTS_WINDOW ? SEGMENTS_WINDOW : some;
+        stretch_add(x, 0, some, (double)x->moving / (double)some / (2 * TAPERED));
+    }
     for (int i = 0; i < x->n; i++) {
         struct segments_stretch *at = &x->stretch[i];
         double t = ((double)at->from + 0.5 * (double)at->frames) / s->output.sample_rate;

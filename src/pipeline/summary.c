@@ -275,21 +275,6 @@ static json_t *contact_json(const struct run *run, const struct scene *s, double
     return c;
 }
 
-/* The other files of the render, by their names beside the summary. */
-static json_t *files_json(const struct render_report *report)
-{
-    json_t *all = json_array();
-    for (int i = 0; i < report->n_files; i++) {
-        const struct render_file *f = &report->files[i];
-        if (!strcmp(f->kind, "summary")) continue;
-        json_t *one = json_value_object("kind:s name:v contact:? stem:? sha256:?", f->kind, basename(f->path),
-                                        f->contact, f->stem, f->sha256);
-        summary_written(f, one);
-        json_array_append_new(all, one);
-    }
-    return all;
-}
-
 /* What accuracy.error asked for, and what the knobs that leave an error are predicted to leave. */
 static json_t *error_budget_json(const struct error_budget *p, bool times)
 {
@@ -307,14 +292,22 @@ const char *summary_text(const struct scene *s, const struct run *const *runs, c
                          bool times, struct arena *a)
 {
     double duration = (double)report->frames / s->output.sample_rate;
-    json_t *contacts = json_array(), *remarks = json_array();
+    json_t *contacts = json_array(), *remarks = json_array(), *files = json_array();
     for (int i = 0; i < s->n_contacts; i++)
         if (runs[i]) json_array_append_new(contacts, contact_json(runs[i], s, times ? report->cpu : NAN, a));
     for (int i = 0; i < report->n_warnings; i++)
         json_array_append_new(remarks, json_value_shown(report->warnings[i]));
+    for (int i = 0; i < report->n_files; i++) { /* the others, by their names beside the summary */
+        const struct render_file *f = &report->files[i];
+        if (!strcmp(f->kind, "summary")) continue;
+        json_t *one = json_value_object("kind:s name:v contact:? stem:? sha256:?", f->kind, basename(f->path),
+                                        f->contact, f->stem, f->sha256);
+        summary_written(f, one);
+        json_array_append_new(files, one);
+    }
     json_t *whole = json_value_object("scene:s frames:l sample_rate_hz:n duration_s:n contacts:o warnings:o files:o",
                                       s->title ? s->title : "", (long)report->frames, s->output.sample_rate, duration,
-                                      contacts, remarks, files_json(report));
+                                      contacts, remarks, files);
     if (times)
         json_value_set(whole, "wall_s:n cpu_s:n real_time_factor:n", report->seconds, report->cpu,
                        report->cpu > 0 ? duration / report->cpu : HUGE_VAL);
