@@ -161,21 +161,18 @@ int text_showable(const char *s, size_t n)
     return code >= 0x20 && (code < 0x7f || code >= 0xa0) ? length : 0;
 }
 
-/* The byte as an escape sequence, ESCAPE_MAX characters at most; returns how many. */
-static size_t escape(char byte, char out[ESCAPE_MAX + 1])
-{
-    static const char bytes[] = "\n\r\t", letters[] = "nrt";
-    const char *at = strchr(bytes, byte);
-    return (size_t)(at ? snprintf(out, ESCAPE_MAX + 1, "\\%c", letters[at - bytes])
-                       : snprintf(out, ESCAPE_MAX + 1, "\\x%02x", (unsigned char)byte));
-}
-
 void text_show(const char *s, char *out, size_t room)
 {
     size_t size = strlen(s), n = 0;
     for (size_t i = 0, step; i < size; i += step) {
+        static const char bytes[] = "\n\r\t", letters[] = "nrt";
         char escaped[ESCAPE_MAX + 1];
-        size_t length = (size_t)text_showable(s + i, size - i), put = length ? length : escape(s[i], escaped);
+        const char *at = strchr(bytes, s[i]);
+        size_t length = (size_t)text_showable(s + i, size - i), put = length;
+        if (!length && at)
+            put = (size_t)snprintf(escaped, sizeof escaped, "\\%c", letters[at - bytes]);
+        else if (!length)
+            put = (size_t)snprintf(escaped, sizeof escaped, "\\x%02x", (unsigned char)s[i]);
         step = length ? length : 1;
         if (n + put >= room) break;
         memcpy(out + n, length ? s + i : escaped, put);

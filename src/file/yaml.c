@@ -263,26 +263,6 @@ static struct yaml_node *node_copy(struct parse *p, const struct yaml_node *from
     return copy;
 }
 
-static struct yaml_node *alias_read(struct parse *p, const struct event *ev)
-{
-    for (int i = p->n_anchors - 1; i >= 0; i--)
-        if (strcmp(p->anchors[i].name, ev->anchor) == 0) return node_copy(p, p->anchors[i].node, ev->at);
-    diag_add(p->y->diag, ev->at,
-             "an anchor (&name) must stand before its aliases (*name); put quotes around a text that starts with *",
-             "no anchor '%s' before this", diag_shown(p->y->diag, ev->anchor));
-    return NULL;
-}
-
-static struct yaml_node *scalar_read(struct parse *p, const struct event *ev)
-{
-    struct yaml_node *node = node_new(p, YAML_SCALAR, ev->at, ev->text, ev->at);
-    if (!node) return NULL;
-    node->plain = ev->plain;
-    if (strlen(ev->text) == ev->size) return node;
-    diag_add(p->y->diag, ev->at, "remove \\0 or \\x00", "a text must not hold a NUL character");
-    return NULL;
-}
-
 static struct yaml_node *node_read(struct parse *p, const struct event *ev);
 
 /* A map or list starts with an event of its own; its place is widened to its end when that is on the same line. */
@@ -354,11 +334,25 @@ static struct yaml_node *node_read(struct parse *p, const struct event *ev)
     }
     p->depth++;
     struct yaml_node *node = NULL;
-    if (ev->type == YAML_ALIAS_EVENT)
-        node = alias_read(p, ev);
-    else if (ev->type == YAML_SCALAR_EVENT)
-        node = scalar_read(p, ev);
-    else if (ev->type == YAML_SEQUENCE_START_EVENT)
+    if (ev->type == YAML_ALIAS_EVENT) {
+        int i = p->n_anchors - 1;
+        while (i >= 0 && strcmp(p->anchors[i].name, ev->anchor) != 0)
+            i--;
+        if (i >= 0)
+            node = node_copy(p, p->anchors[i].node, ev->at);
+        else
+            diag_add(p->y->diag, ev->at,
+                     "an anchor (&name) must stand before its aliases (*name); put quotes around a text that starts "
+                     "with *",
+                     "no anchor '%s' before this", diag_shown(p->y->diag, ev->anchor));
+    } else if (ev->type == YAML_SCALAR_EVENT) {
+        node = node_new(p, YAML_SCALAR, ev->at, ev->text, ev->at);
+        if (node) node->plain = ev->plain;
+        if (node && strlen(ev->text) != ev->size) {
+            diag_add(p->y->diag, ev->at, "remove \\0 or \\x00", "a text must not hold a NUL character");
+            node = NULL;
+        }
+    } else if (ev->type == YAML_SEQUENCE_START_EVENT)
         node = list_read(p, ev);
     else if (ev->type == YAML_MAPPING_START_EVENT)
         node = map_read(p, ev);

@@ -80,27 +80,6 @@ static bool is_here(const struct params *p, const char *map)
     return k->path && !strcmp(k->path, map);
 }
 
-static struct key *keys_add(struct key *k, const char *map)
-{
-    const struct params *p;
-    for (int i = 0; (p = stages_params(i)); i++)
-        for (const struct key *own = p->keys; own && own->path && is_here(p, map); own++, k++) {
-            *k = *own;
-            k->in = p;
-            k->offset += params_at(p);
-        }
-    return k;
-}
-
-static struct key_section *sections_add(struct key_section *s, const char *map)
-{
-    const struct params *p;
-    for (int i = 0; (p = stages_params(i)); i++)
-        if (p->meaning && is_here(p, map))
-            *s++ = (struct key_section){KEY_CONTACT, params_at(p), p->section, p->meaning, p};
-    return s;
-}
-
 /* "*" stands for all parts of the surface that are not named. */
 static void rivals_add(struct key_alternative *t)
 {
@@ -132,16 +111,21 @@ static void tables_make(void)
     struct key *table = memory_take(n * sizeof *table), *k = table;
     struct key_section *maps = memory_take(m * sizeof *maps), *s = maps;
     struct key_alternative *rivals = memory_take(sizeof alternatives);
-    for (const struct key *row = rows; row->path; row++)
-        if (row->meaning)
-            *k++ = *row;
-        else
-            k = keys_add(k, row->path);
-    for (const struct key_section *row = sections; row->path; row++)
-        if (row->meaning)
-            *s++ = *row;
-        else
-            s = sections_add(s, row->path);
+    for (const struct key *row = rows; row->path; row++) {
+        if (row->meaning) *k++ = *row;
+        for (int i = 0; !row->meaning && (p = stages_params(i)); i++)
+            for (const struct key *own = p->keys; own && own->path && is_here(p, row->path); own++, k++) {
+                *k = *own;
+                k->in = p;
+                k->offset += params_at(p);
+            }
+    }
+    for (const struct key_section *row = sections; row->path; row++) {
+        if (row->meaning) *s++ = *row;
+        for (int i = 0; !row->meaning && (p = stages_params(i)); i++)
+            if (p->meaning && is_here(p, row->path))
+                *s++ = (struct key_section){KEY_CONTACT, params_at(p), p->section, p->meaning, p};
+    }
     *k = (struct key){.path = NULL};
     *s = (struct key_section){.path = NULL};
     memcpy(rivals, alternatives, sizeof alternatives);

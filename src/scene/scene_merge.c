@@ -184,30 +184,24 @@ static struct yaml_node *list_entry(struct yaml *y, struct yaml_node *list, cons
     return NULL;
 }
 
-/* One step down the path; what is not there, or is not a map, becomes one. */
-static struct yaml_node *step(struct yaml *y, struct yaml_node *at, struct yaml_node *key)
-{
-    if (at->kind == YAML_LIST) return list_entry(y, at, key);
-    struct yaml_node *child = yaml_get(at, key->text);
-    if (child) child = opened(y, at, child);
-    if (child && child->kind != YAML_SCALAR) return child;
-    child = yaml_make(y, YAML_MAP, key->at, NULL);
-    put(y, at, key, child);
-    return child;
-}
-
+/* What is not there on the way down, or is no map, becomes one. */
 static void path_put(struct yaml *y, struct yaml_node *root, struct yaml_node *const *path, struct yaml_node *value)
 {
-    for (struct yaml_node *at = root; at && *path; path++) {
+    for (struct yaml_node *at = root, *next; at && *path; path++, at = next) {
+        next = at->kind == YAML_LIST ? list_entry(y, at, *path) : NULL;
         if (!path[1]) {
-            struct yaml_node *old = at->kind == YAML_LIST ? list_entry(y, at, *path) : NULL;
-            if (old)
-                replace(at, old, value);
+            if (next)
+                replace(at, next, value);
             else if (at->kind == YAML_MAP)
                 put(y, at, *path, value);
             return;
         }
-        at = step(y, at, *path);
+        if (at->kind == YAML_LIST) continue;
+        next = yaml_get(at, (*path)->text);
+        if (next) next = opened(y, at, next);
+        if (next && next->kind != YAML_SCALAR) continue;
+        next = yaml_make(y, YAML_MAP, (*path)->at, NULL);
+        put(y, at, *path, next);
     }
 }
 

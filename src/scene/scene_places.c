@@ -55,18 +55,6 @@ static bool in_same_map(const struct key *k, const char *path, size_t n)
     return k && strncmp(k->path, path, n) == 0 && k->path[n] == '.';
 }
 
-/* The maps in which the key stands and the one before it does not. */
-static void note_maps(const struct scene_part *p, struct list *l, const struct key *before, const struct key *k)
-{
-    for (const char *dot = strchr(k->path, '.'); dot; dot = strchr(dot + 1, '.')) {
-        size_t n = (size_t)(dot - k->path);
-        const char *path =
-            in_same_map(before, k->path, n) ? NULL : arena_format(p->yaml->arena, "%.*s", (int)n, k->path);
-        const struct yaml_node *node = path ? yaml_find(p->map, path) : NULL;
-        if (node && node->key && node->key->at.source) add(l, path, NULL, &node->key->at);
-    }
-}
-
 void scene_places_note(const struct scene_part *p, const char *contact, struct scene *s)
 {
     struct list l = list_of(p->yaml, s);
@@ -76,7 +64,13 @@ void scene_places_note(const struct scene_part *p, const char *contact, struct s
     for (const struct key *k = keys_table; k->path; k++) {
         if (k->of != p->of) continue;
         const struct yaml_node *node = yaml_find(p->map, k->path);
-        note_maps(p, &l, before, k);
+        for (const char *dot = strchr(k->path, '.'); dot; dot = strchr(dot + 1, '.')) {
+            size_t n = (size_t)(dot - k->path);
+            if (in_same_map(before, k->path, n)) continue; /* the map is noted */
+            const char *path = arena_format(p->yaml->arena, "%.*s", (int)n, k->path);
+            const struct yaml_node *map = yaml_find(p->map, path);
+            if (map && map->key && map->key->at.source) add(&l, path, NULL, &map->key->at);
+        }
         if (node && node->at.source)
             add(&l, k->path, k->type == KEY_FILE ? *(const char **)keys_field(k, p->to) : NULL, &node->at);
         before = k;

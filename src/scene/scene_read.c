@@ -196,16 +196,6 @@ static void contacts_read(struct yaml *y, struct yaml_node *root, struct scene *
 
 /* ------------------------------------------------------------------ the scene */
 
-/* Where the preset and the knobs stand, which are no rows of keys.def. */
-static void note_accuracy(struct yaml *y, const struct yaml_node *accuracy, struct scene *s)
-{
-    const struct yaml_node *at = accuracy && accuracy->kind == YAML_MAP ? accuracy->key : accuracy;
-    if (at && at->at.source) scene_places_key(y, "accuracy", &at->at, s);
-    for (const struct yaml_node *knob = accuracy && accuracy->kind == YAML_MAP ? accuracy->first : NULL; knob;
-         knob = knob->next)
-        if (knob->at.source) scene_places_key(y, arena_format(y->arena, "accuracy.%s", knob->key->text), &knob->at, s);
-}
-
 static void check_scene(const struct scene_part *top, bool contacts)
 {
     const struct params *own;
@@ -220,8 +210,12 @@ static void tree_read(struct yaml *y, struct yaml_node *root, struct scene *s)
     scene_places_note(&top, NULL, s);
     check_scene(&top, false);
     contacts_read(y, root, s);
-    accuracy_read(y, yaml_get(root, "accuracy"), &s->accuracy);
-    note_accuracy(y, yaml_get(root, "accuracy"), s);
+    const struct yaml_node *accuracy = yaml_get(root, "accuracy"), /* its knobs are no rows of keys.def */
+        *map = accuracy && accuracy->kind == YAML_MAP ? accuracy : NULL, *at = map ? map->key : accuracy;
+    accuracy_read(y, accuracy, &s->accuracy);
+    if (at && at->at.source) scene_places_key(y, "accuracy", &at->at, s);
+    for (const struct yaml_node *knob = map ? map->first : NULL; knob; knob = knob->next)
+        if (knob->at.source) scene_places_key(y, arena_format(y->arena, "accuracy.%s", knob->key->text), &knob->at, s);
     inputs_read(y, yaml_get(root, "inputs"), s);
     if (y->diag->n == 0 && !y->missing) check_scene(&top, true);
 }
