@@ -258,28 +258,6 @@ static void row_write(struct force_table *t, const struct board *b)
     t->samples = t->lift_offs = 0;
 }
 
-static void row_frame(struct force_table *t, const struct board *b, long n)
-{
-    if (board_has(b, ITEM_FORCE)) {
-        double f = *board_at(b, ITEM_FORCE, n);
-        t->sum += f;
-        t->squares += f * f;
-        t->peak = fabs(f) > fabs(t->peak) ? f : t->peak;
-    }
-    if (board_has(b, ITEM_ROLL)) {
-        const double *values = board_at(b, ITEM_ROLL, n);
-        if (t->samples == 0) memcpy(t->ball.first, values, sizeof t->ball.first);
-        t->ball.contact += values[ROLL_CONTACT];
-        t->ball.lift_offs += values[ROLL_LIFT_OFFS];
-    }
-    t->samples++;
-    if (board_has(b, ITEM_LOAD) && t->wanted[LIFT_OFFS]) {
-        const double *load = board_at(b, ITEM_LOAD, n);
-        for (int j = 0; j < b->over; j++)
-            t->lift_offs += load[j] >= 0 && load[j + 1] < 0;
-    }
-}
-
 static void rows_before(struct force_table *t, const struct stage_run *r, long end)
 {
     double rate = r->scene->output.diagnostics.rate, *v = t->value;
@@ -316,6 +294,7 @@ static long row_of(const struct stage_run *r, long n)
 static bool force_table_run(struct stage_run *r, long from, long to, struct err *e)
 {
     struct force_table *t = r->state;
+    const struct board *b = r->board;
     for (long n = from; n < to && t->row < t->rows; n++) {
         if (n >= t->behind) {
             long row = row_of(r, n);
@@ -325,7 +304,24 @@ static bool force_table_run(struct stage_run *r, long from, long to, struct err 
             while (row_of(r, t->behind) <= row)
                 t->behind++;
         }
-        row_frame(t, r->board, n);
+        if (board_has(b, ITEM_FORCE)) {
+            double f = *board_at(b, ITEM_FORCE, n);
+            t->sum += f;
+            t->squares += f * f;
+            t->peak = fabs(f) > fabs(t->peak) ? f : t->peak;
+        }
+        if (board_has(b, ITEM_ROLL)) {
+            const double *values = board_at(b, ITEM_ROLL, n);
+            if (t->samples == 0) memcpy(t->ball.first, values, sizeof t->ball.first);
+            t->ball.contact += values[ROLL_CONTACT];
+            t->ball.lift_offs += values[ROLL_LIFT_OFFS];
+        }
+        t->samples++;
+        if (board_has(b, ITEM_LOAD) && t->wanted[LIFT_OFFS]) {
+            const double *load = board_at(b, ITEM_LOAD, n);
+            for (int j = 0; j < b->over; j++)
+                t->lift_offs += load[j] >= 0 && load[j + 1] < 0;
+        }
         if (n == r->board->moving - 1) rows_before(t, r, t->rows);
     }
     return ferror(r->board->table->stream)

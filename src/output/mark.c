@@ -70,19 +70,6 @@ static bool has(const json_t *list, const char *key, const char *value)
     return false;
 }
 
-/* By its bytes: files may have been renamed together. */
-static bool is_listed(const char *path, const char *summary)
-{
-    char hex[HASH_TEXT];
-    struct err unreadable = {0};
-    json_t *whole = summary ? json_load_file(summary, 0, NULL) : NULL;
-    bool is =
-        is_summary(whole) && hash_file(path, hex, &unreadable) &&
-        (has(json_object_get(whole, "files"), "sha256", hex) || has(json_object_get(whole, "older"), "sha256", hex));
-    json_decref(whole);
-    return is;
-}
-
 /* Adds what stays of one list of the earlier summary. */
 static void add_older(json_t *older, const json_t *list, const json_t *files, const char *summary, struct arena *a)
 {
@@ -147,7 +134,15 @@ static bool mark_is(const char *path, const char *summary)
     json_t *whole = begins(&x, "{") ? json_load_file(path, 0, NULL) : NULL;
     bool is = is_summary(whole);
     json_decref(whole);
-    return is || is_listed(path, summary);
+    if (is || !summary) return is;
+    /* Listed by its bytes: files may have been renamed together. */
+    char hex[HASH_TEXT];
+    struct err unreadable = {0};
+    whole = json_load_file(summary, 0, NULL);
+    is = is_summary(whole) && hash_file(path, hex, &unreadable) &&
+         (has(json_object_get(whole, "files"), "sha256", hex) || has(json_object_get(whole, "older"), "sha256", hex));
+    json_decref(whole);
+    return is;
 }
 
 bool mark_links(const char *path, bool force, struct err *e)

@@ -90,20 +90,6 @@ static void measure_mono(const double *x, long n, double *restrict peak, double 
         *peak = most[l] > *peak ? most[l] : *peak;
 }
 
-/* The square of frame n is added to sum n mod LANES: nothing depends on how the sound is cut into blocks. */
-static void measure(struct track *t, const double *x, long n)
-{
-    int places = t->format.places;
-    long done = places == 1 && t->done % LANES == 0 ? n / LANES * LANES : 0;
-    if (done) measure_mono(x, done, t->peak, t->squares);
-    for (long i = done; i < n; i++)
-        for (int k = 0; k < places; k++) {
-            double v = x[i * places + k], size = fabs(v);
-            t->peak[k] = size > t->peak[k] ? size : t->peak[k];
-            t->squares[k * LANES + (t->done + i) % LANES] += v * v;
-        }
-}
-
 double track_squares(const struct track *t, int place)
 {
     double sum = 0;
@@ -128,17 +114,26 @@ static bool put(struct track *t, const double *x, long n, struct err *e)
 
 bool track_add(struct track *t, double *x, long n, struct err *e)
 {
-    size_t samples = (size_t)(n * t->format.places);
+    int places = t->format.places;
+    size_t samples = (size_t)(n * places);
     long end = t->format.ramp > 1 ? t->format.ramp : 1, frames = t->format.frames; /* what the ramps take away */
     t->end = fmax(t->end, greatest(t, x, n, (const long[2]){frames - end, frames}));
     t->begin = fmax(t->begin, greatest(t, x, n, (const long[2]){0, end}));
     ramp(t, x, n);
     for (long i = 0; i < n && t->format.recede > 0; i++) {
         double gain = receded(t, i);
-        for (int k = 0; k < t->format.places; k++)
-            x[i * t->format.places + k] *= gain;
+        for (int k = 0; k < places; k++)
+            x[i * places + k] *= gain;
     }
-    measure(t, x, n);
+    /* The square of frame n is added to sum n mod LANES: nothing depends on how the sound is cut into blocks. */
+    long done = places == 1 && t->done % LANES == 0 ? n / LANES * LANES : 0;
+    if (done) measure_mono(x, done, t->peak, t->squares);
+    for (long i = done; i < n; i++)
+        for (int k = 0; k < places; k++) {
+            double v = x[i * places + k], size = fabs(v);
+            t->peak[k] = size > t->peak[k] ? size : t->peak[k];
+            t->squares[k * LANES + (t->done + i) % LANES] += v * v;
+        }
     t->done += n;
     if (!t->spool) return put(t, x, n, e);
     if (fwrite(x, sizeof *x, samples, t->spool) != samples)
