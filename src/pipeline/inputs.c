@@ -51,7 +51,8 @@ bool inputs_check(const struct scene *s, struct arena *a, struct err *e)
     for (int i = 0; i < s->n_inputs && !m.key; i++)
         add(&m, NULL, "inputs", s->inputs[i].file);
     if (m.key) return err_set(e, ERR_INPUT, "%s", m.text) || err_about(e, m.contact, m.key);
-    for (const struct input *p = s->inputs; p < s->inputs + s->n_inputs; p++) {
+    for (int i = 0; i < s->n_inputs; i++) {
+        const struct input *p = &s->inputs[i];
         const char *hex = p->sha256 ? file_cache_sha256(s->file_cache, p->file, a, e) : NULL;
         if (p->sha256 && !hex) return false;
         if (!p->sha256 || !strcmp(hex, p->sha256)) continue;
