@@ -11,9 +11,10 @@
 
 enum { ROUNDS = 10, DRAWS = 8, SURVIVES = 7, SEARCHED = 2, GAIN_ROUNDS = 4 };
 
-static const double certain = 100.0; /* chi squared of 4 degrees with which all draws of noise leave a mode */
-static const double step = 300.0;    /* of power, from round to round */
-static const double samples = 128.0; /* of a band's envelope in the longest stretch, in the narrowest bands */
+static const double certain = 100.0;  /* chi squared of 4 degrees with which all draws of noise leave a mode */
+static const double step = 300.0;     /* of power, from round to round */
+static const double least_fall = 0.3; /* nepers in the longest strike, 2.6 dB: less may be none */
+static const double samples = 128.0;  /* of a band's envelope in the longest stretch, in the narrowest bands */
 
 long modal_length(long n)
 {
@@ -302,9 +303,9 @@ static void fit_gains(struct modal_fit *f)
 
 static double fast(struct modal_fit *f, int i) { return -f->c[i].s.re > f->options->fastest ? f->c[i].s.re : HUGE_VAL; }
 
-/* Is it a hum? Before the first strike it is at least half as loud as after most; what does not decay, with the noise
-   there, as it may hide in that. Where the recording begins with a strike a hum does not decay, and is as loud in all
-   strikes, within 12 dB, as nothing is that they strike. */
+/* Is it a hum? A hum is before the first strike at least half as loud as after most strikes. What does not decay may
+   hide in the noise there, which then counts as part of it. Where the recording begins with a strike, a hum is what
+   does not decay and is as loud in all strikes, within 12 dB. */
 static bool is_hum(const struct modal_fit *f, int i, bool undamped)
 {
     double size[MODAL_STRETCHES], of[MODAL_STRETCHES], lead = 0.0;
@@ -321,8 +322,8 @@ static bool is_hum(const struct modal_fit *f, int i, bool undamped)
 }
 
 /* What does not decay by more than chance, or has no gain of more, is no mode: a hum, which stays in the fit, or what a
-   fit of noise needs. Of those the weakest goes first, the others fitted anew: they may decay without it. What is there
-   for certain, and is as loud as it is struck, stays, though it rings longer than a recording can tell. */
+   fit of noise needs. Of those the weakest goes first, the others fitted anew: they may decay without it. What is
+   certain, and no hum, stays: it rings longer than the recording shows. */
 static double uncertain(struct modal_fit *f, int i)
 {
     struct modal_gain gain[MODAL_STRETCHES];
@@ -339,11 +340,12 @@ static double uncertain(struct modal_fit *f, int i)
     return f->c[i].hum || struck || (!undamped && gains) ? HUGE_VAL : projected(f, i);
 }
 
-/* A mode that falls by less than 2.6 dB in the longest strike, and may as well not decay, is given that. */
-static int slow_down(struct modal_fit *f)
+/* A mode whose decay is not known from 0, and which falls by less than 2.6 dB in the longest strike, gets the decay
+   that falls by as much. Returns how many such modes there are. */
+static int set_least_decay(struct modal_fit *f)
 {
     int changed = 0;
-    double least = 0.3 / f->longest;
+    double least = least_fall / f->longest;
     for (int i = 0; i < f->m; i++) {
         struct modal_part total[MODAL_STRETCHES];
         struct modal_gain gain[MODAL_STRETCHES];
@@ -472,7 +474,7 @@ bool modal_find(const struct modal_data *d, const struct modal_options *o, struc
         n = modal_converge_drop_least(&f, uncertain, 9);
         if (n) modal_converge_sweeps(&f, 8, 4);
     }
-    int longer = slow_down(&f);
+    int longer = set_least_decay(&f);
     r->explained = ARENA_TAKE(a, double, d->stretches);
     r->fitted = ARENA_TAKE(a, double, d->stretches);
     r->direct = ARENA_TAKE(a, double, d->stretches);
@@ -485,8 +487,10 @@ bool modal_find(const struct modal_data *d, const struct modal_options *o, struc
     note_number(r, a, chance, "component is left out, whose decay or gain may be chance",
                 "components are left out, whose decays or gains may be chance");
     note_number(r, a, longer,
-                arena_format(a, "mode rings longer than can be told, its decay is taken as %.3g/s", 0.3 / f.longest),
-                arena_format(a, "modes ring longer than can be told, their decay is taken as %.3g/s", 0.3 / f.longest));
+                arena_format(a, "mode rings longer than the strikes show: its decay is taken as %.3g/s",
+                             least_fall / f.longest),
+                arena_format(a, "modes ring longer than the strikes show: their decay is taken as %.3g/s",
+                             least_fall / f.longest));
     note_number(r, a, more, arena_format(a, "more mode than the %d strongest was found", o->most),
                 arena_format(a, "more modes than the %d strongest were found", o->most));
     arena_close(inner);

@@ -55,9 +55,9 @@ static inline __attribute__((always_inline)) double lanes_sum(const double s[LAN
     return ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
 }
 
-/* sum[i][j][lane] += column i times column j over the lane's rows, j <= i < n, by blocks of 4 x 2; x has three columns
-   of zeros behind its last, and of both halves of a column (re, im) the first `rows` rows, a multiple of LANES; sum is
-   [n + 3][n + 3][LANES]. */
+/* sum[i][j][lane] += column i times column j over the lane's rows, j <= i < n, by blocks of 4 x 2. A column has a half
+   of real and a half of imaginary parts, of each of which the first `rows` count, a multiple of LANES. x has three
+   columns of zeros behind its last, sum is [n + 3][n + 3][LANES]. */
 LANES_CLONES
 void modal_block_products(const double *x, int n, long rows, double *sum);
 LANES_CLONES

@@ -26,7 +26,7 @@ struct promises {
     struct arena *arena;
 };
 
-/* Whether the promise of stimulus i can be kept; its error is reported with its place. */
+/* Whether stimulus i can have the error that it asks for; if not, that is reported with its place. */
 static bool look(void *context, int i)
 {
     struct promises *p = context;

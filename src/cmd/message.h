@@ -46,7 +46,7 @@ void message_remark(struct cmd_call *c, const char *command, const char *text);
 void message_group(struct cmd_call *c);
 void message_end(struct cmd_call *c);
 
-/* What would be reported of errors is kept from here on, an array of objects as above, until it is taken. */
+/* From here on errors are collected, as an array of objects as above, until they are taken. */
 void message_collect(struct cmd_call *c);
 json_t *message_collected(struct cmd_call *c);
 

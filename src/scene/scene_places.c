@@ -66,7 +66,7 @@ void scene_places_note(const struct scene_part *p, const char *contact, struct s
         const struct yaml_node *node = yaml_find(p->map, k->path);
         for (const char *dot = strchr(k->path, '.'); dot; dot = strchr(dot + 1, '.')) {
             size_t n = (size_t)(dot - k->path);
-            if (in_same_map(before, k->path, n)) continue; /* the map is noted */
+            if (in_same_map(before, k->path, n)) continue; /* its map is in the list already */
             const char *path = arena_format(p->yaml->arena, "%.*s", (int)n, k->path);
             const struct yaml_node *map = yaml_find(p->map, path);
             if (map && map->key && map->key->at.source) add(&l, path, NULL, &map->key->at);

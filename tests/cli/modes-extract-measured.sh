@@ -27,7 +27,7 @@ d = json.load(open("steel.json"))
 print("steel", "as known" if len(d["places"][0]["strikes"]) == 11 and any(abs(m["frequency_hz"] / 1699 - 1) < 0.01 for m in d["modes"]) else d["modes"][:5])
 d = json.load(open("swings.json"))
 p = d["places"][0]
-good = [p["explained"] > 0.95, min(s["explained"] for s in p["strikes"]) > 0.9, all(any(abs(m["frequency_hz"] / f - 1) < 0.002 for m in d["modes"]) for f in (320.5, 889.5, 1699)), any("longer than can be told" in w for w in d["warnings"])]
+good = [p["explained"] > 0.95, min(s["explained"] for s in p["strikes"]) > 0.9, all(any(abs(m["frequency_hz"] / f - 1) < 0.002 for m in d["modes"]) for f in (320.5, 889.5, 1699)), any("longer than the strikes show" in w for w in d["warnings"])]
 print("steel", "as known" if all(good) else (good, p["explained"]))
 print("ceramic < polycarbonate, wood:", max(decay["ceramic"] * 3, 20) < min(decay["polycarb"], decay["wood"]) or decay)
 END
