@@ -53,8 +53,8 @@ static double score(struct modal_fit *f)
 }
 
 /* Round by round down to what is 25 dB weaker than the strongest left, from narrow bands to wide ones: so that a strong
- * fast mode is there before its skirts are taken for slow ones. A round that does not gain
- * likelihood is undone. */
+ * fast mode is there before its skirts are taken for slow ones. Once rounds go down to the noise, one that does not gain
+ * likelihood is undone; before that a component may stand for several, and its skirts cost likelihood far away. */
 static void search(struct modal_fit *f)
 {
     double width = samples / f->longest, least = HUGE_VAL, noise, best = HUGE_VAL;
@@ -75,7 +75,7 @@ static void search(struct modal_fit *f)
         modal_converge_sweeps(f, 16, 4);
         modal_converge_eliminate(f);
         double now = score(f);
-        bool better = now < best;
+        bool better = least > 0.0 || now < best;
         size_t n = (size_t)(better ? f->m : surviving), size = n * (size_t)f->data->stretches * sizeof *part;
         if (n) memcpy(better ? c : f->c, better ? f->c : c, n * sizeof *c);
         if (n) memcpy(better ? part : f->part, better ? f->part : part, size);
