@@ -31,9 +31,9 @@ static void note_number(struct modal_result *r, struct arena *a, int n, const ch
 
 /* ------------------------------------------------------------------ search */
 
-/* Minus twice the log likelihood of what is left, with a noise of its own in every 64 bins of every stretch, and what
- * each component must be worth. */
-static double score(struct modal_fit *f)
+/* Minus twice the log likelihood of what is left, with a noise of its own in every 64 bins of every stretch, and
+ * what each component must be worth. What is 25 dB below a power of `least` counts as noise. */
+static double score(struct modal_fit *f, double least)
 {
     enum { PART = 64 };
     double sum = modal_converge_limit(f, modal_converge_leave) * f->m;
@@ -45,7 +45,7 @@ static double score(struct modal_fit *f)
         for (long from = 0; from + PART <= b->n; from += PART) {
             double power = 1e-290;
             for (long k = from; k < from + PART; k++)
-                power += cplx_square(b->noise[k]);
+                power += cplx_square(b->noise[k]) + least / step * b->scale[k];
             sum += 2.0 * PART * real_log(power);
         }
     }
@@ -53,12 +53,13 @@ static double score(struct modal_fit *f)
 }
 
 /* Round by round down to what is 25 dB weaker than the strongest left, from narrow bands to wide ones: so that a strong
- * fast mode is there before its skirts are taken for slow ones. Once rounds go down to the noise, one that does not gain
- * likelihood is undone; before that a component may stand for several, and its skirts cost likelihood far away. */
+ * fast mode is there before its skirts are taken for slow ones. A round that does not gain likelihood is undone, in
+ * which what is 25 dB weaker than it looks for is noise: a component may stand for several at first, and its skirts
+ * reach far. */
 static void search(struct modal_fit *f)
 {
-    double width = samples / f->longest, least = HUGE_VAL, noise, best = HUGE_VAL;
-    int surviving = 0, room = f->most + MODAL_BLOCK; /* a band brings less than a block */
+    double width = samples / f->longest, least = HUGE_VAL, noise;
+    int room = f->most + MODAL_BLOCK; /* a band brings less than a block */
     struct modal_component *c = ARENA_TAKE(f->a, struct modal_component, room);
     struct modal_part *part = ARENA_TAKE(f->a, struct modal_part, room * f->data->stretches);
     for (int round = 0, came = 1, last = 0; round < ROUNDS && last < 2 && f->m < f->most; round++) {
@@ -66,22 +67,23 @@ static void search(struct modal_fit *f)
         least = fmin(power / step, came > f->m / 10 ? least : least / step);
         least = least > noise ? least : 0.0;
         int before = f->m;
+        size_t n = (size_t)before, size = n * (size_t)f->data->stretches * sizeof *part;
+        double was = score(f, least);
+        if (n) memcpy(c, f->c, n * sizeof *c);
+        if (n) memcpy(part, f->part, size);
         for (double w = round % 2 ? 2.0 * width : width; w < f->data->rate / 3.0; w *= 4.0) {
-            int n = modal_search(f, w, least);
-            if (n) modal_converge_sweeps(f, 8, 2);
+            if (modal_search(f, w, least)) modal_converge_sweeps(f, 8, 2);
         }
         if (modal_converge_runaways(f)) modal_converge_sweeps(f, 8, 2);
         modal_converge_runaways(f);
         modal_converge_sweeps(f, 16, 4);
         modal_converge_eliminate(f);
-        double now = score(f);
-        bool better = least > 0.0 || now < best;
-        size_t n = (size_t)(better ? f->m : surviving), size = n * (size_t)f->data->stretches * sizeof *part;
-        if (n) memcpy(better ? c : f->c, better ? f->c : c, n * sizeof *c);
-        if (n) memcpy(better ? part : f->part, better ? f->part : part, size);
-        best = better ? now : best;
-        surviving = f->m = (int)n;
-        modal_fit_rest(f);
+        if (score(f, least) >= was) {
+            f->m = before;
+            if (n) memcpy(f->c, c, n * sizeof *c);
+            if (n) memcpy(f->part, part, size);
+            modal_fit_rest(f);
+        }
         came = f->m - before;
         last = least == 0.0 && came <= f->m / 4 ? last + 1 : 0; /* twice, as the widths of bands take turns */
     }
