@@ -130,6 +130,9 @@ void boundary_make(const struct mesh *m, struct arena *a, struct boundary *b)
             b->high[c] = fmax(b->high[c], m->at[i][c]);
         }
     outer_faces(m, a, b);
+    b->box = arena_take(a, (size_t)b->n, sizeof *b->box);
+    for (int i = 0; i < b->n; i++)
+        face_box(m, b->face[i], b->box[i][0], b->box[i][1]);
     measure(m, a, b);
 }
 
@@ -234,12 +237,11 @@ static double descend(const struct mesh *m, const int face[6], double uv[2], con
     return d;
 }
 
-static double box_distance(const struct mesh *m, const int face[6], const double place[3])
+static double box_distance(double box[2][3], const double place[3])
 {
-    double low[3], high[3], d = 0;
-    face_box(m, face, low, high);
+    double d = 0;
     for (int c = 0; c < 3; c++) {
-        double off = fmax(fmax(low[c] - place[c], place[c] - high[c]), 0);
+        double off = fmax(fmax(box[0][c] - place[c], place[c] - box[1][c]), 0);
         d += off * off;
     }
     return sqrt(d);
@@ -249,7 +251,7 @@ double boundary_nearest(const struct mesh *m, const struct boundary *b, const do
 {
     double best = INFINITY, tie = 1e-12 * extent(b);
     for (int i = 0; i < b->n; i++) {
-        if (box_distance(m, b->face[i], place) >= best - tie) continue;
+        if (box_distance(b->box[i], place) >= best - tie) continue;
         for (int k = 0; k < NEAREST_STARTS; k++) {
             double uv[2] = {nearest_starts[k][0], nearest_starts[k][1]}, d = sqrt(descend(m, b->face[i], uv, place));
             if (d < best - tie) {
@@ -311,8 +313,9 @@ static bool passes(const struct ray *r, const double low[3], const double high[3
         h /= r->along[c];
         first = fmax(first, fmin(l, h));
         last = fmin(last, fmax(l, h));
+        if (first > last) return false;
     }
-    return first <= last;
+    return true;
 }
 
 /* From (u, v) to a place on the ray; false: none was found within the face. *t: how far along the ray. */
@@ -357,13 +360,11 @@ bool boundary_ray(const struct mesh *m, const struct boundary *b, const double f
                   struct boundary_point *p)
 {
     struct ray r = {.m = m, .from = from, .along = along, .size = extent(b)};
-    double best = INFINITY, low[3], high[3];
+    double best = INFINITY;
     ray_frame(&r);
     p->face = -1;
-    for (int i = 0; i < b->n; i++) {
-        face_box(m, b->face[i], low, high);
-        if (passes(&r, low, high) && nearer(&r, b->face[i], p, &best)) p->face = i;
-    }
+    for (int i = 0; i < b->n; i++)
+        if (passes(&r, b->box[i][0], b->box[i][1]) && nearer(&r, b->face[i], p, &best)) p->face = i;
     if (p->face < 0) return false;
     face_point(m, b, p);
     return true;

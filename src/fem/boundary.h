@@ -10,6 +10,7 @@ struct boundary {
     double area, volume;    /* m^2, m^3, of the curved faces (volume by Gauss' theorem) */
     double outer;           /* m^2, area without the walls of closed cavities         */
     double low[3], high[3]; /* m, box of all nodes                                   */
+    double (*box)[2][3];    /* [n] m, of each face: lowest and highest corner        */
 };
 
 /* A point of the surface. */

@@ -143,10 +143,10 @@ static void sweep(struct arena *a, struct mesh *m)
 static int side_order(const void *a, const void *b)
 {
     const struct side *p = a, *q = b;
-    const int x[4] = {p->low, p->high, p->triangle, p->at}, y[4] = {q->low, q->high, q->triangle, q->at};
-    for (int c = 0; c < 4; c++)
-        if (x[c] != y[c]) return x[c] < y[c] ? -1 : 1;
-    return 0;
+    return p->low != q->low             ? p->low - q->low
+           : p->high != q->high         ? p->high - q->high
+           : p->triangle != q->triangle ? p->triangle - q->triangle
+                                        : p->at - q->at;
 }
 
 /* Whether the side after k is of the same edge. */
