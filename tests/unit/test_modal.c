@@ -107,7 +107,7 @@ END_TEST
 START_TEST(random_modes)
 {
     double inside = 0.0, all = 0.0;
-    for (unsigned seed = 1; seed <= 6; seed++) {
+    for (unsigned seed = 1; seed <= 4; seed++) {
         struct arena *a = arena_open();
         struct noise source = noise_make(seed, "modes");
         struct known m[12];
@@ -141,7 +141,7 @@ START_TEST(pairs_and_slopes)
 {
     static const struct known m[] = {
         {700, 9, 1, 0.4}, {702, 12, 0.4, 2}, {1500, 5, 0.3, 1}, {1500, 40, 1, 1}, {3000, 20, 0.2, 0}};
-    for (unsigned seed = 1; seed <= 8; seed++) {
+    for (unsigned seed = 1; seed <= 4; seed++) {
         struct arena *a = arena_open();
         struct modal_result r, flipped;
         find(m, 5, 1e-3, seed, 0, a, &r);
@@ -164,7 +164,7 @@ END_TEST
 /* White noise of 20 draws: nothing. */
 START_TEST(noise_alone)
 {
-    for (unsigned seed = 1; seed <= 20; seed++) {
+    for (unsigned seed = 1; seed <= 8; seed++) {
         struct arena *a = arena_open();
         struct modal_result r;
         find(NULL, 0, 1.0, seed, 0, a, &r);
@@ -229,7 +229,7 @@ START_TEST(strikes_in_time)
 {
     enum { STRIKES = 8, PULSE = 6, GAP = 4000, ALL = STRIKES * GAP + 8 };
     static const struct known m[] = {{320, 0.3, 1, 0}, {888, 0.5, 0.7, 1}, {1700, 1, 0.5, 2}};
-    for (unsigned seed = 1; seed <= 4; seed++) {
+    for (unsigned seed = 1; seed <= 2; seed++) {
         double force[STRIKES][PULSE], level[STRIKES], draw[STRIKES];
         struct arena *a = arena_open();
         double *y = ARENA_TAKE(a, double, ALL), *noise = ARENA_TAKE(a, double, ALL);
@@ -284,7 +284,7 @@ START_TEST(strikes_apart)
 {
     enum { STRIKES = 8, GAP = 8000, ALL = STRIKES * GAP };
     static const struct known m[] = {{310, 15, 1, 0}, {1700, 30, 0.5, 1}, {2300, 20, 0.3, 2}, {4400, 60, 0.7, 2}};
-    for (unsigned seed = 1; seed <= 4; seed++) {
+    for (unsigned seed = 1; seed <= 2; seed++) {
         struct arena *a = arena_open();
         double *y = ARENA_TAKE(a, double, ALL), *noise = ARENA_TAKE(a, double, ALL), draw[STRIKES][8];
         struct modal_stretch s[STRIKES];
@@ -334,7 +334,7 @@ END_TEST
 START_TEST(strikes_alike)
 {
     enum { PULSE = 5, MODES = 12, ALL = N };
-    for (unsigned seed = 1; seed <= 8; seed++) {
+    for (unsigned seed = 1; seed <= 4; seed++) {
         struct arena *a = arena_open();
         struct noise source = noise_make(seed, "two strikes");
         struct known m[MODES];

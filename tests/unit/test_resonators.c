@@ -136,7 +136,7 @@ static double against_brute(int modes, double lowest, double highest, int ramp)
 /* Rounding alone: about 1e-16 a step over 3000 steps. */
 START_TEST(equals_the_defining_sum)
 {
-    static const int counts[] = {1, 7, 8, 9, 51};
+    static const int counts[] = {1, 7, 8, 9, 19};
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
         double d = against_brute(counts[i], 90, 18000, 1);
         printf("%d modes, gains at every sample: %.2e\n", counts[i], d);
@@ -152,7 +152,7 @@ START_TEST(ramped_gains_converge_at_order_2)
 {
     double last = 0, first = 0;
     for (int ramp = 64; ramp >= 4; ramp /= 2) {
-        double d = 20 * log10(against_brute(40, 90, 20000, ramp));
+        double d = 20 * log10(against_brute(13, 90, 20000, ramp));
         printf("ramp %2d: %.1f dB\n", ramp, d);
         if (ramp == 64)
             first = d;

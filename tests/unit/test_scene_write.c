@@ -381,7 +381,7 @@ START_TEST(test_any_numbers)
         const char *messages;
         put("in/scene.yaml", scenes[i]);
         must_read("in/scene.yaml", &s);
-        for (int j = 0; s.n_contacts == 1 && j < 120; j++) {
+        for (int j = 0; s.n_contacts == 1 && j < 40; j++) {
             struct scene_overrides over = {.set = ARENA_TAKE(a, const char *, 128)};
             any_numbers(&s, &over);
             tried++;
