@@ -24,6 +24,7 @@
 
 #include "num/filter.h"
 #include "num/real.h"
+#include "num/vecmath.h"
 
 enum { PARAMETERS = 3, ROUNDS = 2, STEPS = 400 };
 
@@ -55,12 +56,18 @@ static void meixner_shape(double *w, int n, double at, const double b_xi[2])
         w[i] = 0;
     for (int i = first; i < n; i++) {
         double k = i - at; /* > -1 */
-        w[i] = sum;        /* from first on; k + 1 may be tiny there: w is 0 at k = -1 */
+        w[i] = fmax(k + b, 1e-300) / (k + 1);
+    }
+    vecmath_log((size_t)(n - first), w + first, w + first);
+    for (int i = first; i < n; i++) {
+        double next = sum + step + 0.5 * w[i];
+        w[i] = sum; /* from first on; k + 1 may be tiny there: w is 0 at k = -1 */
         top = fmax(top, sum);
-        sum += step + 0.5 * (real_log(k + b > 1e-300 ? k + b : 1e-300) - real_log(k + 1));
+        sum = next;
     }
     for (int i = first; i < n; i++)
-        w[i] = real_exp(w[i] - top);
+        w[i] -= top;
+    vecmath_exp((size_t)(n - first), w + first, w + first);
 }
 
 static void shape_of(const struct problem *p, const gsl_vector *x)

@@ -369,6 +369,6 @@ START_TEST(the_sum_of_its_bands)
 }
 END_TEST
 
-UNIT("tiles", the_sum_of_its_bands, traces_have_the_spectrum_in_every_direction, grain_lengthens_one_way,
-     continuation_has_its_rings, derivatives_and_continuity, any_order, nothing_repeats_in_a_minute,
-     little_beyond_the_shortest, streams_and_far_places_differ, refused_where_negative)
+UNIT("tiles", the_sum_of_its_bands, UNIT_LONG(traces_have_the_spectrum_in_every_direction),
+     UNIT_LONG(grain_lengthens_one_way), continuation_has_its_rings, derivatives_and_continuity, any_order,
+     nothing_repeats_in_a_minute, little_beyond_the_shortest, streams_and_far_places_differ, refused_where_negative)
