@@ -1,6 +1,6 @@
 # Same scene, same bytes: the WAV and the CSV of every scene, and mode tables computed and extracted, have one sha256
 # whatever the compiler, the optimisation, the instruction set, the functions libm picks for this CPU, and the run.
-# ISAS="v2 v3 v4" also builds all of rasp for each of these levels.
+# ISAS="v2 v3 v4" also builds all of rasp for each of these levels, OPTS="-O0 -O3" with each of these.
 . "$ROOT/tests/lib/test.sh"
 BUILDS=${BYTES:-$BUILD/bytes}
 JOBS=${JOBS:-$(getconf _NPROCESSORS_ONLN)}
@@ -75,12 +75,16 @@ else
     GLIBC_TUNABLES=$hidden same "libm without FMA" "$BUILD/rasp"
 fi
 
-# Each compiler, level of optimisation and instruction set once; the first program has chosen this CPU's best per function, as clang's does.
-build gcc-O0-v2 CC=gcc OPT=-O0 ISA=v2 && same "gcc -O0 for x86-64-v2" "$BUILDS/gcc-O0-v2/rasp"
+# Another level of optimisation with another instruction set, and another compiler; the first program has chosen this CPU's
+# best per function, as clang's does.
+cpu_has v3 && level=v3 || level=v2
+build gcc-O1-$level CC=gcc OPT=-O1 ISA=$level && same "gcc -O1 for x86-64-$level" "$BUILDS/gcc-O1-$level/rasp"
 build clang-O2 CC=clang OPT=-O2 WERROR="${WERROR:-}" && same "clang -O2" "$BUILDS/clang-O2/rasp"
-for isa in ${ISAS:-v3}; do
+for opt in ${OPTS:-}; do
+    build gcc$opt CC=gcc OPT=$opt && same "gcc $opt" "$BUILDS/gcc$opt/rasp"
+done
+for isa in ${ISAS:-}; do
     cpu_has $isa || { echo "left out: this CPU has no x86-64-$isa"; continue; }
-    ! cpu_has v4 && [ -z "${ISAS:-}" ] && { echo "left out: x86-64-v3 is this CPU's best already"; continue; }
     build gcc-$isa CC=gcc OPT=-O2 ISA=$isa && same "gcc -O2 for x86-64-$isa" "$BUILDS/gcc-$isa/rasp"
 done
 finish
