@@ -8,7 +8,7 @@
 #include "unit.h"
 
 static const int overs[] = {1, 2, 3, 4, 8, 32};
-enum { OVERS = sizeof overs / sizeof overs[0], GRID = 1500 };
+enum { OVERS = sizeof overs / sizeof overs[0], GRID = 700 };
 #define PASS_ERROR 2e-6 /* num/filter.h */
 #define STOP_GAIN 1e-6
 
@@ -195,5 +195,5 @@ START_TEST(gaussian_deviation)
 }
 END_TEST
 
-UNIT("filter", decimator_response, decimator_response_of_hats, decimator_sum_and_symmetry, decimated_sines,
+UNIT("filter", UNIT_LONG(decimator_response), decimator_response_of_hats, decimator_sum_and_symmetry, decimated_sines,
      gaussian_taps, gaussian_response, gaussian_of_no_width, gaussian_deviation)

@@ -166,4 +166,4 @@ START_TEST(rests_and_corners)
 }
 END_TEST
 
-UNIT("hard_plane", flat_map, spike, limits_of_the_limiter, eight_samples_in_one, rests_and_corners)
+UNIT("hard_plane", flat_map, spike, UNIT_LONG(limits_of_the_limiter), eight_samples_in_one, rests_and_corners)

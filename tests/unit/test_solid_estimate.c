@@ -112,4 +112,4 @@ START_TEST(test_pairs)
 }
 END_TEST
 
-UNIT("solid_estimate", test_ball, test_plate, test_pairs)
+UNIT("solid_estimate", UNIT_LONG(test_ball), test_plate, test_pairs)
