@@ -9,7 +9,7 @@
 #include "num/fft.h"
 #include "num/noise.h"
 
-enum { ROUNDS = 10, DRAWS = 8, SURVIVES = 7, SEARCHED = 2, GAIN_ROUNDS = 4 };
+enum { ROUNDS = 14, DRAWS = 8, SURVIVES = 7, SEARCHED = 2, GAIN_ROUNDS = 4 };
 
 static const double certain = 100.0;  /* chi squared of 4 degrees with which all draws of noise leave a mode */
 static const double step = 300.0;     /* of power, from round to round */
@@ -32,21 +32,26 @@ static void note_number(struct modal_result *r, struct arena *a, int n, const ch
 /* ------------------------------------------------------------------ search */
 
 /* Minus twice the log likelihood of what is left, with a noise of its own in every 64 bins of every stretch, and
- * what each component must be worth. What is 25 dB below a power of `least` counts as noise. */
-static double score(struct modal_fit *f, double least)
+ * what each component must be worth. What is 25 dB below a power of `least` counts as noise. *left: the power of
+ * what is left. */
+static double score(struct modal_fit *f, double least, double *left)
 {
     enum { PART = 64 };
     double sum = modal_converge_limit(f, modal_converge_leave) * f->m;
     modal_fit_rest(f);
     modal_fit_noise(f, 0.0);
+    *left = 0.0;
     for (int s = 0; s < f->data->stretches; s++) {
         const struct modal_bins *b = &f->bins[s];
         if (!f->data->stretch[s].fitted) continue;
         for (long from = 0; from + PART <= b->n; from += PART) {
-            double power = 1e-290;
-            for (long k = from; k < from + PART; k++)
-                power += cplx_square(b->noise[k]) + least / step * b->scale[k];
-            sum += 2.0 * PART * real_log(power);
+            double power = 0.0, noise = 1e-290;
+            for (long k = from; k < from + PART; k++) {
+                power += cplx_square(b->noise[k]);
+                noise += least / step * b->scale[k];
+            }
+            *left += power;
+            sum += 2.0 * PART * real_log(power + noise);
         }
     }
     return sum;
@@ -68,7 +73,7 @@ static void search(struct modal_fit *f)
         least = least > noise ? least : 0.0;
         int before = f->m;
         size_t n = (size_t)before, size = n * (size_t)f->data->stretches * sizeof *part;
-        double was = score(f, least);
+        double was_left, left, was = score(f, least, &was_left);
         if (n) memcpy(c, f->c, n * sizeof *c);
         if (n) memcpy(part, f->part, size);
         for (double w = round % 2 ? 2.0 * width : width; w < f->data->rate / 3.0; w *= 4.0) {
@@ -78,14 +83,16 @@ static void search(struct modal_fit *f)
         modal_converge_runaways(f);
         modal_converge_sweeps(f, 16, 4);
         modal_converge_eliminate(f);
-        if (score(f, least) >= was) {
+        if (score(f, least, &left) >= was) {
             f->m = before;
+            left = was_left;
             if (n) memcpy(f->c, c, n * sizeof *c);
             if (n) memcpy(f->part, part, size);
             modal_fit_rest(f);
         }
         came = f->m - before;
-        last = least == 0.0 && came <= f->m / 4 ? last + 1 : 0; /* twice, as the widths of bands take turns */
+        bool little = came <= f->m / 4 && left > 0.5 * was_left;
+        last = least == 0.0 && little ? last + 1 : 0; /* twice, as the widths of bands take turns */
     }
 }
 
