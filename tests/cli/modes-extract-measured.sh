@@ -11,7 +11,7 @@ for name in ceramic polycarb wood; do
 done
 rasp modes extract "$data/steel.wav" --force-channel 2 --method spectrogram --json -o steel.csv > steel.json || exit
 # Steel swings: its modes lie up to 1 % apart from strike to strike, and some ring longer than the recording tells.
-rasp modes extract "$data/steel.wav" --force-channel 2 --high 4kHz --json -o swings.csv > swings.json || exit
+rasp modes extract "$data/steel.wav" --force-channel 2 --high 2kHz --json -o swings.csv > swings.json || exit
 python3 - << 'END'
 import json
 decay = {}
