@@ -58,9 +58,9 @@ static double score(struct modal_fit *f, double least, double *left)
 }
 
 /* Round by round down to what is 25 dB weaker than the strongest left, from narrow bands to wide ones: so that a strong
- * fast mode is there before its skirts are taken for slow ones. A round that does not gain likelihood is undone, in
- * which what is 25 dB weaker than it looks for is noise: a component may stand for several at first, and its skirts
- * reach far. */
+ * fast mode is there before its skirts are taken for slow ones. A round that does not gain likelihood is undone, but
+ * for the first; what is 25 dB weaker than the round looks for is noise to it: a component may stand for several at
+ * first, and its skirts reach far. */
 static void search(struct modal_fit *f)
 {
     double width = samples / f->longest, least = HUGE_VAL, noise;
@@ -83,7 +83,7 @@ static void search(struct modal_fit *f)
         modal_converge_runaways(f);
         modal_converge_sweeps(f, 16, 4);
         modal_converge_eliminate(f);
-        if (score(f, least, &left) >= was) {
+        if (score(f, least, &left) >= was && before) {
             f->m = before;
             left = was_left;
             if (n) memcpy(f->c, c, n * sizeof *c);
