@@ -1,4 +1,4 @@
-# make            build/rasp, rasp-modes     make check     set-up, build, tests (6 minutes; LONG=1: all, 9)
+# make            build/rasp, rasp-modes     make check     set-up, build, tests (6 minutes; LONG=1: all, 8)
 # make demo       set-up, build, a tour      make help      the other targets and the variables
 
 BUILD ?= build
@@ -117,7 +117,7 @@ blas:
 # With clang, whose instrumented code is up to three times faster than gcc's. -g1: lines are all a report shows, and 200 programs are linked in less time.
 sanitize:
 	$(SUB) BUILD=$(BUILD)/sanitize CC=clang SAN=1 OPT="-O2 -g1" all unit
-	@SANITIZED=1 BUILD=$(BUILD)/sanitize tests/run.sh faults unit cli
+	@SANITIZED=1 BUILD=$(BUILD)/sanitize tests/run.sh faults unit cli faults/signals cli/batch-changed
 
 # The same bytes from every build, on every CPU, in every run: tests/bytes/.
 bytes: all
@@ -198,7 +198,7 @@ clean:
 
 help:
 	@echo 'all (default)  $(BUILD)/rasp, -modes     unit       the unit test programs'
-	@echo 'demo           set-up, build, tour    check      set-up, build, every test'
+	@echo 'demo           set-up, build, tour    check      set-up, build, tests'
 	@echo 'warnings       -Werror, gcc, clang    sanitize   unit, cli and faults under ASan and UBSan'
 	@echo 'bytes          same bytes, all builds fuzz       SECONDS=60 of fuzzing'
 	@echo 'torture        SECONDS=60, SEED=1       blas       by OpenBLAS of another CPU'
@@ -207,6 +207,7 @@ help:
 	@echo 'dist           the source archive     deb        a Debian package'
 	@echo 'clean          removes $(BUILD)       uninstall  what install put there'
 	@echo 'variables: BUILD CC OPT ISA=v2|v3|v4 SAN=1 WERROR=-Werror JOBS V=1 PREFIX DESTDIR'
+	@echo '           LONG=1 (check: the longest tests, too) ISAS OPTS (bytes: more builds)'
 
 -include $(OBJ:.o=.d) $(BUILD)/main.d $(BUILD)/main_modes.d $(UNIT:=.d) $(BENCH:=.d)
 FORCE:

@@ -3,7 +3,7 @@
 #     tests/run.sh [KIND | KIND/NAME ...]      default: every kind but bytes
 #     tests/run.sh --list [KIND ...]
 #     tests/run.sh --set KIND[/NAME] ...       renews the expected files of cli, plans and golden tests: look at the diff
-# Long tests, scripts that say so in a line "# Long: ..." and UNIT_LONG of unit tests, run where LONG=1 or where they are named.
+# Long tests, scripts that say so in a line "# Long: ..." and UNIT_LONG of unit tests, run where LONG is set or where tests are named only.
 # BUILD is the build folder (default build), JOBS how many run at once. The last line is "N passed, N failed[, N skipped]";
 # the exit code is 0 only if something ran and nothing failed. AFTER is a command whose output stands before that line. What each kind is: tests/README.md.
 set -uo pipefail
@@ -112,7 +112,9 @@ fi
 
 # shellcheck disable=SC2086
 [ $# -gt 0 ] || set -- $ALL_KINDS
-case $* in */*) LONG=1 ;; esac
+kinds=false
+for word; do case $word in */*) ;; *) kinds=true ;; esac; done
+$kinds || LONG=1
 export LONG=${LONG:-}
 tests=$(named "$@") || exit
 if $list; then
@@ -127,8 +129,8 @@ export SCRATCH COUNTS
 trap 'rm -rf "$SCRATCH"' EXIT
 echo "$tests" | sed '/^$/d' | xargs -r -d '\n' -P "$JOBS" -I{} tests/run.sh --one {}
 
-left=$(($(LONG=1 named "$@" | grep -c .) - $(echo "$tests" | grep -c .)))
-[ $left = 0 ] || echo "left out: $left long tests and long parts of others (LONG=1)"
+[ -n "$LONG" ] ||
+    echo "left out: $(($(LONG=1 named "$@" | grep -c .) - $(echo "$tests" | grep -c .))) long scripts, and long parts of unit tests (LONG=1)"
 ${AFTER:-:}
 
 awk -v expected="$(echo "$tests" | grep -c .)" '

@@ -59,8 +59,9 @@ static double score(struct modal_fit *f, double least, double *left)
 
 /* Round by round down to what is 25 dB weaker than the strongest left, from narrow bands to wide ones: so that a strong
  * fast mode is there before its skirts are taken for slow ones. A round that does not gain likelihood is undone, but
- * for the first; what is 25 dB weaker than the round looks for is noise to it: a component may stand for several at
- * first, and its skirts reach far. */
+ * where there was nothing yet; what is 25 dB weaker than the round looks for is noise to it: a component may stand for
+ * several at first, and its skirts reach far. It ends where two rounds down to the noise, as the widths of bands take
+ * turns, bring few components and leave most of what was left. */
 static void search(struct modal_fit *f)
 {
     double width = samples / f->longest, least = HUGE_VAL, noise;
@@ -91,8 +92,8 @@ static void search(struct modal_fit *f)
             modal_fit_rest(f);
         }
         came = f->m - before;
-        bool little = came <= f->m / 4 && left > 0.5 * was_left;
-        last = least == 0.0 && little ? last + 1 : 0; /* twice, as the widths of bands take turns */
+        bool little = came <= f->m / 4 && left >= 0.5 * was_left;
+        last = least == 0.0 && little ? last + 1 : 0;
     }
 }
 

@@ -143,10 +143,9 @@ static void sweep(struct arena *a, struct mesh *m)
 static int side_order(const void *a, const void *b)
 {
     const struct side *p = a, *q = b;
-    return p->low != q->low             ? p->low - q->low
-           : p->high != q->high         ? p->high - q->high
-           : p->triangle != q->triangle ? p->triangle - q->triangle
-                                        : p->at - q->at;
+    if (p->low != q->low) return p->low - q->low;
+    if (p->high != q->high) return p->high - q->high;
+    return p->triangle != q->triangle ? p->triangle - q->triangle : p->at - q->at;
 }
 
 /* Whether the side after k is of the same edge. */

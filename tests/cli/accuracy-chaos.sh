@@ -1,5 +1,5 @@
 # A ball that bounces: rasp accuracy says until when samples mean anything, and compares statistics after.
-# Long: make check leaves it out.
+# Long: see tests/run.sh.
 [ -z "${SANITIZED:-}" ] || { echo "too long under sanitizers, where cli/accuracy is run"; exit 77; }
 mkdir tmp
 export TMPDIR=$PWD/tmp

@@ -1,6 +1,6 @@
 # What a set is made of that changes while it is rendered is not passed over, be it a table, the base scene, a part that it includes or a recording: the run says so, and the next one renders
 # what may be of the old file. The same bytes as of a fresh folder. Shards of two states, too.
-# Long: make check leaves it out.
+# Long: see tests/run.sh.
 . "$ROOT/tests/cli/batch-make.inc"
 printf 'scraper: {mass: 10 g}\n' > rod.yaml
 sed -i 's/^scraper: .*/include: [rod.yaml]/; s/duration: 0.3 s/duration: 2 s/' tiny.yaml

@@ -1,5 +1,5 @@
 # The level's rule edited: the folder is then what a fresh one is, whichever rule it had before, with stimuli added at the same time or not, in shards or not.
-# Long: make check leaves it out.
+# Long: see tests/run.sh.
 . "$ROOT/tests/cli/batch-make.inc"
 sed -i 's/tail: 0 s/tail: 0.2 s/' tiny.yaml
 # design MASSES LEVEL: one of these rules.

@@ -1,7 +1,7 @@
 # `rasp modes compute` of solids with equal frequencies: one table, byte for byte, whichever of OpenBLAS's kernels the
 # environment or the CPU asks for. rasp-modes by itself takes those that are asked for: its tables agree to what is left
 # of rounding once the basis of equal frequencies is fixed.
-# Long: make check leaves it out.
+# Long: see tests/run.sh.
 . "$ROOT/tests/lib/kernels.sh"
 command -v python3 > /dev/null || { echo "no python3"; exit 77; }
 read -r -a kinds <<< "$(kernels)"

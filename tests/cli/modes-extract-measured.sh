@@ -1,6 +1,6 @@
 # Three real objects, struck by hand with a hammer: strikes, delays and modes of each as they are known; ceramic, the hardest, decays at least three times as slowly. Two strikes below
 # 4 kHz, which is quick; evidence/extract.sh has all. By the spectrogram's method steel, too.
-# Long: make check leaves it out.
+# Long: see tests/run.sh.
 data=$ROOT/../shared/data/impacts
 for name in steel ceramic polycarb wood; do
     [ -f "$data/$name.wav" ] || { echo "no recordings of strikes in ../shared/data/impacts"; exit 77; }

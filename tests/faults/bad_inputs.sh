@@ -22,7 +22,7 @@ state_of() {
     find "$1" \( -type d -printf '%y %m %P\n' \) -o -printf '%y %m %i %s %T@ %P\n'
 }
 
-# run NAME MAKE COMMAND: in a folder of its own; leaves out, err, code, and what changed, in $CASE.
+# run NAME MAKE COMMAND: in a folder of its own; leaves out and err in $CASE, the exit code in CODE.
 run() {
     CASE=$TOP/$1
     mkdir "$CASE" "$CASE/in" "$CASE/tmp"

@@ -1,7 +1,7 @@
 # An allocation fails, the n-th of a run, for n from 1 on (faults/memory.c): the program ends with 71 and says so, or does without; it never dies by a signal, leaves nothing
 # half-written, holds no more blocks at its end than it should, and works when it is run again. Of many allocations the first ones are tried and then one in so many:
 # evidence/memory.sh tries all, with FAULTS_MOST at least all of those whose name FAULTS_WHOLE is a pattern of.
-# Long: make check leaves it out.
+# Long: see tests/run.sh.
 . "$ROOT/tests/lib/test.sh"
 MOST=${FAULTS_MOST:-60}
 [ "$(nm "$BUILD/rasp" | grep -c __asan_init)" = 0 ] || skip "the address sanitizer has an allocator of its own"

@@ -1,5 +1,5 @@
 # Sets of stimuli: whatever happens to a run, one more leaves what a fresh folder has, byte for byte (faults/sets.py).
-# Long: make check leaves it out.
+# Long: see tests/run.sh.
 . "$ROOT/tests/lib/test.sh"
 command -v python3 > /dev/null || skip "python3 is not installed"
 [ "$(nm "$BUILD/rasp" | grep -c __asan_init)" = 0 ] || skip "the address sanitizer has calls of its own"

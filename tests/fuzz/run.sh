@@ -17,7 +17,7 @@ mkdir -p "$folder/found" "$folder/corpus"
 {
     sed -nE 's/^(KEY|CHOICE)\([^"]*"([a-z_.]+)".*/\2/p' ../../src/scene/keys.def ../../src/scene/choices.def | tr '.' '\n'
     grep -hoE '"[a-z_]+(\.[a-z_]+)+"' ../../src/*/*.c | tr -d '"' | tr '.' '\n' # keys and choices of the stages' own tables
-    sed -nE 's/.*\{"([a-z_]+)", *"[^"]*"\}.*/\1/p' ../../src/*/*.c
+    sed -nE 's/.*\{"([a-z_]+)",( *".*|$)/\1/p' ../../src/*/*.c
     tr -cs 'a-z_-' '\n' < corpus/design/all.yaml
 } | sort -u | sed '/../!d; s/.*/"&"/' > "$folder/words"
 

@@ -1,6 +1,6 @@
 # irs/ is what scripts/irs.sh writes, byte for byte; every recipe in it has its table, and every table can be read. A solid's table is left alone where it is current (its
 # inputs and its content are what they were); that of the ring is computed again, and agrees to 1e-7: another CPU's linear algebra rounds otherwise.
-# Long: make check leaves it out.
+# Long: see tests/run.sh.
 . "$ROOT/tests/lib/test.sh"
 
 # near A B: the same but for the hash of the content, and for numbers that differ by 1e-7, of gains of the greatest of their column.

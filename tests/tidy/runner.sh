@@ -3,7 +3,9 @@
 mkdir -p tree/tests/cli tree/scenes
 cp -r "$ROOT/tests/run.sh" "$ROOT/tests/lib" tree/tests/
 cd tree || exit 1
-run() { env -u SCRATCH -u COUNTS tests/run.sh "$@" > ../out 2>&1; }
+run() { env -u SCRATCH -u COUNTS -u LONG "${MORE[@]}" tests/run.sh "$@" > ../out 2>&1; }
+
+MORE=()
 
 run cli && fail "no test ran, exit code 0"
 [ "$(tail -n 1 ../out)" = "0 passed, 0 failed" ] || fail "no tests: $(tail -n 1 ../out)"
@@ -25,6 +27,20 @@ run --set cli/wrong_out cli/wrong_exit || fail "--set: $(cat ../out)"
 rm tests/cli/left_over.sh
 run cli || fail "after --set: $(cat ../out)"
 [ "$(tail -n 1 ../out)" = "3 passed, 0 failed, 1 skipped" ] || fail "after --set: $(tail -n 1 ../out)"
+
+# Long scripts: left out by kind, run by name and with LONG.
+printf '# Long: to try it\necho "$LONG"\n' > tests/cli/long.sh
+echo 1 > tests/cli/long.out
+run cli || fail "long: $(cat ../out)"
+[ "$(tail -n 1 ../out)" = "3 passed, 0 failed, 1 skipped" ] || fail "long, by kind: $(cat ../out)"
+grep -q '^left out: 1 long scripts' ../out || fail "long, by kind: $(cat ../out)"
+run cli/long || fail "long, by name: $(cat ../out)"
+run --list cli && grep -q long ../out && fail "long: listed"
+MORE=(LONG=1)
+run cli || fail "LONG=1: $(cat ../out)"
+[ "$(tail -n 1 ../out)" = "4 passed, 0 failed, 1 skipped" ] || fail "LONG=1: $(cat ../out)"
+MORE=()
+rm tests/cli/long.*
 
 # Examples of documents: each kind of block, and one that fails.
 printf '%s\n' '```sh' 'echo one > made' '```' '```sh no-run' 'false' '```' '```sh' 'grep -q one made' '```' > good.md

@@ -34,7 +34,8 @@ static inline void solids_boundary(struct solids *s, struct arena *a)
                 }
     }
     qsort(all, (size_t)n, sizeof *all, solids_compare);
-    s->boundary = (struct boundary){.face = arena_take(a, (size_t)n, sizeof *s->boundary.face)};
+    s->boundary = (struct boundary){.face = arena_take(a, (size_t)n, sizeof *s->boundary.face),
+                                    .box = arena_take(a, (size_t)n, sizeof *s->boundary.box)};
     for (int i = 0; i < n; i++) {
         bool twin =
             (i > 0 && !solids_compare(&all[i], &all[i - 1])) || (i + 1 < n && !solids_compare(&all[i], &all[i + 1]));
@@ -54,6 +55,18 @@ static inline void solids_measure(struct solids *s)
             b->high[k] = fmax(b->high[k], s->mesh.at[i][k]);
         }
     }
+    for (int i = 0; i < b->n; i++) /* of a face's corners, and of where its edges' parabolas are headed */
+        for (int k = 0; k < 3; k++) {
+            double low = HUGE_VAL, high = -HUGE_VAL;
+            for (int j = 0; j < 3; j++) {
+                double p = s->mesh.at[b->face[i][j]][k], q = s->mesh.at[b->face[i][(j + 1) % 3]][k],
+                       control = 2.0 * s->mesh.at[b->face[i][3 + j]][k] - 0.5 * (p + q);
+                low = fmin(low, fmin(p, control));
+                high = fmax(high, fmax(p, control));
+            }
+            b->box[i][0][k] = low;
+            b->box[i][1][k] = high;
+        }
     b->area = b->volume = 0.0;
     for (int i = 0; i < b->n; i++) {
         const double *p = s->mesh.at[b->face[i][0]], *q = s->mesh.at[b->face[i][1]], *r = s->mesh.at[b->face[i][2]];

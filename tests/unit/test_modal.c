@@ -102,7 +102,7 @@ START_TEST(basis)
 }
 END_TEST
 
-/* Twelve random modes from 150 to 7000 Hz, levels over 20 dB, of 24 seeds each another draw: all of them, no other,
+/* Twelve random modes from 150 to 7000 Hz, levels over 20 dB, of each seed another draw: all of them, no other,
  * within five standard errors; half of all within 0.67. */
 START_TEST(random_modes)
 {
@@ -135,8 +135,8 @@ START_TEST(random_modes)
 }
 END_TEST
 
-/* Two modes 2 Hz apart, two decays of one frequency, and one that is neither: as they are, under eight draws of noise
-   and flips of last bits, which move a frequency by no more than a tenth of its standard error. */
+/* Two modes 2 Hz apart, two decays of one frequency, and one that is neither: as they are, under draws of noise and
+   flips of last bits, which move a frequency by no more than a tenth of its standard error. */
 START_TEST(pairs_and_slopes)
 {
     static const struct known m[] = {
@@ -161,7 +161,7 @@ START_TEST(pairs_and_slopes)
 }
 END_TEST
 
-/* White noise of 20 draws: nothing. */
+/* White noise: nothing. */
 START_TEST(noise_alone)
 {
     for (unsigned seed = 1; seed <= 8; seed++) {
