@@ -475,18 +475,18 @@ static struct jet bed_read(const struct bed *b, double x)
 
 static void order_check(double radius, double far)
 {
-    enum { READS = 1000 };
+    enum { READS = 3000 };
     static double x[READS], all[READS];
     struct bed b, other;
     bed_make(&b, radius, PITCH, fmin(radius, 8e-3), HUGE_VAL);
     bed_make(&other, radius, PITCH, fmin(radius, 8e-3), HUGE_VAL);
     for (int i = 0; i < READS; i++)
-        x[i] = i < 700 ? 1e-5 * (i - 350) : i % 50 ? x[i - 1] - 1e-4 : between(-far, far);
+        x[i] = i < 2000 ? 1e-5 * (i - 1000) : i % 50 ? x[i - 1] - 1e-4 : between(-far, far);
     memset(all, 0, sizeof all);
     b.crest->add(b.crest, &(struct relief_points){READS, x, NULL}, &(struct relief_values){.z = all});
     for (int i = READS - 1; i >= 0; i--)
         ck_assert(bed_read(&other, x[i]).z == all[i]);
-    for (int i = 0; i < READS; i += 301) {
+    for (int i = 0; i < READS; i += 601) {
         struct bed alone;
         bed_make(&alone, radius, PITCH, fmin(radius, 8e-3), HUGE_VAL);
         ck_assert(bed_read(&alone, x[i]).z == all[i]);

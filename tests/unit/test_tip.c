@@ -459,7 +459,7 @@ END_TEST
 
 /* ------------------------------------------------------------------ what kind of function it is */
 
-enum { PLACES = 20 };
+enum { PLACES = 40 };
 
 /* One by one in any order, in another instance, alone in a third: the same bits. Places lie far apart, so that blocks
    are forgotten and made again. */
@@ -482,7 +482,7 @@ START_TEST(order_does_not_matter)
             ck_assert_mem_eq(&back, &first[k], sizeof back);
             ck_assert_mem_eq(&other, &first[k], sizeof other);
         }
-        for (int k = 0; k < PLACES; k += 19) {
+        for (int k = 0; k < PLACES; k += 37) {
             struct tip alone;
             tip_make(&alone, rough, along, 2e-4, 2e-5, 1e-5);
             struct read only = tip_read(&alone, x[k], y[k]);
