@@ -1,4 +1,4 @@
-# make            build/rasp, rasp-modes     make check     set-up, build, tests (6 minutes; LONG=1: all, 8)
+# make            build/rasp, rasp-modes     make check     set-up, build, tests (6 minutes; LONG=1: all)
 # make demo       set-up, build, a tour      make help      the other targets and the variables
 
 BUILD ?= build
