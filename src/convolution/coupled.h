@@ -16,8 +16,10 @@
 #include "base/arena.h"
 #include "base/err.h"
 
+enum integrator { INTEGRATOR_DISCRETE_GRADIENT, INTEGRATOR_RK4, INTEGRATOR_EXACT_IMPACT };
+
 struct coupled_ask {
-    int integrator;                  /* enum integrator of scene.h                        */
+    int integrator;                  /* enum integrator                                   */
     double step;                     /* s                                                 */
     double mass, weight;             /* kg; N, G                                          */
     double stiffness, mu;            /* N/m^1.5; s/m                                      */

@@ -27,7 +27,7 @@
 #include "force/hertz.h"
 #include "num/real.h"
 #include "response/response.h"
-#include "scene/params.h"
+#include "scene/rows.h"
 #include "scene/scene_part.h"
 #include "stage.h"
 #include "surface/relief.h"
@@ -125,7 +125,7 @@ struct rolling {
 static bool is_modal(const struct contact *c)
 {
     const struct response *given = &c->surface.response;
-    return c->contact.roll.ground != GROUND_RIGID && response_given(given) && !response_is_recorded(given);
+    return roll_coupled_of(c)->ground != GROUND_RIGID && response_given(given) && !response_is_recorded(given);
 }
 
 static void ground_phi(const struct roll_ground *g, long frame, double *phi)
@@ -143,7 +143,7 @@ bool roll_coupled_ground_make(struct roll_ground *g, const struct stage_run *r, 
     const struct ring_choice *choice = given->choice;
     *g = (struct roll_ground){.board = r->board};
     if (!is_modal(c))
-        return c->contact.roll.ground != GROUND_ELASTIC ||
+        return roll_coupled_of(c)->ground != GROUND_ELASTIC ||
                err_set(e, ERR_SCENE,
                        "contact '%s': contact.roll.ground: elastic needs modes of the surface, and %s; give "
                        "surface.object, or take ground: rigid",
@@ -193,8 +193,8 @@ static bool rolling_body(struct rolling *w, const struct contact *c, struct err 
 {
     w->mass = c->scraper.mass;
     w->gravity = contact_gravity(c);
-    w->drop = c->contact.roll.drop;
-    w->stiffness = contact_stiffness(c);
+    w->drop = roll_coupled_of(c)->drop;
+    w->stiffness = hertz_given(c);
     return !isnan(w->stiffness) || hertz_stiffness(c, &w->stiffness, e);
 }
 
@@ -248,12 +248,12 @@ static bool rolling_open(struct stage_run *r, struct err *e)
     r->state = w;
     relief_decide(b->relief, c);
     if (!rolling_body(w, c, e) || !roll_coupled_ground_make(&w->ground, r, e) || !rolling_steps(w, r, e)) return false;
-    struct coupled_ask ask = {.integrator = c->contact.roll.integrator,
+    struct coupled_ask ask = {.integrator = roll_coupled_of(c)->integrator,
                               .step = 1 / (b->rate * b->over * w->substeps),
                               .mass = w->mass,
                               .weight = w->mass * w->gravity,
                               .stiffness = w->stiffness,
-                              .mu = c->contact.roll.mu,
+                              .mu = hertz_of(c)->mu,
                               .n = w->ground.shapes.n,
                               .frequency = w->ground.shapes.frequency,
                               .decay = w->ground.shapes.decay};
@@ -418,17 +418,46 @@ static unsigned rolling_turns(const struct contact *c, const struct scene *s)
 /* Cycles of a step: 160 on rigid ground, 110 of its place on the curve, 2 a mode; of rk4 670 and 12 a mode. */
 static double rolling_work(const struct contact *c, const struct scene *s)
 {
-    double k = contact_stiffness(c), rate = s->output.sample_rate * s->accuracy.oversampling;
+    double k = hertz_given(c), rate = s->output.sample_rate * s->accuracy.oversampling;
     struct err unknown = {0};
     if (isnan(k) && !hertz_stiffness(c, &k, &unknown)) return 0;
-    bool rk4 = c->contact.roll.integrator == INTEGRATOR_RK4;
+    bool rk4 = roll_coupled_of(c)->integrator == INTEGRATOR_RK4;
     double time = coupled_contact_time(c->scraper.mass, k,
-                                       fmax(PAPER_SPEED, sqrt(2 * contact_gravity(c) * c->contact.roll.drop)));
+                                       fmax(PAPER_SPEED, sqrt(2 * contact_gravity(c) * roll_coupled_of(c)->drop)));
     return s->accuracy.oversampling * substeps_for(s->accuracy.contact_steps, time, rate) *
            (rk4 ? 670 + 12 * roll_coupled_ground_modes(c) : 270 + 2 * roll_coupled_ground_modes(c));
 }
 
-/* ------------------------------------------------------------------ what the scene must say */
+/* ------------------------------------------------------------------ parameters */
+
+#define ROLLS "contact.model=roll_coupled"
+
+static const struct choice integrators[] = {
+    [INTEGRATOR_DISCRETE_GRADIENT] = {"discrete_gradient",
+                                      "the midpoint rule with a discrete gradient and exact poles: energy is balanced "
+                                      "to rounding, stable at any step"},
+    [INTEGRATOR_RK4] = {"rk4",
+                        "the explicit fourth-order Runge-Kutta method, as papers/002; refused below 12 steps per "
+                        "contact"},
+    [INTEGRATOR_EXACT_IMPACT] = {"exact_impact", "each impact exact at any step; on rigid ground only"},
+    {NULL, NULL}};
+
+static const struct choice grounds[] = {
+    [GROUND_AUTO] = {"auto", "elastic where the surface rings by modes, else rigid"},
+    [GROUND_ELASTIC] = {"elastic", "the surface's modes give way under the ball and push back"},
+    [GROUND_RIGID] = {"rigid", "the surface does not give way; its response only sounds"},
+    {NULL, NULL}};
+
+static const struct key keys[] = {{ROW_CHOICE(roll_coupled, integrator, "contact.roll.integrator"), KEY_NONE, 0, 0,
+                                   "discrete_gradient", ROLLS, "how the equations of motion are solved", integrators},
+                                  {ROW_CHOICE(roll_coupled, ground, "contact.roll.ground"), KEY_NONE, 0, 0, "auto",
+                                   ROLLS, "does the surface give way?", grounds},
+                                  {ROW_NUMBER(roll_coupled, drop, "contact.roll.drop"), KEY_LENGTH, 0, 100, "0 m",
+                                   ROLLS,
+                                   "height from which the ball is dropped at the start: the clear distance to the "
+                                   "ground before anything gives way; 0: "
+                                   "it lies on the surface, at rest on it"},
+                                  {.path = NULL}};
 
 /* Why the surface cannot give way; NULL: it may, as far as the scene tells (the poles of a mode table are known when it
  * has been read). */
@@ -443,15 +472,15 @@ static void ground_check(const struct scene_part *p, const struct contact *c)
 {
     const char *ground = "contact.roll.ground", *integrator = "contact.roll.integrator",
                *why = why_rigid(&c->surface.response);
-    bool elastic = c->contact.roll.ground == GROUND_ELASTIC,
-         exact = c->contact.roll.integrator == INTEGRATOR_EXACT_IMPACT;
+    bool elastic = roll_coupled_of(c)->ground == GROUND_ELASTIC,
+         exact = roll_coupled_of(c)->integrator == INTEGRATOR_EXACT_IMPACT;
     if (!scene_part_known(p, ground) || !scene_part_known(p, integrator)) return;
     if (elastic && why)
         scene_part_refuse(
             p, ground, ground,
             "give surface.object, or a mode table with shared poles as surface.response; or set it to rigid",
             " is elastic, and %s", why);
-    else if (exact && (elastic || (c->contact.roll.ground == GROUND_AUTO && !why)))
+    else if (exact && (elastic || (roll_coupled_of(c)->ground == GROUND_AUTO && !why)))
         scene_part_refuse(p, integrator, ground,
                           "set contact.roll.ground to rigid, or leave contact.roll.integrator out",
                           ": exact_impact needs rigid ground, and %s is %s", scene_part_label(p, ground),
@@ -462,23 +491,21 @@ static void ground_check(const struct scene_part *p, const struct contact *c)
 static void drop_check(const struct scene_part *p, const struct contact *c)
 {
     const char *drop = "contact.roll.drop", *gravity = "contact.gravity";
-    if (c->contact.roll.drop > 0 && c->contact.gravity == 0)
+    if (roll_coupled_of(c)->drop > 0 && c->contact.gravity == 0)
         scene_part_refuse(p, drop, gravity, "raise contact.gravity, or lay the ball down with drop: 0",
-                          " is %.4g m and %s is 0: the ball never arrives", c->contact.roll.drop,
+                          " is %.4g m and %s is 0: the ball never arrives", roll_coupled_of(c)->drop,
                           scene_part_label(p, gravity));
 }
 
 static void coupled_check(const struct scene_part *p, const struct contact *c, const void *own)
 {
     (void)own;
-    if (!scene_part_known(p, "contact.model")) return;
     if (c->ball.patch == 0 && relief_along(c) == ALONG_PLANE)
         scene_part_refuse(
             p, "ball.patch", "ball.patch",
             "write for instance: patch: 20 um; or let the surface follow the path, by surface.along: path",
             " must be above 0 on a surface in the plane: only along a line is the rolling curve known without "
             "smoothing");
-    hertz_unit_check(p, &c->contact.roll);
     ground_check(p, c);
     drop_check(p, c);
     if (!scene_part_given(p, "contact.roll.stiffness") && !scene_part_given(p, "contact.roll.kappa"))
@@ -486,9 +513,24 @@ static void coupled_check(const struct scene_part *p, const struct contact *c, c
                     "the stiffness of the contact follows from it, unless contact.roll.stiffness (or kappa) is given");
 }
 
+static void coupled_derive(struct contact *c, void *own)
+{
+    c->load.falls = ((const struct roll_coupled *)own)->drop > 0;
+}
+
 static bool rolls(const struct contact *c) { return c->contact.model == CONTACT_ROLL_COUPLED; }
 
-static const struct params coupled_params = {.section = "contact.roll", .check = coupled_check, .given = rolls};
+static const struct params coupled_params = {
+    .section = "contact.roll",
+    .size = sizeof(struct roll_coupled),
+    .keys = keys,
+    .derive = coupled_derive,
+    .check = coupled_check,
+    .given = rolls,
+    .shown = true,
+};
+
+const struct roll_coupled *roll_coupled_of(const struct contact *c) { return params_of(c, &coupled_params); }
 
 const struct stage roll_coupled_stage = {
     .name = "roll_coupled",

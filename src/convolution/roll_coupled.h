@@ -4,6 +4,16 @@
 #include "response/modes.h"
 #include "stage.h"
 
+enum ground { GROUND_AUTO, GROUND_ELASTIC, GROUND_RIGID };
+
+struct roll_coupled { /* contact.roll, as far as model roll_coupled alone has it */
+    int integrator;   /* enum integrator                                         */
+    int ground;       /* enum ground                                             */
+    double drop;      /* m, of the ball above its rest at the start              */
+};
+
+const struct roll_coupled *roll_coupled_of(const struct contact *c);
+
 struct roll_ground {
     struct modes_shapes shapes; /* n 0: rigid                                        */
     bool moves;                 /* phi changes on the way                            */

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "scene/material.h"
+#include "scene/rows.h"
 #include "trajectory/contact.h"
 
 /* (1 - nu^2) / E, 1/Pa; NAN: not known. */
@@ -87,11 +88,45 @@ void hertz_check(const struct scene_part *p, const struct contact *c, const char
         if (!is_elastic(p, bodies[i], objects[i])) moduli_missing(p, bodies[i], because);
 }
 
-void hertz_unit_check(const struct scene_part *p, const struct roll *r)
+/* ------------------------------------------------------------------ parameters */
+
+#define ROLLS "contact.model=roll|roll_coupled"
+
+static const struct key keys[] = {
+    {ROW_NUMBER(hertz, stiffness, "contact.roll.stiffness"), KEY_STIFFNESS, 1e-3, 1e18, "", ROLLS,
+     "k of k rho^1.5, in N/m^1.5; left out: roll_coupled takes Hertz's from ball.radius and both materials, roll what "
+     "follows from static_penetration; penetration: paper needs it (or kappa)"},
+    {ROW_NUMBER(hertz, kappa, "contact.roll.kappa"), KEY_STIFFNESS_PER_MASS, 1e-3, 1e18, "", ROLLS,
+     "k over the ball's mass, in place of stiffness"},
+    {ROW_NUMBER(hertz, mu, "contact.roll.mu"), KEY_PER_SPEED, 0, 1e4, "1 s/m", ROLLS,
+     "dissipation in the contact: the force is k rho^1.5 (1 + mu rho'), at least 0; of penetration: paper lambda "
+     "decides"},
+    {.path = NULL}};
+
+static void unit_check(const struct scene_part *p, const struct contact *c, const void *own)
 {
     const char *path = "contact.roll.stiffness";
-    if (!isnan(r->stiffness) && hertz_unit(yaml_find(p->map, path), false))
+    const struct hertz *h = own;
+    (void)c;
+    if (!isnan(h->stiffness) && hertz_unit(yaml_find(p->map, path), false))
         scene_part_refuse(p, path, path,
                           "give it in N/m^1.5: the force is stiffness x penetration^1.5 (Hertz's contact)",
                           " is in N/m^1.5, not in N/m");
+}
+
+const struct params hertz_params = {
+    .section = "contact.roll",
+    .size = sizeof(struct hertz),
+    .keys = keys,
+    .check = unit_check,
+    .given = contact_rolls,
+    .shown = true,
+};
+
+const struct hertz *hertz_of(const struct contact *c) { return params_of(c, &hertz_params); }
+
+double hertz_given(const struct contact *c)
+{
+    const struct hertz *h = hertz_of(c);
+    return !isnan(h->stiffness) ? h->stiffness : h->kappa * c->scraper.mass;
 }

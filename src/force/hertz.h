@@ -7,6 +7,17 @@
 #include "scene/scene.h"
 #include "scene/scene_part.h"
 
+struct hertz {        /* of a ball that rolls                     */
+    double stiffness; /* N/m^1.5, k; NAN: kappa, or not given     */
+    double kappa;     /* N/(m^1.5 kg), k over the ball's mass     */
+    double mu;        /* s/m, lambda / k                          */
+};
+
+const struct hertz *hertz_of(const struct contact *c);
+
+/* N/m^1.5: the ball's given stiffness, kappa times its mass, or NAN. */
+double hertz_given(const struct contact *c);
+
 /* k in N/m^1.5 from radius and materials (hertz.c). ERR_SCENE: the scene does not tell them; names the keys that would,
  * and the model's own key of stiffness. */
 bool hertz_stiffness(const struct contact *c, double *stiffness, struct err *e);
@@ -17,9 +28,6 @@ void hertz_check(const struct scene_part *p, const struct contact *c, const char
 /* Is a stiffness written with the unit of a linear spring (N/m), or, of a linear one, with that of Hertz's contact
  * (N/m^1.5)? */
 bool hertz_unit(const struct yaml_node *node, bool linear);
-
-/* Reports a contact.roll.stiffness in N/m, which is none of Hertz's. */
-void hertz_unit_check(const struct scene_part *p, const struct roll *r);
 
 /* The mean of Hertz's k xi^1.5 while the penetration goes in a straight line from xi to xi+: with a^2, b^2 = xi, xi+,
    both above 0, is

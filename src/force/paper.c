@@ -21,6 +21,7 @@
 
 #include "force/path_cells.h"
 #include "force/path_integral.h"
+#include "force/roll.h"
 #include "num/real.h"
 #include "surface/relief.h"
 #include "trajectory/trajectory.h"
@@ -212,7 +213,7 @@ static double paper_force(const struct stage_run *r, long k, const struct paper_
                    (*cells_values(b, ITEM_CURVATURE, k) * (before->late * before->x + after->early * after->x) +
                     yy * (before->late * before->y + after->early * after->y));
     force += m->beta1 * *cells_values(b, ITEM_SLOPE, k) * (before->late * before->power + after->early * after->power);
-    return m->model == CONTACT_ROLL ? m->roll.scraping * force : force;
+    return m->model == CONTACT_ROLL ? roll_of(r->contact)->scraping * force : force;
 }
 
 static bool paper_run(struct stage_run *r, long from, long to, struct err *e)

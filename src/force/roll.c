@@ -37,7 +37,7 @@
 #include "num/noise.h"
 #include "num/real.h"
 #include "num/vecmath.h"
-#include "scene/params.h"
+#include "scene/rows.h"
 #include "scene/scene_part.h"
 #include "surface/limiter.h"
 #include "surface/relief.h"
@@ -173,7 +173,7 @@ static double hertz_rest(const struct contact *c, double normal)
 static struct roll_stiffness roll_stiffness_make(const struct stage_run *r)
 {
     const struct contact *c = r->contact;
-    double given = contact_stiffness(c), depth = c->contact.roll.static_penetration;
+    double given = hertz_given(c), depth = roll_of(c)->static_penetration;
     struct roll_stiffness s = {.normal = load_constant(c), .stiffness = given, .roughness = NAN, .hertz = NAN};
     if (!(s.normal > 0)) return s;
     if (isnan(given) && isnan(depth)) {
@@ -405,8 +405,8 @@ static double roll_work(const struct contact *c, const struct scene *s)
 
 static bool roll_printed(const struct contact *c, struct roll_state *s, struct err *e)
 {
-    double k = s->law.stiffness = contact_stiffness(c), normal = load_constant(c);
-    s->law.mu = c->contact.roll.lambda / k;
+    double k = s->law.stiffness = hertz_given(c), normal = load_constant(c);
+    s->law.mu = roll_of(c)->lambda / k;
     s->rests = (struct roll_stiffness){.normal = normal, .stiffness = k, .roughness = NAN, .hertz = NAN};
     s->rests.rest = normal > 0 ? real_pow(normal / k, 2.0 / 3) : 0;
     return !isnan(k) ||
@@ -420,8 +420,8 @@ static void roll_rests(struct stage_run *r, struct roll_state *s)
     const struct board *b = r->board;
     struct roll_stiffness *rests = &s->rests;
     *rests = roll_stiffness_make(r);
-    s->law = (struct roll_law){.stiffness = rests->stiffness, .mu = c->contact.roll.mu};
-    double added = 2 * c->contact.roll.damping_ratio * rests->resonance;
+    s->law = (struct roll_law){.stiffness = rests->stiffness, .mu = hertz_of(c)->mu};
+    double added = 2 * roll_of(c)->damping_ratio * rests->resonance;
     double damping = added + s->law.mu * rests->normal / c->scraper.mass;
     if (rests->resonance > 0) s->follow = roll_follow_make(rests->resonance, damping, 1 / (b->rate * b->over));
     s->idle = !(rests->normal > 0) && !(b->load && b->load->most > 0);
@@ -434,13 +434,12 @@ static bool roll_open(struct stage_run *r, struct err *e)
     struct roll_state *s = ARENA_TAKE(r->arena, struct roll_state, 1);
     s->spin = spin_make(c);
     s->round = c->ball.offset == 0 && c->ball.lobe_height == 0;
-    s->printed = s->scrape.path.rising = c->contact.roll.penetration == PENETRATION_PAPER;
+    s->printed = s->scrape.path.rising = roll_of(c)->penetration == PENETRATION_PAPER;
     s->added = c->contact.force == FORCE_PAPER;
     s->touches = true;
     r->state = s;
     r->ahead = 1;
-    if (!scrape_make(&s->scrape, r, c->contact.roll.scraping, e) || (s->printed && !roll_printed(c, s, e)))
-        return false;
+    if (!scrape_make(&s->scrape, r, roll_of(c)->scraping, e) || (s->printed && !roll_printed(c, s, e))) return false;
     if (!s->printed) roll_rests(r, s);
     r->board->bspline = true;
     r->board->rolls = !s->idle;
@@ -646,16 +645,45 @@ static void roll_skip(struct stage_run *r, long frame)
     s->begun = false;
 }
 
-/* ------------------------------------------------------------------ what the scene must say */
+/* ------------------------------------------------------------------ parameters */
+
+#define ROLLS "contact.model=roll"
+#define DEVIATION "contact.roll.penetration=deviation"
+
+static const struct choice penetrations[] = {
+    [PENETRATION_DEVIATION] =
+        {"deviation", "rho is the penetration at rest under the normal force, which an offset of the centre of "
+                      "mass and lobes of the rim vary, and how much deeper the ground presses in as the ball "
+                      "follows it like a mass on the contact's spring; slowly shifted so that the mean force is "
+                      "the normal force's"},
+    [PENETRATION_PAPER] = {"paper",
+                           "equation 16 as printed, rho = R - r cos(x/R) + S, with a stiffness chosen by hand"},
+    {NULL, NULL}};
+
+static const struct key keys[] = {
+    {ROW_CHOICE(roll, penetration, "contact.roll.penetration"), KEY_NONE, 0, 0, "deviation", ROLLS,
+     "what the penetration rho is", penetrations},
+    {ROW_NUMBER(roll, lambda, "contact.roll.lambda"), KEY_DISSIPATION, 0, 1e12, "0.1 N s/m^2.5",
+     "contact.roll.penetration=paper", "lambda of equation 15"},
+    {ROW_NUMBER(roll, static_penetration, "contact.roll.static_penetration"), KEY_LENGTH, 1e-12, 1, "", DEVIATION,
+     "how deep the ball lies in the contact at rest, from which the stiffness follows; left out: Hertz's depth of both "
+     "materials plus 1.5 times the ground's roughness Rq, at least 1 nm"},
+    {ROW_NUMBER(roll, damping_ratio, "contact.roll.damping_ratio"), KEY_NONE, 0, 10, "0.3", DEVIATION,
+     "damping ratio of the ball's mass on its contact, added to that of mu: a ball does not hum at its resonance; 0: "
+     "mu "
+     "alone, as roll_coupled has it"},
+    {ROW_NUMBER(roll, scraping, "contact.roll.scraping"), KEY_NONE, 0, 1000, "1", ROLLS,
+     "factor on the scraping terms of equation 19: how much the ball slips; 0: it rolls purely"},
+    {.path = NULL}};
 
 /* Defaults stand in every effective scene, so that only another value is one that was meant to do something. */
-static void paper_check(const struct scene_part *p, const struct roll *r)
+static void paper_check(const struct scene_part *p, const struct contact *c)
 {
     if (!scene_part_given(p, "contact.roll.stiffness") && !scene_part_given(p, "contact.roll.kappa"))
         scene_part_missing(p, "contact.roll.stiffness", "2 kN/m^1.5",
                            " (or contact.roll.kappa): under penetration: paper rho is about the ball's radius, and "
                            "the stiffness is chosen by hand");
-    if (scene_part_given(p, "contact.roll.mu") && r->mu != 1)
+    if (scene_part_given(p, "contact.roll.mu") && hertz_of(c)->mu != 1)
         scene_part_refuse(p, "contact.roll.mu", "contact.roll.mu",
                           "give contact.roll.lambda in its place, or set contact.roll.penetration to deviation",
                           " has no effect where contact.roll.penetration is paper");
@@ -663,21 +691,34 @@ static void paper_check(const struct scene_part *p, const struct roll *r)
 
 static void roll_check(const struct scene_part *p, const struct contact *c, const void *own)
 {
-    const struct roll *r = &c->contact.roll;
-    (void)own;
-    if (!scene_part_known(p, "contact.model")) return;
+    const struct roll *r = own;
     if (c->ball.patch == 0)
         scene_part_refuse(
             p, "ball.patch", "ball.patch", "write for instance: patch: 20 um",
             " must be above 0 where contact.model is roll: the force follows from the slope and curvature of the "
             "rolling curve, which has kinks");
-    hertz_unit_check(p, r);
-    if (scene_part_known(p, "contact.roll.penetration") && r->penetration == PENETRATION_PAPER) paper_check(p, r);
+    if (scene_part_known(p, "contact.roll.penetration") && r->penetration == PENETRATION_PAPER) paper_check(p, c);
 }
 
 static bool rolls(const struct contact *c) { return c->contact.model == CONTACT_ROLL; }
 
-static const struct params roll_params = {.section = "contact.roll", .check = roll_check, .given = rolls};
+/* Of equation 16 as printed the lobes are in the penetration. */
+static void roll_derive(struct contact *c, void *own)
+{
+    c->load.no_lobes = ((const struct roll *)own)->penetration == PENETRATION_PAPER;
+}
+
+static const struct params roll_params = {
+    .section = "contact.roll",
+    .size = sizeof(struct roll),
+    .keys = keys,
+    .derive = roll_derive,
+    .check = roll_check,
+    .given = rolls,
+    .shown = true,
+};
+
+const struct roll *roll_of(const struct contact *c) { return params_of(c, &roll_params); }
 
 const struct stage roll_stage = {
     .name = "roll",

@@ -8,6 +8,18 @@
 #include "force/hertz.h"
 #include "stage.h"
 
+enum penetration { PENETRATION_DEVIATION, PENETRATION_PAPER };
+
+struct roll {                  /* contact.roll, as far as model roll alone has it             */
+    int penetration;           /* enum penetration                                            */
+    double lambda;             /* N s/m^2.5, of penetration: paper                            */
+    double static_penetration; /* m, penetration at rest; NAN: of both bodies and the ground  */
+    double damping_ratio;      /* zeta of the ball's mass on the contact, beside mu's part    */
+    double scraping;           /* factor on equation 19's scraping terms                      */
+};
+
+const struct roll *roll_of(const struct contact *c);
+
 struct roll_law {
     double stiffness; /* N/m^1.5, k       */
     double mu;        /* s/m, lambda / k  */

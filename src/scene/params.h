@@ -6,8 +6,8 @@
    block, contact->params; a contact that is copied shares it, and nobody writes into it but params_edit.
 
    Keys that no section holds alone have no such bool: those of a height map, of an impact. `given` says then whether
-   they count, `section` is the path they have in common, and `meaning` is NULL. STAGES(path) in keys.def gives them a
-   place of their own, where that of the whole map is not theirs. */
+   they count (NULL: always), `section` is the path they have in common, and `meaning` is NULL. STAGES(path) in keys.def
+   gives them a place of their own, where that of the whole map is not theirs. */
 #ifndef SCENE_PARAMS_H
 #define SCENE_PARAMS_H
 #include "base/arena.h"
@@ -49,8 +49,9 @@ struct params {
     const struct params_rule *rules;     /* ends with path NULL; NULL: none */
     const struct params_column *columns; /* of a contact that has the section; ends with name NULL; NULL: none */
     void (*check)(const struct scene_part *, const struct contact *,
-                  const void *own);   /* what no row says; may be NULL */
-    void (*derive)(struct contact *); /* sets what follows from the values given, before any check; may be NULL */
+                  const void *own);              /* what no row says; may be NULL */
+    void (*derive)(struct contact *, void *own); /* sets what follows from the values given, before any check; may be
+                                                    NULL */
     /* Of the scene's own keys; contacts: all have been read, and nothing is wrong yet. May be NULL. */
     void (*check_scene)(const struct scene_part *top, bool contacts);
     /* Of each contact, what the scene asks of it; good: nothing is wrong with the contact itself. May be NULL. */
@@ -61,7 +62,7 @@ struct params {
     unsigned gives;                        /* items that the table asks for where one of its columns is written */
     const struct params_ground *ground;    /* NULL: it is no part of the surface */
     bool (*given)(const struct contact *); /* of keys that make no section of their own, meaning NULL: do they count?
-                                              NULL, and size 0: always */
+                                              NULL: always */
     bool shown;                            /* on in the reference scene */
 };
 

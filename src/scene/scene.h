@@ -39,9 +39,6 @@ enum contact_kind {
 enum impact_listing { LISTING_NONE, LISTING_TABLE };
 enum table_format { TABLE_CSV, TABLE_NPY };
 enum ball_body { BODY_SOLID, BODY_HOLLOW, BODY_HOOP, BODY_WHEEL };
-enum penetration { PENETRATION_DEVIATION, PENETRATION_PAPER };
-enum integrator { INTEGRATOR_DISCRETE_GRADIENT, INTEGRATOR_RK4, INTEGRATOR_EXACT_IMPACT };
-enum ground { GROUND_AUTO, GROUND_ELASTIC, GROUND_RIGID };
 enum force_kind { FORCE_DIRECTIONAL, FORCE_PAPER };
 enum limiter_curve { LIMITER_TANH, LIMITER_NONE };
 enum engine { ENGINE_AUTO, ENGINE_RESONATORS, ENGINE_OVERLAP_ADD };
@@ -200,6 +197,8 @@ struct load {
     double constant;          /* N; NAN: the scraper's weight m g                                  */
     const char *recorded;     /* CSV of time_s, normal_force_n; NULL: none                         */
     double approach, release; /* s over which contact is made and given up; NAN: auto            */
+    bool falls;    /* no keys: a ball is dropped, and comes down by itself (convolution/roll_coupled.c);            */
+    bool no_lobes; /* what its lobes press is not in N(t) (force/roll.c) */
 };
 
 struct limiter {                 /* eq. 4 to 7                                                        */
@@ -211,23 +210,8 @@ struct limiter {                 /* eq. 4 to 7                                  
     double force_range[2]; /* N, N_min and N_max of eq. 7; NAN: the scene's own                 */
 };
 
-struct roll {                  /* force/roll.h, convolution/coupled.h                               */
-    double stiffness;          /* N/m^1.5, k; NAN: kappa, or static_penetration, or force/roll.h, or Hertz's */
-    double kappa;              /* N/(m^1.5 kg), k over the ball's mass                              */
-    double mu;                 /* s/m, lambda / k                                                   */
-    double lambda;             /* N s/m^2.5, of penetration: paper                                  */
-    int penetration;           /* enum penetration (roll)                                           */
-    double static_penetration; /* m, penetration at rest; NAN: of force/roll.h (roll)  */
-    double damping_ratio;      /* zeta of the ball's mass on the contact, beside mu's part (roll)   */
-    double scraping;           /* factor on equation 19's scraping terms (roll)                     */
-    int integrator;            /* enum integrator (roll_coupled)                                    */
-    int ground;                /* enum ground (roll_coupled)                                        */
-    double drop;               /* m, of the ball above its rest at the start (roll_coupled)         */
-};
-
 struct contact_model {
-    int model; /* enum contact_kind                                                 */
-    struct roll roll;
+    int model;           /* enum contact_kind                                                 */
     double playback;     /* N/m: force for a metre of the surface's height (playback)         */
     int force;           /* enum force_kind                                                   */
     double beta1, beta2; /* eq. 3                                                             */

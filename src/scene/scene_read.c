@@ -140,7 +140,7 @@ static void contact_read(const struct tree *t, struct yaml_node *map, const char
     scene_part_fill(&part);
     scene_places_note(&part, c->name, t->scene);
     for (int i = 0; (own = stages_params(i)); i++)
-        if (own->derive) own->derive(c);
+        if (own->derive) own->derive(c, (char *)params_block(c) + params_at(own));
     if (t->yaml->missing) /* values may stand in a file that is not there */
         return;
     params_check(&part, c);

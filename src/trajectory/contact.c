@@ -63,12 +63,6 @@ double contact_gravity(const struct contact *c)
                                           : c->contact.gravity;
 }
 
-double contact_stiffness(const struct contact *c)
-{
-    const struct roll *r = &c->contact.roll;
-    return !isnan(r->stiffness) ? r->stiffness : r->kappa * c->scraper.mass;
-}
-
 /* ------------------------------------------------------------------ what is left out */
 
 /* Without a non-linearity: no limiter, and of `omitted` no smoothing, which the paper has in the same section, against
@@ -107,9 +101,10 @@ const char *contact_ablation(const struct contact *c, struct arena *a)
     return text;
 }
 
-void contact_derive(struct contact *c)
+void contact_derive(struct contact *c, void *own)
 {
     const struct ball *b = &c->ball;
+    (void)own;
     c->motion.gravity = c->contact.gravity;
     c->motion.inertia = ball_inertia(c);
     if (contact_rolls(c))

@@ -48,13 +48,10 @@ static inline long contact_first_frame(const struct contact *c, double rate) { r
 
 /* Of a filled contact, what follows from its keys: of one that rolls c->scraper, what touches the surface, from
  * c->ball: mass (NAN: nothing says it), weight, radius, patch, response; and what an ablation leaves out. */
-void contact_derive(struct contact *c);
+void contact_derive(struct contact *c, void *own);
 
 /* Acceleration of gravity along the normal of the surface, m/s^2: g cos(incline). */
 double contact_gravity(const struct contact *c);
-
-/* Hertz's stiffness of the ball, N/m^1.5: given stiffness, kappa times mass, or NAN. */
-double contact_stiffness(const struct contact *c);
 
 /* Is the normal force held at its mean (load_constant, trajectory/load.h)? */
 static inline bool contact_steady(const struct contact *c)

@@ -70,7 +70,7 @@ double load_approach(const struct contact *c, bool release)
     double given = release ? c->load.release : c->load.approach;
     if (c->contact.model != CONTACT_SCRAPE && !contact_rolls(c) && !contact_driven(c)) return 0;
     if (!isnan(given)) return given;
-    bool falls = c->contact.model == CONTACT_ROLL_COUPLED && c->contact.roll.drop > 0 && !release;
+    bool falls = c->contact.model == CONTACT_ROLL_COUPLED && c->load.falls && !release;
     return falls || (c->contact.model == CONTACT_SCRAPE && motion_rests(&c->motion, release)) ? 0 : LOAD_APPROACH;
 }
 
@@ -117,10 +117,7 @@ struct load_record {
     double clock; /* s: the file's time at the start of the motion */
 };
 
-static bool lobes_press(const struct contact *c)
-{
-    return c->ball.lobe_height > 0 && c->contact.roll.penetration == PENETRATION_DEVIATION;
-}
+static bool lobes_press(const struct contact *c) { return c->ball.lobe_height > 0 && !c->load.no_lobes; }
 
 bool load_varies(const struct contact *c)
 {

@@ -73,7 +73,7 @@ START_TEST(test_mean_of_ball)
                         .grip = {.given = false},
                         .load = {.constant = NAN, .approach = NAN, .release = NAN},
                         .contact = {.model = CONTACT_ROLL, .gravity = 9.80665}};
-    contact_derive(&c);
+    contact_derive(&c, NULL);
     mean_is_held("ball", c);
     c.ball.lobe_height = 1e-4;
     mean_is_held("ball with lobes", c);

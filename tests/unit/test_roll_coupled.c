@@ -7,6 +7,7 @@
 #include "convolution/ring_choice.h"
 #include "convolution/roll_coupled.h"
 #include "file/csv.h"
+#include "force/hertz.h"
 #include "output/force_table.h"
 #include "pipeline/render.h"
 #include "response/object.h"
@@ -201,7 +202,7 @@ static void step_is(const struct scene *s, double speed, int least)
 {
     struct scene own = *s;
     struct rig *r = rig_record(&own, ITEM_ROLL, 100, 100);
-    double m = s->contacts[0].scraper.mass, k = s->contacts[0].contact.roll.stiffness,
+    double m = s->contacts[0].scraper.mass, k = hertz_of(&s->contacts[0])->stiffness,
            lasts = 2.9432751843247045 * pow(5 * m / (4 * k), 0.4) * pow(speed, -0.2);
     double sub = s->output.sample_rate * s->accuracy.oversampling, n = ceil(s->accuracy.contact_steps / (lasts * sub));
     ck_assert_double_ge(n, least);
@@ -500,10 +501,10 @@ static void opened(struct scene *s, const char *refused)
 START_TEST(what_cannot_be_is_refused)
 {
     struct scene s = on_rigid("path: still, duration: 0.1 s", "stiffness: 1e9 N/m^1.5, drop: 1 mm", "");
-    s.contacts[0].contact.roll.ground = GROUND_ELASTIC;
+    ((struct roll_coupled *)params_edit(s.contacts, roll_coupled_stage.params, rig_arena()))->ground = GROUND_ELASTIC;
     opened(&s, "it has no response");
     s = on_rigid("path: still, duration: 0.1 s", "stiffness: 1e9 N/m^1.5", "");
-    s.contacts[0].contact.roll.stiffness = NAN;
+    ((struct hertz *)params_edit(s.contacts, &hertz_params, rig_arena()))->stiffness = NAN;
     opened(
         &s,
         "give ball.material (such as steel), or youngs_modulus and poisson of ball.object, or contact.roll.stiffness");
