@@ -116,9 +116,8 @@ static json_t *typed(const struct key *k, struct arena *a)
         if (strcmp(k->path, "output.diagnostics.columns") != 0)
             return list(json_pack("{s:s}", "type", "string"), 1, 1000, NULL);
         json_t *all = json_array();
-        const struct params *whose;
         const struct params_column *t;
-        for (int i = 0; (t = params_column(i, &whose)); i++)
+        for (int i = 0; (t = params_column(i, NULL)); i++)
             json_array_append_new(all, json_string(t->name));
         return list(json_pack("{s:o}", "enum", all), 1, 1000, NULL);
     }
@@ -389,9 +388,8 @@ static bool explain_path(const char *path, const char **names, struct arena *a)
         return false;
     bool columns = !strcmp(path, "output.diagnostics.columns");
     if (columns) fputs("  columns\n", stdout);
-    const struct params *whose;
     const struct params_column *t;
-    for (int i = 0; columns && (t = params_column(i, &whose)); i++)
+    for (int i = 0; columns && (t = params_column(i, NULL)); i++)
         text_wrap(stdout, t->meaning, printf("    %-22s ", t->name), "                           ");
     return true;
 }
@@ -508,11 +506,10 @@ static int explain_run(struct cmd_call *c, struct err *e)
     json_t *schema = schema_design(c->arena), *key = word ? design_key(schema, word) : NULL;
     static const char *const parts[] = {"keys", "columns"}, *const schemas[] = {"scene", "design"};
     int part = 0, of = 0;
-    const struct params *whose;
     const struct params_column *t;
     if (args_given(&c->args, "man")) {
         if (cmd_either(c, "man", parts, &part, e) && part == 0) keys_text_man(stdout, c->arena);
-        for (int k = 0; part == 1 && (t = params_column(k, &whose)); k++)
+        for (int k = 0; part == 1 && (t = params_column(k, NULL)); k++)
             printf(".It Ic %s\n%c%s.\n", t->name, toupper((unsigned char)t->meaning[0]), t->meaning + 1);
     } else if (args_given(&c->args, "schema")) {
         if (cmd_either(c, "schema", schemas, &of, e)) {

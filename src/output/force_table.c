@@ -17,13 +17,70 @@
 #include "trajectory/spin.h"
 #include "trajectory/trajectory.h"
 
-#define COLUMN(id, name, exists, needs, meaning) id,
+/* ------------------------------------------------------------------ the columns of every contact */
+
 enum column {
-#include "scene/columns.def"
+#define COLUMN(id, name, lacks, meaning) id,
+#include "output/columns.def"
+#undef COLUMN
     COLUMNS,
     MOST = COLUMNS + 64 /* with those of effects (scene/params.h) */
 };
+
+static const char *pressed_lacks(const struct contact *c)
+{
+    int model = c->contact.model;
+    return model == CONTACT_SCRAPE || model == CONTACT_ROLL ? "" : "contact.model: scrape or roll";
+}
+
+static const char *alpha_lacks(const struct contact *c)
+{
+    const char *lacks = pressed_lacks(c);
+    return *lacks || c->contact.limiter.curve == LIMITER_TANH ? lacks : "contact.limiter.curve: tanh";
+}
+
+static const char *lift_lacks(const struct contact *c)
+{
+    if (contact_rolls(c)) return "";
+    if (c->contact.model != CONTACT_SCRAPE) return "contact.model: scrape, roll or roll_coupled";
+    return c->grip.given || c->load.recorded ? "" : "a grip or a recorded load";
+}
+
+static const char *impacts_lacks(const struct contact *c)
+{
+    int model = c->contact.model;
+    return model == CONTACT_STRIKE || model == CONTACT_IMPACTS ? "" : "contact.model: strike or impacts";
+}
+
+static const char *ball_lacks(const struct contact *c)
+{
+    return contact_rolls(c) ? "" : "contact.model: roll or roll_coupled";
+}
+
+static const char *coupled_lacks(const struct contact *c)
+{
+    return c->contact.model == CONTACT_ROLL_COUPLED ? "" : "contact.model: roll_coupled";
+}
+
+static const struct params_column own_columns[] = {
+#define COLUMN(id, name, lacks, meaning) {name, meaning, NULL},
+#include "output/columns.def"
 #undef COLUMN
+    {.name = NULL}};
+
+static const char *own_lacks(const struct contact *c, const struct params_column *column)
+{
+    static const char *(*const lacks_of[])(const struct contact *) = {
+#define COLUMN(id, name, lacks, meaning) lacks,
+#include "output/columns.def"
+#undef COLUMN
+    };
+    return lacks_of[column - own_columns] ? lacks_of[column - own_columns](c) : "";
+}
+
+const struct params force_table_params = {.section = "output.diagnostics", .columns = own_columns, .lacks = own_lacks};
+
+/* ------------------------------------------------------------------ their values */
 
 struct roll_rows {
     struct spin spin;
@@ -167,7 +224,7 @@ static bool columns_choose(struct force_table *t, const struct stage_run *r, str
     const struct params *whose;
     while (t->n < MOST && (t->of[t->n] = params_column(t->n, &whose))) {
         t->wanted[t->n] = !names && !*params_column_lacks(r->contact, t->n);
-        for (int i = 0; whose && i < r->board->n_stages; i++)
+        for (int i = 0; i < r->board->n_stages; i++)
             if (r->board->stages[i].stage->params == whose) t->by[t->n] = &r->board->stages[i];
         t->n++;
     }

@@ -187,13 +187,12 @@ static void output_check(const struct scene_part *top, bool contacts)
         return;
     }
     struct yaml *y = top->yaml;
-    const struct params *whose;
     int n = 0;
-    while (params_column(n, &whose))
+    while (params_column(n, NULL))
         n++;
     const char **names = ARENA_TAKE(y->arena, const char *, n + 1);
     for (int k = 0; k < n; k++)
-        names[k] = params_column(k, &whose)->name;
+        names[k] = params_column(k, NULL)->name;
     for (const struct yaml_node *item = column_first(top->map); item; item = item->next) {
         if (item->kind != YAML_SCALAR || !*item->text || yaml_null(item) || column_find(item) >= 0) continue;
         const char *near = text_nearest(item->text, names);

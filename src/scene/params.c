@@ -75,43 +75,30 @@ void params_check(const struct scene_part *p, const struct contact *c)
 
 /* ------------------------------------------------------------------ columns */
 
-static const struct params_column columns[] = {
-#define COLUMN(id, name, exists, needs, meaning) {name, meaning, NULL},
-#include "scene/columns.def"
-#undef COLUMN
-};
-enum { COLUMNS = sizeof columns / sizeof *columns };
-
 const struct params_column *params_column(int k, const struct params **whose)
 {
-    *whose = NULL;
-    if (k < COLUMNS) return &columns[k];
-    k -= COLUMNS;
-    for (int i = 0; (*whose = stages_params(i)); i++)
-        for (const struct params_column *c = (*whose)->columns; c && c->name; c++)
+    const struct params *p;
+    for (int i = 0; (p = stages_params(i)); i++)
+        for (const struct params_column *c = p->columns; c && c->name; c++) {
+            if (whose) *whose = p;
             if (k-- == 0) return c;
+        }
     return NULL;
 }
 
 int params_column_find(const char *name)
 {
-    const struct params *whose;
     const struct params_column *c;
-    for (int k = 0; (c = params_column(k, &whose)); k++)
+    for (int k = 0; (c = params_column(k, NULL)); k++)
         if (strcmp(c->name, name) == 0) return k;
     return -1;
 }
 
 const char *params_column_lacks(const struct contact *c, int k)
 {
-    const struct params *whose;
-    const char *const lacking[] = {
-#define COLUMN(id, name, exists, needs, meaning) (exists) ? "" : needs,
-#include "scene/columns.def"
-#undef COLUMN
-    };
-    params_column(k, &whose);
-    return !whose ? lacking[k] : params_given(c, whose) ? "" : whose->section;
+    const struct params *whose = NULL;
+    const struct params_column *column = params_column(k, &whose);
+    return whose->lacks ? whose->lacks(c, column) : params_given(c, whose) ? "" : whose->section;
 }
 
 /* ------------------------------------------------------------------ parts of the surface */

@@ -48,6 +48,8 @@ struct params {
     const struct key *keys;              /* ends with path NULL; NULL: none */
     const struct params_rule *rules;     /* ends with path NULL; NULL: none */
     const struct params_column *columns; /* of a contact that has the section; ends with name NULL; NULL: none */
+    /* What a contact lacks for one of its columns, "": nothing; NULL: the section, unless it is given. */
+    const char *(*lacks)(const struct contact *, const struct params_column *);
     void (*check)(const struct scene_part *, const struct contact *,
                   const void *own);              /* what no row says; may be NULL */
     void (*derive)(struct contact *, void *own); /* sets what follows from the values given, before any check; may be
@@ -94,8 +96,7 @@ double params_kinked_span(const struct contact *c);
 /* Its rules, and those of its function, of all that are given. */
 void params_check(const struct scene_part *p, const struct contact *c);
 
-/* The k-th of all columns there are, and whose it is: first those of columns.def, of nobody (NULL), then those of
- * effects; NULL: there are no more. */
+/* The k-th of all columns there are, and (unless NULL) whose it is; NULL: there are no more. */
 const struct params_column *params_column(int k, const struct params **whose);
 
 /* The number of the one of that name; -1: there is none. */
