@@ -22,7 +22,9 @@
 #include "force/path_cells.h"
 #include "force/path_integral.h"
 #include "force/roll.h"
+#include "force/scrape.h"
 #include "num/real.h"
+#include "surface/limiter.h"
 #include "surface/relief.h"
 #include "trajectory/trajectory.h"
 
@@ -87,19 +89,20 @@ static void paper_use(void *self, const struct cells *p)
 static bool paper_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return (c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL) && c->contact.force == FORCE_PAPER;
+    return (c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL) &&
+           scrape_law(c)->force == FORCE_PAPER;
 }
 
 static double paper_work(const struct contact *c, const struct scene *s)
 {
-    return (c->contact.limiter.curve == LIMITER_TANH ? 160 : 70) * path_cells_work(c, s);
+    return (limiter_of(c)->curve == LIMITER_TANH ? 160 : 70) * path_cells_work(c, s);
 }
 
 static bool paper_curvature_open(struct stage_run *r, struct err *e)
 {
     struct paper *s = ARENA_TAKE(r->arena, struct paper, 1);
-    s->beta1 = r->contact->contact.beta1;
-    s->beta2 = r->contact->contact.beta2;
+    s->beta1 = scrape_law(r->contact)->beta1;
+    s->beta2 = scrape_law(r->contact)->beta2;
     s->path.integrate = paper_use;
     s->path.self = s;
     r->state = s;
@@ -162,10 +165,20 @@ struct paper_speeds {
                            (force/path_integral.h) */
 };
 
+struct paper_force {
+    struct paper_speeds before; /* of the sub-interval before               */
+    double beta1, beta2, share; /* share: of a ball, contact.roll.scraping  */
+};
+
 static bool paper_open(struct stage_run *r, struct err *e)
 {
+    const struct scrape_law *law = scrape_law(r->contact);
+    struct paper_force *f = ARENA_TAKE(r->arena, struct paper_force, 1);
     (void)e;
-    r->state = ARENA_TAKE(r->arena, struct paper_speeds, 1); /* of the sub-interval before */
+    f->beta1 = law->beta1;
+    f->beta2 = law->beta2;
+    f->share = r->contact->contact.model == CONTACT_ROLL ? roll_of(r->contact)->scraping : 1;
+    r->state = f;
     r->ahead = 1;
     r->ends = r->board->moving;
     r->board->bspline = true;
@@ -189,11 +202,9 @@ static double paper_velocity(const struct board *b, long k, int axis)
 }
 
 /* Over sub-interval number k. */
-static struct paper_speeds paper_speeds(const struct stage_run *r, long k)
+static struct paper_speeds paper_speeds(const struct board *b, double beta2, long k)
 {
-    const struct board *b = r->board;
-    double beta2 = r->contact->contact.beta2, vx = paper_velocity(b, k, 0),
-           vy = b->relief->along == ALONG_PLANE ? paper_velocity(b, k, 1) : 0;
+    double vx = paper_velocity(b, k, 0), vy = b->relief->along == ALONG_PLANE ? paper_velocity(b, k, 1) : 0;
     double speed =
         fabs(*cells_values(b, ITEM_POSITION, k + 1) - *cells_values(b, ITEM_POSITION, k)) * b->rate * b->over;
     struct paper_speeds s = {vx * vx, vy * vy, beta2 == 1 ? speed : speed > 0 ? real_pow(speed, beta2) : 0, 0.5, 0.5};
@@ -203,30 +214,30 @@ static struct paper_speeds paper_speeds(const struct stage_run *r, long k)
 }
 
 /* By the B-spline between two sub-intervals. */
-static double paper_force(const struct stage_run *r, long k, const struct paper_speeds *before,
-                          const struct paper_speeds *after)
+static double paper_force(const struct stage_run *r, long k, const struct paper_speeds *after)
 {
     const struct board *b = r->board;
-    const struct contact_model *m = &r->contact->contact;
+    const struct paper_force *f = r->state;
+    const struct paper_speeds *before = &f->before;
     double yy = board_has(b, ITEM_CURVATURE_Y) ? *cells_values(b, ITEM_CURVATURE_Y, k) : 0;
     double force = r->contact->scraper.mass *
                    (*cells_values(b, ITEM_CURVATURE, k) * (before->late * before->x + after->early * after->x) +
                     yy * (before->late * before->y + after->early * after->y));
-    force += m->beta1 * *cells_values(b, ITEM_SLOPE, k) * (before->late * before->power + after->early * after->power);
-    return m->model == CONTACT_ROLL ? roll_of(r->contact)->scraping * force : force;
+    force += f->beta1 * *cells_values(b, ITEM_SLOPE, k) * (before->late * before->power + after->early * after->power);
+    return f->share * force;
 }
 
 static bool paper_run(struct stage_run *r, long from, long to, struct err *e)
 {
-    struct paper_speeds *before = r->state;
+    struct paper_force *f = r->state;
     struct board *b = r->board;
     double *force = board_at(b, ITEM_SUBFORCE, from);
     long first = from * b->over, last = to * b->over;
     (void)e;
     for (long k = first; k < last; k++) {
-        struct paper_speeds after = paper_speeds(r, k);
-        force[k - first] = paper_force(r, k, before, &after);
-        *before = after;
+        struct paper_speeds after = paper_speeds(b, f->beta2, k);
+        force[k - first] = paper_force(r, k, &after);
+        f->before = after;
     }
     path_integral_lifted(b, first, (int)(last - first));
     return true;

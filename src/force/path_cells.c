@@ -356,7 +356,7 @@ bool path_cells_place(struct path_cells *w, const struct stage_run *r, struct er
 
 bool path_cells_make(struct path_cells *w, struct stage_run *r, enum cells_kind kind, double longest, struct err *e)
 {
-    const struct limiter *limiter = &r->contact->contact.limiter;
+    const struct limiter *limiter = limiter_of(r->contact);
     int along = r->board->relief->along;
     if (!path_cells_place(w, r, e)) return false;
     w->kind = kind;

@@ -28,6 +28,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "force/scrape.h"
 #include "num/lanes.h"
 #include "num/vecmath.h"
 
@@ -256,9 +257,9 @@ static void slope_use(void *self, const struct cells *p)
 
 bool path_integral_make(struct path_integral *s, struct stage_run *r, struct err *e)
 {
-    double given = r->contact->contact.leak;
-    s->leak = given > 0 ? given : PATH_LEAK;
-    s->power = r->contact->contact.beta2;
+    const struct scrape_law *law = scrape_law(r->contact);
+    s->leak = law->leak > 0 ? law->leak : PATH_LEAK;
+    s->power = law->beta2;
     s->cells.integrate = slope_use;
     s->cells.self = s;
     return path_cells_make(&s->cells, r, CELLS_ALONG, s->leak / 16, e);

@@ -21,6 +21,7 @@
 #include <string.h>
 
 #include "force/path_cells.h"
+#include "scene/rows.h"
 #include "trajectory/trajectory.h"
 
 enum { BATCH = 512, GAUSS = 5, TURNS = 4 };
@@ -207,11 +208,19 @@ static void playback_chunk(struct playback *p, const struct board *b, long first
     playback_flush(p);
 }
 
-static bool playback_wanted(const struct contact *c, const struct scene *s)
-{
-    (void)s;
-    return c->contact.model == CONTACT_PLAYBACK;
-}
+struct playback_given {
+    double stiffness; /* N/m: force for a metre of the surface's height */
+};
+
+static const struct key keys[] = {{ROW_NUMBER(playback_given, stiffness, "contact.playback.stiffness"), KEY_STIFFNESS,
+                                   1e-6, 1e15, "1e5 N/m", "contact.model=playback",
+                                   "force for a metre of the surface's height"},
+                                  {.path = NULL}};
+
+static bool plays(const struct contact *c) { return c->contact.model == CONTACT_PLAYBACK; }
+
+static const struct params playback_params = {
+    .section = "contact.playback", .size = sizeof(struct playback_given), .keys = keys, .given = plays, .shown = true};
 
 static double playback_work(const struct contact *c, const struct scene *s) { return 90 * path_cells_work(c, s); }
 
@@ -220,7 +229,7 @@ static bool playback_open(struct stage_run *r, struct err *e)
     struct playback *p = ARENA_TAKE(r->arena, struct playback, 1);
     r->state = p;
     r->ahead = 1;
-    p->stiffness = r->contact->contact.playback;
+    p->stiffness = ((const struct playback_given *)params_of(r->contact, &playback_params))->stiffness;
     p->longest = relief_finest(r->board->relief) / 2;
     return path_cells_place(&p->path, r, e);
 }
@@ -239,6 +248,7 @@ static bool playback_run(struct stage_run *r, long from, long to, struct err *e)
 
 const struct stage playback_stage = {
     .name = "playback",
+    .params = &playback_params,
     .does = "the surface's heights are the force, played at the contact's speed",
     .paper = "002 sec. II-B",
     .idle = "contact.model is not playback",
@@ -246,7 +256,6 @@ const struct stage playback_stage = {
     .gives = ITEM_BIT(ITEM_SUBFORCE),
     .knobs = KNOB_BIT(oversampling),
     .asks = path_cells_asks,
-    .wanted = playback_wanted,
     .work = playback_work,
     .open = playback_open,
     .run = playback_run,

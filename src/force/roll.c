@@ -337,7 +337,7 @@ static void warn_roll(struct stage_run *r, const struct roll_stiffness *rests)
     if (rests->normal > 0) warn_lobes(r, rests);
     /* Equation 7 goes by the extremes of N(t), however near to each other: as N(t) swings less and less, alpha does not
        come near to that of a constant force. The paper has the extremes, and so it stays. */
-    if (r->board->limiter && r->board->limiter->varies && isnan(c->contact.limiter.force_range[0]) &&
+    if (r->board->limiter && r->board->limiter->varies && isnan(limiter_of(c)->force_range[0]) &&
         l->most - l->least < SLIGHT * l->most)
         board_warn(r->board,
                    arena_format(r->arena,
@@ -384,20 +384,20 @@ struct roll_state {
 static bool roll_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return c->contact.model == CONTACT_ROLL && c->contact.force == FORCE_DIRECTIONAL;
+    return c->contact.model == CONTACT_ROLL && scrape_law(c)->force == FORCE_DIRECTIONAL;
 }
 
 static bool roll_added_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return c->contact.model == CONTACT_ROLL && c->contact.force == FORCE_PAPER;
+    return c->contact.model == CONTACT_ROLL && scrape_law(c)->force == FORCE_PAPER;
 }
 
 /* Measured. */
 static double roll_work(const struct contact *c, const struct scene *s)
 {
     bool round = c->ball.offset == 0 && c->ball.lobe_height == 0;
-    double piece = c->contact.limiter.curve == LIMITER_TANH ? 180 : 80;
+    double piece = limiter_of(c)->curve == LIMITER_TANH ? 180 : 80;
     return piece * path_cells_work(c, s) + (round ? 60 : 210) * s->accuracy.oversampling;
 }
 
@@ -435,7 +435,7 @@ static bool roll_open(struct stage_run *r, struct err *e)
     s->spin = spin_make(c);
     s->round = c->ball.offset == 0 && c->ball.lobe_height == 0;
     s->printed = s->scrape.path.rising = roll_of(c)->penetration == PENETRATION_PAPER;
-    s->added = c->contact.force == FORCE_PAPER;
+    s->added = scrape_law(c)->force == FORCE_PAPER;
     s->touches = true;
     r->state = s;
     r->ahead = 1;

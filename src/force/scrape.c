@@ -28,12 +28,15 @@
 
 #include "num/lanes.h"
 #include "num/real.h"
+#include "scene/rows.h"
+#include "surface/limiter.h"
 #include "surface/relief.h"
+#include "trajectory/contact.h"
 #include "trajectory/motion.h"
 
 bool scrape_make(struct scrape *s, struct stage_run *r, double share, struct err *e)
 {
-    const struct contact_model *m = &r->contact->contact;
+    const struct scrape_law *m = scrape_law(r->contact);
     s->beta1 = m->beta1;
     s->beta2 = m->beta2;
     s->mass = r->contact->scraper.mass;
@@ -101,12 +104,40 @@ void scrape_force(struct scrape *s, const struct stage_run *r, long first, int n
     scrape_vertical(s, v, n, per_second, share);
 }
 
+/* ------------------------------------------------------------------ parameters */
+
+#define PRESSED "contact.model=scrape|roll"
+
+static const struct choice forces[] = {
+    [FORCE_DIRECTIONAL] = {"directional",
+                           "one limited trajectory S along the path; f_v = d/dt(m |v| S'), f_h = beta1 | "
+                           "|v| S' |^beta2"},
+    [FORCE_PAPER] = {"paper", "equations 2 and 3 as printed"},
+    {NULL, NULL}};
+
+static const struct key keys[] = {
+    {ROW_CHOICE(scrape_law, force, "contact.force"), KEY_NONE, 0, 0, "directional", PRESSED,
+     "directional: one limited trajectory along the path, from which both forces follow; paper: equations 2 and 3 as "
+     "printed",
+     forces},
+    {ROW_NUMBER(scrape_law, beta1, "contact.beta1"), KEY_FORCE_COEFFICIENT, 0, 1e6, "0.05", PRESSED,
+     "beta_1 of equation 3, in N (s/m)^beta2; 0: no horizontal force"},
+    {ROW_NUMBER(scrape_law, beta2, "contact.beta2"), KEY_NONE, 0.1, 10, "1", PRESSED, "beta_2 of equation 3"},
+    {ROW_NUMBER(scrape_law, leak, "contact.leak"), KEY_LENGTH, 1e-5, 10, "2 mm", "contact.force=directional",
+     "distance over which the limited slope forgets; keeps it from drifting away"},
+    {.path = NULL}};
+
+static const struct params scrape_params = {
+    .section = "contact.force", .size = sizeof(struct scrape_law), .keys = keys, .shown = true};
+
+const struct scrape_law *scrape_law(const struct contact *c) { return params_of(c, &scrape_params); }
+
 /* ------------------------------------------------------------------ the stage */
 
 static bool scrape_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return c->contact.model == CONTACT_SCRAPE && c->contact.force == FORCE_DIRECTIONAL;
+    return c->contact.model == CONTACT_SCRAPE && scrape_law(c)->force == FORCE_DIRECTIONAL;
 }
 
 /* Measured. On a way that turns in the plane knots are looked for by Newton's method, and each sub-interval begins
@@ -114,7 +145,7 @@ static bool scrape_wanted(const struct contact *c, const struct scene *s)
 static double scrape_work(const struct contact *c, const struct scene *s)
 {
     bool straight = motion_straight(&c->motion), plane = relief_along(c) == ALONG_PLANE;
-    double limited = c->contact.limiter.curve == LIMITER_TANH ? 1 : 0.4, over = s->accuracy.oversampling,
+    double limited = limiter_of(c)->curve == LIMITER_TANH ? 1 : 0.4, over = s->accuracy.oversampling,
            cells = path_cells_work(c, s);
     if (plane && !straight) return limited * (850 * over + 2200 * (cells / 2 - over));
     return limited * (straight && !plane ? 70 : 150) * cells; /* cut by path_cells.c, or not */
@@ -165,6 +196,7 @@ static void scrape_skip(struct stage_run *r, long frame)
 
 const struct stage scrape_stage = {
     .name = "scrape",
+    .params = &scrape_params,
     .does = "contact force of one limited trajectory along the path",
     .paper = "000 eq. 1, 3, 4, 5",
     .idle = "contact.model is not scrape, or contact.force is paper",

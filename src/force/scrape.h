@@ -3,6 +3,16 @@
 #define FORCE_SCRAPE_H
 #include "force/path_integral.h"
 
+enum force_kind { FORCE_DIRECTIONAL, FORCE_PAPER };
+
+struct scrape_law {      /* of what scrapes or rolls       */
+    int force;           /* enum force_kind                */
+    double beta1, beta2; /* eq. 3                          */
+    double leak;         /* m: l of dS'/ds + S'/l = T(c)   */
+};
+
+const struct scrape_law *scrape_law(const struct contact *c);
+
 struct scrape {
     struct path_integral path;
     double beta1, beta2, mass;

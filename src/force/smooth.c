@@ -24,11 +24,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "force/scrape.h"
 #include "num/filter.h"
 #include "num/lanes.h"
 #include "num/real.h"
 #include "num/vecmath.h"
-#include "scene/params.h"
+#include "scene/rows.h"
 #include "scene/scene_part.h"
 #include "stage.h"
 #include "surface/limiter.h"
@@ -38,11 +39,94 @@
 
 #define WIDEST 0.1 /* s: a wider sigma leaves nothing to hear, and its kernels cost minutes per second of sound */
 
-/* Standard deviation in s of the Gaussian smoothing for an alpha in m; without a limiter as for 3 cm. */
-static double sigma_of(const struct contact_model *c, double alpha)
+/* ------------------------------------------------------------------ parameters */
+
+struct smooth_width {
+    double sigma; /* s at alpha = 0.03 m; 0: none */
+};
+
+static const struct key keys[] = {
+    {ROW_NUMBER(smooth_width, sigma, "contact.smoothing"), KEY_TIME, 0, 0.01, "50 us", "contact.model=scrape|roll",
+     "standard deviation of the Gaussian smoothing at alpha = 3 cm, in proportion to alpha; 0: none"},
+    {.path = NULL}};
+
+static bool smooth_model(const struct contact *c)
 {
-    return c->smoothing * (c->limiter.curve == LIMITER_TANH ? alpha : 0.03) / 0.03;
+    return c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL;
 }
+
+/* m: without a limiter the width is that of 3 cm. */
+static double smooth_alpha(const struct contact *c, double alpha)
+{
+    return limiter_of(c)->curve == LIMITER_TANH ? alpha : 0.03;
+}
+
+#define NARROWEST 1e-9 /* s: far below a sample, and kernels of it would underflow */
+
+/* The largest alpha there can be along x: that of the force under a constant load. */
+static double alpha_along_x(const struct contact *c)
+{
+    const struct limiter *l = limiter_of(c);
+    double n = load_constant(c);
+    if (!contact_steady(c) && (c->grip.given || c->load.recorded || (contact_rolls(c) && c->ball.offset > 0)))
+        return fmax(l->alpha_max, l->alpha);
+    if (isnan(l->force_range[0])) return l->alpha;
+    double share = (n - l->force_range[0]) / (l->force_range[1] - l->force_range[0]);
+    double nu = real_pow(share < 0 ? 0 : share > 1 ? 1 : share, l->zeta);
+    return (1 - nu) * l->alpha_max + nu * l->alpha_min;
+}
+
+static double alpha_widest(const struct contact *c)
+{
+    return alpha_along_x(c) * fmax(1, limiter_of(c)->ratio_y); /* NAN: not the paper's force */
+}
+
+/* Reported at the smoothing if it is given, else at the alpha that makes it wide. */
+static void smooth_check(const struct scene_part *p, const struct contact *c, const void *own)
+{
+    const char *path = "contact.smoothing";
+    double width = ((const struct smooth_width *)own)->sigma;
+    double sigma = width * smooth_alpha(c, alpha_widest(c)) / 0.03;
+    if (width > 0 && width < NARROWEST)
+        scene_part_refuse(p, path, path, "0 turns it off; or write for instance: smoothing: 50 us",
+                          " must be 0 or at least 1 ns");
+    if (sigma > WIDEST)
+        diag_add(p->yaml->diag,
+                 yaml_find(p->map, path) ? scene_part_later(p, path, path)
+                                         : scene_part_later(p, "contact.limiter.alpha", "contact.limiter.alpha_max"),
+                 "lower contact.smoothing or the alpha of contact.limiter; smoothing: 0 turns it off",
+                 "%s smooths the force with a sigma of %.3g s (smoothing x alpha / 3 cm), and at most %g s make sense",
+                 scene_part_label(p, path), sigma, WIDEST);
+}
+
+/* Left out with the limiter, after which the paper has it, against the harmonics that the non-linearity makes. */
+static void smooth_derive(struct contact *c, void *own)
+{
+    if (c->ablation.nonlinearity == ABLATED_NONLINEARITY_OMITTED) ((struct smooth_width *)own)->sigma = 0;
+}
+
+static const struct params smooth_params = {
+    .section = "contact.smoothing",
+    .size = sizeof(struct smooth_width),
+    .keys = keys,
+    .derive = smooth_derive,
+    .check = smooth_check,
+    .given = smooth_model,
+    .shown = true,
+};
+
+static double smooth_width(const struct contact *c)
+{
+    return ((const struct smooth_width *)params_of(c, &smooth_params))->sigma;
+}
+
+/* s, standard deviation for an alpha in m. */
+static double sigma_of(const struct contact *c, double alpha)
+{
+    return smooth_width(c) * smooth_alpha(c, alpha) / 0.03;
+}
+
+/* ------------------------------------------------------------------ kernels that change */
 
 enum { SPREAD_SEGMENT = 64, SPREAD_WIDE = 4 * LANES };
 
@@ -127,37 +211,24 @@ struct smooth {
     long start; /* first sub-sample that there is */
 };
 
-static double smooth_alpha(const struct contact *c, double alpha)
-{
-    return c->contact.limiter.curve == LIMITER_TANH ? alpha : 0.03;
-}
-
-static bool smooth_model(const struct contact *c)
-{
-    return c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL;
-}
-
 static bool smooth_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return smooth_model(c) && c->contact.smoothing > 0 && c->contact.force == FORCE_DIRECTIONAL;
+    return smooth_model(c) && smooth_width(c) > 0 && scrape_law(c)->force == FORCE_DIRECTIONAL;
 }
 
-static bool smooth_varies(const struct contact *c)
-{
-    return load_varies(c) && c->contact.limiter.curve == LIMITER_TANH;
-}
+static bool smooth_varies(const struct contact *c) { return load_varies(c) && limiter_of(c)->curve == LIMITER_TANH; }
 
 double smooth_still(const struct contact *c)
 {
     bool still = smooth_wanted(c, NULL) && !smooth_varies(c);
-    return still ? sigma_of(&c->contact, smooth_alpha(c, limiter_constant(c))) : 0;
+    return still ? sigma_of(c, smooth_alpha(c, limiter_constant(c))) : 0;
 }
 
 static bool smooth_curvature_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return smooth_model(c) && c->contact.smoothing > 0 && c->contact.force == FORCE_PAPER;
+    return smooth_model(c) && smooth_width(c) > 0 && scrape_law(c)->force == FORCE_PAPER;
 }
 
 static bool smooth_curvature_y_wanted(const struct contact *c, const struct scene *s)
@@ -169,8 +240,8 @@ static double smooth_work(const struct contact *c, const struct scene *s)
 {
     bool varies = smooth_varies(c);
     double over = s->accuracy.oversampling,
-           alpha = varies ? c->contact.limiter.alpha_max : smooth_alpha(c, limiter_constant(c));
-    double taps = 13 * c->contact.smoothing * alpha / 0.03 * s->output.sample_rate * over + 1;
+           alpha = varies ? limiter_of(c)->alpha_max : smooth_alpha(c, limiter_constant(c));
+    double taps = 13 * smooth_width(c) * alpha / 0.03 * s->output.sample_rate * over + 1;
     return taps * over * (varies ? 0.65 : 0.35);
 }
 
@@ -197,10 +268,9 @@ static bool smooth_open_item(struct stage_run *r, enum item item, double ratio, 
     const struct contact *c = r->contact;
     s->item = item;
     s->varies = b->limiter != NULL;
-    s->per_alpha = ratio * c->contact.smoothing / 0.03 * b->rate * b->over;
+    s->per_alpha = ratio * smooth_width(c) / 0.03 * b->rate * b->over;
     double widest = s->varies ? fmax(b->limiter->alpha_max, b->limiter->fixed) : smooth_alpha(c, limiter_constant(c));
-    if (ratio * sigma_of(&c->contact, widest) > WIDEST)
-        return smooth_too_wide(r, ratio * sigma_of(&c->contact, widest), e);
+    if (ratio * sigma_of(c, widest) > WIDEST) return smooth_too_wide(r, ratio * sigma_of(c, widest), e);
     s->still.kernel = filter_gaussian(r->arena, s->per_alpha * widest);
     s->reach = s->still.kernel.reach;
     r->ahead = (s->reach + (s->varies ? SPREAD_SEGMENT : 0)) / b->over + 2;
@@ -230,7 +300,7 @@ static bool smooth_curvature_open(struct stage_run *r, struct err *e)
 
 static bool smooth_curvature_y_open(struct stage_run *r, struct err *e)
 {
-    return smooth_open_item(r, ITEM_CURVATURE_Y, r->contact->contact.limiter.ratio_y, e);
+    return smooth_open_item(r, ITEM_CURVATURE_Y, limiter_of(r->contact)->ratio_y, e);
 }
 
 /* Keeps raw values from `from` on and adds those up to `end`. */
@@ -343,51 +413,6 @@ static bool smooth_curvature_y_run(struct stage_run *r, long from, long to, stru
 {
     return r->board->relief->along != ALONG_PLANE || smooth_run(r, from, to, e);
 }
-
-#define NARROWEST 1e-9 /* s: far below a sample, and kernels of it would underflow */
-
-/* The largest alpha there can be along x: that of the force under a constant load. */
-static double alpha_along_x(const struct contact *c)
-{
-    const struct limiter *l = &c->contact.limiter;
-    double n = load_constant(c);
-    if (!contact_steady(c) && (c->grip.given || c->load.recorded || (contact_rolls(c) && c->ball.offset > 0)))
-        return fmax(l->alpha_max, l->alpha);
-    if (isnan(l->force_range[0])) return l->alpha;
-    double share = (n - l->force_range[0]) / (l->force_range[1] - l->force_range[0]);
-    double nu = real_pow(share < 0 ? 0 : share > 1 ? 1 : share, l->zeta);
-    return (1 - nu) * l->alpha_max + nu * l->alpha_min;
-}
-
-static double alpha_widest(const struct contact *c)
-{
-    return alpha_along_x(c) * fmax(1, c->contact.limiter.ratio_y); /* NAN: not the paper's force */
-}
-
-/* Reported at the smoothing if it is given, else at the alpha that makes it wide. */
-static void smoothing_check(const struct scene_part *p, const struct contact *c, const void *own)
-{
-    (void)own;
-    const char *path = "contact.smoothing";
-    double sigma = sigma_of(&c->contact, alpha_widest(c));
-    if (c->contact.smoothing > 0 && c->contact.smoothing < NARROWEST)
-        scene_part_refuse(p, path, path, "0 turns it off; or write for instance: smoothing: 50 us",
-                          " must be 0 or at least 1 ns");
-    if (sigma > WIDEST)
-        diag_add(p->yaml->diag,
-                 yaml_find(p->map, path) ? scene_part_later(p, path, path)
-                                         : scene_part_later(p, "contact.limiter.alpha", "contact.limiter.alpha_max"),
-                 "lower contact.smoothing or the alpha of contact.limiter; smoothing: 0 turns it off",
-                 "%s smooths the force with a sigma of %.3g s (smoothing x alpha / 3 cm), and at most %g s make sense",
-                 scene_part_label(p, path), sigma, WIDEST);
-}
-
-static bool smooths(const struct contact *c)
-{
-    return c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL;
-}
-
-static const struct params smooth_params = {.section = "contact.smoothing", .check = smoothing_check, .given = smooths};
 
 const struct stage smooth_stage = {
     .name = "smooth",

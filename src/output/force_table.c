@@ -36,7 +36,7 @@ static const char *pressed_lacks(const struct contact *c)
 static const char *alpha_lacks(const struct contact *c)
 {
     const char *lacks = pressed_lacks(c);
-    return *lacks || c->contact.limiter.curve == LIMITER_TANH ? lacks : "contact.limiter.curve: tanh";
+    return *lacks || limiter_of(c)->curve == LIMITER_TANH ? lacks : "contact.limiter.curve: tanh";
 }
 
 static const char *lift_lacks(const struct contact *c)

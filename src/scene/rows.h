@@ -13,6 +13,7 @@
 #define ROW_COUNT(owner, member, where) ROW(owner, member, where, KEY_COUNT, int)
 #define ROW_CHOICE(owner, member, where) ROW(owner, member, where, KEY_CHOICE, int)
 #define ROW_FILE(owner, member, where) ROW(owner, member, where, KEY_FILE, const char *)
+#define ROW_RANGE(owner, member, where) ROW(owner, member, where, KEY_RANGE, double *)
 #define ROW_TEXT(owner, member, where) ROW(owner, member, where, KEY_TEXT, const char *)
 
 #endif

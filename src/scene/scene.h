@@ -39,8 +39,6 @@ enum contact_kind {
 enum impact_listing { LISTING_NONE, LISTING_TABLE };
 enum table_format { TABLE_CSV, TABLE_NPY };
 enum ball_body { BODY_SOLID, BODY_HOLLOW, BODY_HOOP, BODY_WHEEL };
-enum force_kind { FORCE_DIRECTIONAL, FORCE_PAPER };
-enum limiter_curve { LIMITER_TANH, LIMITER_NONE };
 enum engine { ENGINE_AUTO, ENGINE_RESONATORS, ENGINE_OVERLAP_ADD };
 enum moving { MOVING_AUTO, MOVING_FIXED, MOVING_LAUNCH, MOVING_GLIDE, MOVING_READOUT };
 enum object_shape {
@@ -201,24 +199,9 @@ struct load {
     bool no_lobes; /* what its lobes press is not in N(t) (force/roll.c) */
 };
 
-struct limiter {                 /* eq. 4 to 7                                                        */
-    int curve;                   /* enum limiter_curve                                                */
-    double alpha;                /* m, for a constant load                                            */
-    double alpha_min, alpha_max; /* m                                                            */
-    double zeta;
-    double ratio_y;        /* alpha_y / alpha_x, paper force                                    */
-    double force_range[2]; /* N, N_min and N_max of eq. 7; NAN: the scene's own                 */
-};
-
 struct contact_model {
-    int model;           /* enum contact_kind                                                 */
-    double playback;     /* N/m: force for a metre of the surface's height (playback)         */
-    int force;           /* enum force_kind                                                   */
-    double beta1, beta2; /* eq. 3                                                             */
-    double leak;         /* m: l of dS'/ds + S'/l = T(c)                                      */
-    double smoothing;    /* s: sigma at alpha = 0.03 m; 0: none                               */
-    double gravity;      /* m/s^2                                                             */
-    struct limiter limiter;
+    int model;      /* enum contact_kind */
+    double gravity; /* m/s^2             */
 };
 
 struct ablation { /* what is left out: trajectory/contact.h                                */

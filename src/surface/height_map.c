@@ -8,6 +8,7 @@
 #include "scene/rows.h"
 #include "stage.h"
 #include "surface/bicubic.h"
+#include "surface/limiter.h"
 #include "trajectory/trajectory.h"
 
 /* ------------------------------------------------------------------ parameters */
@@ -214,7 +215,7 @@ struct relief_part *height_map_part(struct arena *a, const struct height_map_spl
    tenth of the limit 1/alpha it is heard. */
 static void height_map_grain(struct stage_run *r, const struct heightfile *h)
 {
-    const struct limiter *l = &r->contact->contact.limiter;
+    const struct limiter *l = limiter_of(r->contact);
     double step = h->step, noise = 1.55 * sqrt(0.5) * step / (h->pitch_x * h->pitch_x),
            limit = 1 / fmax(l->alpha, l->alpha_max);
     if (l->curve == LIMITER_TANH && noise > 0.1 * limit)

@@ -13,7 +13,7 @@
 #include "num/lanes.h"
 #include "num/real.h"
 #include "num/vecmath.h"
-#include "scene/params.h"
+#include "scene/rows.h"
 #include "scene/scene_part.h"
 #include "stage.h"
 #include "trajectory/load.h"
@@ -57,7 +57,7 @@ void limiter_alpha(const struct limiter_law *l, size_t n, const double *force, d
 
 double limiter_constant(const struct contact *c)
 {
-    const struct limiter *given = &c->contact.limiter;
+    const struct limiter *given = limiter_of(c);
     double n = load_constant(c), alpha = given->alpha;
     struct limiter_law l = limiter_make(given, n, n);
     if (!isnan(given->force_range[0])) limiter_alpha(&l, 1, &n, &alpha);
@@ -66,8 +66,9 @@ double limiter_constant(const struct contact *c)
 
 void limiter_warn(struct stage_run *r, double least, double most)
 {
-    const double *range = r->contact->contact.limiter.force_range;
-    if (r->contact->contact.limiter.curve == LIMITER_TANH && !isnan(range[0]) && (least < range[0] || most > range[1]))
+    const struct limiter *given = limiter_of(r->contact);
+    const double *range = given->force_range;
+    if (given->curve == LIMITER_TANH && !isnan(range[0]) && (least < range[0] || most > range[1]))
         board_warn(r->board, arena_format(r->arena,
                                           "%s: the normal force, %s N, leaves contact.limiter.force_range, %.4g to "
                                           "%.4g N: alpha stays at that of "
@@ -337,17 +338,64 @@ static void ratio_check(const struct scene_part *p, const struct limiter *l)
 
 static void limiter_check(const struct scene_part *p, const struct contact *c, const void *own)
 {
-    (void)own;
-    alpha_check(p, &c->contact.limiter);
-    ratio_check(p, &c->contact.limiter);
+    (void)c;
+    alpha_check(p, own);
+    ratio_check(p, own);
 }
 
-static const struct params limiter_params = {.section = "contact.limiter", .check = limiter_check, .given = limits};
+#define LIMITED "contact.limiter.curve=tanh"
+
+static const struct choice curves[] = {
+    [LIMITER_TANH] = {"tanh", "T(c) = tanh(alpha c) / alpha"}, [LIMITER_NONE] = {"none", "T(c) = c"}, {NULL, NULL}};
+
+static const struct key keys[] = {
+    {ROW_CHOICE(limiter, curve, "contact.limiter.curve"), KEY_NONE, 0, 0, "tanh", "contact.model=scrape|roll",
+     "tanh: curvature is limited to 1/alpha (equations 4, 5); none: the scraper follows the surface exactly", curves},
+    {ROW_NUMBER(limiter, alpha, "contact.limiter.alpha"), KEY_LENGTH, 1e-6, 1000, "3 cm", LIMITED,
+     "alpha under a constant load, unless force_range is given"},
+    {ROW_NUMBER(limiter, alpha_min, "contact.limiter.alpha_min"), KEY_LENGTH, 1e-6, 1000, "1 cm", LIMITED,
+     "alpha at the largest normal force"},
+    {ROW_NUMBER(limiter, alpha_max, "contact.limiter.alpha_max"), KEY_LENGTH, 1e-6, 1000, "5 cm", LIMITED,
+     "alpha at the smallest normal force"},
+    {ROW_NUMBER(limiter, ratio_y, "contact.limiter.ratio_y"), KEY_NONE, 0.01, 100, "1", "contact.force=paper",
+     "alpha_y over alpha_x: the paper's force has one alpha for each axis"},
+    {ROW_NUMBER(limiter, zeta, "contact.limiter.zeta"), KEY_NONE, 0.01, 100, "0.95", LIMITED, "exponent of equation 7"},
+    {ROW_RANGE(limiter, force_range, "contact.limiter.force_range"), KEY_FORCE, 0, 1e5, "", LIMITED,
+     "[N_min, N_max] of equation 7, so that scenes compare; forces outside count as its ends, with a warning; left "
+     "out: "
+     "the scene's own smallest and largest normal force"},
+    {.path = NULL}};
+
+/* Left out it is as with curve: none, under which the other keys do not apply. */
+static void limiter_derive(struct contact *c, void *own)
+{
+    struct limiter *l = own;
+    if (c->ablation.nonlinearity != ABLATED_NONLINEARITY_FULL)
+        *l = (struct limiter){.curve = LIMITER_NONE,
+                              .alpha = NAN,
+                              .alpha_min = NAN,
+                              .alpha_max = NAN,
+                              .zeta = NAN,
+                              .ratio_y = l->ratio_y,
+                              .force_range = {NAN, NAN}};
+}
+
+static const struct params limiter_params = {
+    .section = "contact.limiter",
+    .size = sizeof(struct limiter),
+    .keys = keys,
+    .derive = limiter_derive,
+    .check = limiter_check,
+    .given = limits,
+    .shown = true,
+};
+
+const struct limiter *limiter_of(const struct contact *c) { return params_of(c, &limiter_params); }
 
 static bool limiter_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return load_varies(c) && c->contact.limiter.curve == LIMITER_TANH;
+    return load_varies(c) && limiter_of(c)->curve == LIMITER_TANH;
 }
 
 static double limiter_work(const struct contact *c, const struct scene *s)
@@ -358,7 +406,7 @@ static double limiter_work(const struct contact *c, const struct scene *s)
 
 static bool limiter_open(struct stage_run *r, struct err *e)
 {
-    const struct limiter *given = &r->contact->contact.limiter;
+    const struct limiter *given = limiter_of(r->contact);
     struct limiter_law *l = ARENA_TAKE(r->arena, struct limiter_law, 1);
     (void)e;
     *l = limiter_make(given, r->board->load->least, r->board->load->most);

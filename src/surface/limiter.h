@@ -7,6 +7,19 @@
 
 #include "scene/scene.h"
 
+enum limiter_curve { LIMITER_TANH, LIMITER_NONE };
+
+struct limiter {                 /* contact.limiter, but where an ablation leaves it out */
+    int curve;                   /* enum limiter_curve                                   */
+    double alpha;                /* m, for a constant load                               */
+    double alpha_min, alpha_max; /* m                                                    */
+    double zeta;
+    double ratio_y;        /* alpha_y / alpha_x, paper force                  */
+    double force_range[2]; /* N, N_min and N_max of eq. 7; NAN: the scene's own */
+};
+
+const struct limiter *limiter_of(const struct contact *c);
+
 struct limiter_law {
     double alpha_min, alpha_max, zeta; /* m, m, -                                      */
     double least, most;                /* N_min, N_max                                 */

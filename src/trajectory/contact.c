@@ -65,22 +65,6 @@ double contact_gravity(const struct contact *c)
 
 /* ------------------------------------------------------------------ what is left out */
 
-/* Without a non-linearity: no limiter, and of `omitted` no smoothing, which the paper has in the same section, against
-   the harmonics that the non-linearity makes. */
-static void ablation_apply(struct contact *c)
-{
-    if (c->ablation.nonlinearity == ABLATED_NONLINEARITY_FULL) return;
-    struct limiter *l = &c->contact.limiter; /* as of contact.limiter.curve: none, where its other keys do not apply */
-    *l = (struct limiter){.curve = LIMITER_NONE,
-                          .alpha = NAN,
-                          .alpha_min = NAN,
-                          .alpha_max = NAN,
-                          .zeta = NAN,
-                          .ratio_y = l->ratio_y,
-                          .force_range = {NAN, NAN}};
-    if (c->ablation.nonlinearity == ABLATED_NONLINEARITY_OMITTED) c->contact.smoothing = 0;
-}
-
 const char *contact_ablation(const struct contact *c, struct arena *a)
 {
     const struct ablation *b = &c->ablation;
@@ -110,7 +94,6 @@ void contact_derive(struct contact *c, void *own)
     if (contact_rolls(c))
         c->scraper = (struct scraper){
             .mass = ball_mass(b), .weight = b->weight, .radius = b->radius, .patch = b->patch, .response = b->response};
-    ablation_apply(c);
 }
 
 /* ------------------------------------------------------------------ sizes and mass of a ball */

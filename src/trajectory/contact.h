@@ -47,7 +47,7 @@ static inline bool contact_driven(const struct contact *c)
 static inline long contact_first_frame(const struct contact *c, double rate) { return (long)rint(c->start * rate); }
 
 /* Of a filled contact, what follows from its keys: of one that rolls c->scraper, what touches the surface, from
- * c->ball: mass (NAN: nothing says it), weight, radius, patch, response; and what an ablation leaves out. */
+ * c->ball: mass (NAN: nothing says it), weight, radius, patch, response. */
 void contact_derive(struct contact *c, void *own);
 
 /* Acceleration of gravity along the normal of the surface, m/s^2: g cos(incline). */

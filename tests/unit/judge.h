@@ -11,6 +11,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
+#include "force/scrape.h"
 #include "rig.h"
 #include "surface/limiter.h"
 #include "surface/relief.h"
@@ -20,8 +21,9 @@
 struct judge {
     const struct contact *c;
     const struct board *b;
+    const struct scrape_law *law;
     double alpha, since;
-    bool path, curved; /* the surface follows the path; the path bends over the surface */
+    bool limits, path, curved; /* the surface follows the path; the path bends over the surface */
 };
 
 struct judge_place {
@@ -33,8 +35,13 @@ static inline struct judge judge_of(const struct rig *g)
     const struct board *b = &g->run.board;
     const struct contact *c = &g->scene.contacts[0];
     bool path = b->relief->along == ALONG_PATH;
-    return (struct judge){
-        .c = c, .b = b, .alpha = limiter_constant(c), .path = path, .curved = !path && !b->trajectory->straight};
+    return (struct judge){.c = c,
+                          .b = b,
+                          .law = scrape_law(c),
+                          .limits = limiter_of(c)->curve == LIMITER_TANH,
+                          .alpha = limiter_constant(c),
+                          .path = path,
+                          .curved = !path && !b->trajectory->straight};
 }
 
 static inline struct judge_place judge_at(const struct judge *j, double t)
@@ -62,7 +69,7 @@ static inline double judge_alpha(const struct judge *j, double t)
 
 static inline double judge_limited(const struct judge *j, double alpha, double c)
 {
-    return j->c->contact.limiter.curve == LIMITER_TANH ? tanh(alpha * c) / alpha : c;
+    return j->limits ? tanh(alpha * c) / alpha : c;
 }
 
 /* Second derivatives of the surface: xx, xy, yy. */
@@ -87,20 +94,20 @@ static inline int judge_rate(double t, const double y[], double dydt[], void *se
                    ? judge_limited(j, alpha, e[0] * (n[0] * h[0] + n[1] * h[1]) + e[1] * (n[0] * h[1] + n[1] * h[2]))
                    : 0;
     for (int k = 0; k < 2; k++)
-        dydt[k] = speed * (side * c * e[k] + d * n[k] - y[k] / j->c->contact.leak);
+        dydt[k] = speed * (side * c * e[k] + d * n[k] - y[k] / j->law->leak);
     dydt[4] = p.v * (y[0] * e[0] + y[1] * e[1]);
-    dydt[2] = pow(fabs(dydt[4]), j->c->contact.beta2);
+    dydt[2] = pow(fabs(dydt[4]), j->law->beta2);
     dydt[3] = dydt[2] * (t - j->since);
     return GSL_SUCCESS;
 }
 
-/* Means of the force by hats (force/path_integral.h) about n sub-intervals' starts, dt apart from 0 on; where it is asked for,
-   the means of m v S' over them. Steps are kept short: where T is all but constant long ones would miss what lies
-   between their points. */
+/* Means of the force by hats (force/path_integral.h) about n sub-intervals' starts, dt apart from 0 on; where it is
+   asked for, the means of m v S' over them. Steps are kept short: where T is all but constant long ones would miss what
+   lies between their points. */
 static inline void judge_run(struct judge *j, long n, double dt, double *force, double *momenta)
 {
     gsl_odeiv2_system equations = {judge_rate, NULL, 5, j};
-    double y[5] = {0}, carried = 0, mass = j->c->scraper.mass, beta1 = j->c->contact.beta1, momentum = 0,
+    double y[5] = {0}, carried = 0, mass = j->c->scraper.mass, beta1 = j->law->beta1, momentum = 0,
            scale[5] = {1, 1, 1e-3, 1e-3 * dt, 1e-3};
     gsl_odeiv2_driver *driver =
         gsl_odeiv2_driver_alloc_scaled_new(&equations, gsl_odeiv2_step_rk8pd, dt / 1000, 1e-13, 1e-11, 1, 0, scale);

@@ -7,6 +7,7 @@
 #include "pipeline/plan.h"
 #include "pipeline/run.h"
 #include "pipeline/stages.h"
+#include "scene/params.h"
 #include "scene/scene_read.h"
 #include "surface/relief.h"
 #include "unit.h"
@@ -38,6 +39,12 @@ static inline struct arena *rig_arena(void)
         atexit(rig_drain);
     }
     return rig_pool;
+}
+
+/* Parameters of the scene's first contact, to be changed. */
+static inline void *rig_edit(struct scene *s, const struct stage *stage)
+{
+    return params_edit(s->contacts, stage->params, rig_arena());
 }
 
 static inline bool rig_wanted(const struct contact *c, const struct scene *s)

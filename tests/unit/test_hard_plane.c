@@ -2,8 +2,10 @@
  */
 #include <fenv.h>
 
+#include "force/scrape.h"
 #include "plane.h"
 #include "scene/params.h"
+#include "surface/limiter.h"
 
 enum { SIDE = 64 };
 
@@ -74,7 +76,7 @@ START_TEST(spike)
         struct scene s = plane_scene(
             spike_map, arena_format(rig_arena(), "contact: {beta1: 0, smoothing: 0, force: %s}\nmotion: %s\n",
                                     paper ? "paper" : "directional", motions[k]));
-        s.contacts[0].contact.limiter.alpha = alpha;
+        ((struct limiter *)rig_edit(&s, &limiter_stage))->alpha = alpha;
         ((struct height_map_file *)params_edit(&s.contacts[0], height_map_stage.params, rig_arena()))->off_map =
             n % 2 ? OFF_MAP_WRAP : OFF_MAP_MIRROR;
         spike_height = heights[n / 3 % 3];
@@ -97,10 +99,11 @@ START_TEST(limits_of_the_limiter)
             struct scene s = plane_scene(plane_rough_map,
                                          arena_format(rig_arena(), "contact: {smoothing: 0, force: %s}\nmotion: %s\n",
                                                       paper ? "paper" : "directional", motions[k]));
-            s.contacts[0].contact.limiter.curve = LIMITER_NONE;
+            struct limiter *limiter = rig_edit(&s, &limiter_stage);
+            limiter->curve = LIMITER_NONE;
             struct rig *none = trapped(&s, ITEM_SUBFORCE, 700);
-            s.contacts[0].contact.limiter.curve = LIMITER_TANH;
-            s.contacts[0].contact.limiter.alpha = 1e-11;
+            limiter->curve = LIMITER_TANH;
+            limiter->alpha = 1e-11;
             struct rig *tiny = trapped(&s, ITEM_SUBFORCE, 700);
             double most = 0;
             for (long i = 0; i < 2800; i++)
@@ -109,8 +112,8 @@ START_TEST(limits_of_the_limiter)
                 ck_assert_double_eq_tol(tiny->x[i], none->x[i], 1e-12 * most);
             rig_close(none);
             rig_close(tiny);
-            s.contacts[0].contact.limiter.alpha = 1000;
-            s.contacts[0].contact.beta1 = 0;
+            limiter->alpha = 1000;
+            ((struct scrape_law *)rig_edit(&s, &scrape_stage))->beta1 = 0;
             ck_assert_double_lt(peak_of(&s, ITEM_SUBFORCE, 700), 0.02 / 1000 * (2 * 4 + 400 * 2e-3));
         }
 }

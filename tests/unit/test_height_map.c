@@ -7,6 +7,7 @@
 #include "scene/scene.h"
 #include "stage.h"
 #include "surface/height_map.h"
+#include "surface/limiter.h"
 #include "surface/relief.h"
 #include "trajectory/trajectory.h"
 #include "unit.h"
@@ -43,9 +44,9 @@ static struct contact stroke(void)
     ck_assert_int_ge(handle, 0);
     close(handle);
     remove(map);
-    struct contact c = {.name = "rod",
-                        .contact = {.limiter = {.alpha = 0.03, .alpha_max = 0.05}},
-                        .motion = {.path = PATH_LINE, .to = {5e-4, 0}, .speed = 0.1, .duration = NAN}};
+    struct contact c = {.name = "rod", .motion = {.path = PATH_LINE, .to = {5e-4, 0}, .speed = 0.1, .duration = NAN}};
+    *(struct limiter *)params_edit(&c, limiter_stage.params, rig_arena()) =
+        (struct limiter){.alpha = 0.03, .alpha_max = 0.05};
     asked = params_edit(&c, height_map_stage.params, rig_arena());
     *asked = (struct height_map_file){.path = map, .read = {.pitch = NAN, .height_scale = NAN, .height_range = NAN}};
     return c;

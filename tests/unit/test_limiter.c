@@ -1,6 +1,9 @@
 /* limiter: papers/000 equations 6 and 7 in long double, and the cases in which they have no value. */
 #include "surface/limiter.h"
 
+#include "pipeline/stages.h"
+#include "scene/params.h"
+
 #include "unit.h"
 
 static const struct limiter paper = {.curve = LIMITER_TANH,
@@ -104,17 +107,20 @@ END_TEST
 
 START_TEST(constant_load)
 {
-    struct contact c = {
-        .scraper = {.mass = 0.1}, .load = {.constant = NAN}, .contact = {.gravity = 9.80665, .limiter = paper}};
+    struct contact c = {.scraper = {.mass = 0.1}, .load = {.constant = NAN}, .contact = {.gravity = 9.80665}};
+    struct arena *a = arena_open();
+    struct limiter *given = params_edit(&c, limiter_stage.params, a);
+    *given = paper;
     ck_assert_double_eq(limiter_constant(&c), 0.03);
     c.load.constant = 2;
     ck_assert_double_eq(limiter_constant(&c), 0.03);
-    c.contact.limiter.force_range[0] = 0, c.contact.limiter.force_range[1] = 4;
+    given->force_range[0] = 0, given->force_range[1] = 4;
     ck_assert_double_eq_tol(limiter_constant(&c), 0.02929470152317245, 1e-16);
     c.load.constant = NAN; /* the weight, m g */
     ck_assert_double_eq_tol(limiter_constant(&c), 0.05 - 0.04 * pow(0.980665 / 4, 0.95), 1e-16);
     c.load.constant = 10;
     ck_assert_double_eq(limiter_constant(&c), 0.01);
+    arena_close(a);
 }
 END_TEST
 

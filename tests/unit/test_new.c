@@ -1,5 +1,7 @@
 /* cmd/new.c and scene/keys_yaml.c: what rasp itself writes for people to start from must be scenes, ask for
    something to be computed, name no file, and hide no mistake in what is commented out. */
+#include "force/scrape.h"
+#include "surface/limiter.h"
 #include "unit.h"
 
 #include "cmd/cmd.h"
@@ -98,8 +100,8 @@ START_TEST(test_reference_is_a_scene_with_the_defaults)
               "{mass: 20 g}\n"
               "motion: {path: back_and_forth, to: [4.5 cm, 0], rate: 2 Hz, duration: 2 s}\noutput: {diagnostics: {}}\n",
               "short", NULL);
-    ck_assert(given.contacts->contact.leak == s.contacts->contact.leak);
-    ck_assert(given.contacts->contact.limiter.alpha == s.contacts->contact.limiter.alpha);
+    ck_assert(scrape_law(given.contacts)->leak == scrape_law(s.contacts)->leak);
+    ck_assert(limiter_of(given.contacts)->alpha == limiter_of(s.contacts)->alpha);
     const struct roughness *r = params_of(given.contacts, roughness_stage.params),
                            *of_s = params_of(s.contacts, roughness_stage.params);
     ck_assert(r->rms == of_s->rms);
@@ -119,8 +121,8 @@ START_TEST(test_reference_has_every_key)
     char *text = reference_text(&size);
     for (const struct key *k = keys_table; k->path; k++) {
         const char *dot = strrchr(k->path, '.'), *name = dot ? dot + 1 : k->path;
-        ck_assert_msg((k->standard && *k->standard) || keys_yaml_example(k->path),
-                      "%s needs an example in keys_yaml.c", k->path);
+        ck_assert_msg((k->standard && *k->standard) || keys_yaml_example(k->path), "%s needs an example in keys_yaml.c",
+                      k->path);
         ck_assert_msg(strstr(text, arena_format(a, "\n%s: ", name)) || strstr(text, arena_format(a, " %s: ", name)) ||
                           strstr(text, arena_format(a, "#%s: ", name)),
                       "%s is not in the reference", k->path);

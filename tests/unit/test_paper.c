@@ -30,17 +30,18 @@ struct point {
 static struct point printed_at(const struct judge *j, double t)
 {
     struct judge_place p = judge_at(j, t);
-    const struct contact_model *m = &j->c->contact;
+    double ratio = limiter_of(j->c)->ratio_y;
     double x, y = 0, h[3], vx = p.v * p.e[0], vy = p.v * p.e[1];
     bool plane = j->b->relief->along == ALONG_PLANE;
     judge_bend(j, &p, h);
     relief_at(j->b->relief, &(struct relief_points){1, &p.x, plane ? &p.y : NULL},
               &(struct relief_values){.x = &x, .y = plane ? &y : NULL});
     struct point r = {.xx = judge_limited(j, j->alpha, h[0]),
-                      .yy = plane ? judge_limited(j, j->alpha * m->limiter.ratio_y, h[2]) : 0,
+                      .yy = plane ? judge_limited(j, j->alpha * ratio, h[2]) : 0,
                       .slope = vx * x + vy * y,
                       .v = {vx, vy}};
-    r.force = j->c->scraper.mass * (r.xx * vx * vx + r.yy * vy * vy) + m->beta1 * pow(fabs(r.slope), m->beta2);
+    r.force =
+        j->c->scraper.mass * (r.xx * vx * vx + r.yy * vy * vy) + j->law->beta1 * pow(fabs(r.slope), j->law->beta2);
     return r;
 }
 
@@ -136,7 +137,7 @@ static double measured_sigma(enum item item, const char *limiter, double smoothi
                                                       "contact: {force: paper, limiter: %s}\n"
                                                       "motion: {path: line, to: [9 cm, 4 cm], speed: 20 cm/s}\n",
                                                       limiter));
-        s.contacts[0].contact.smoothing = smooth ? smoothing : 0;
+        *(double *)rig_edit(&s, &smooth_stage) = smooth ? smoothing : 0;
         struct rig *g = recorded(&s, item, 12000);
         double re = 0, im = 0;
         for (long i = 0; i < 48000; i++) {
@@ -209,7 +210,7 @@ START_TEST(blocks_do_not_matter)
         rig_close(other);
         struct rig *c = recorded(&s, ITEM_CURVATURE, 3000);
         struct judge j = judge_of(c);
-        s.contacts[0].contact.smoothing = 0;
+        *(double *)rig_edit(&s, &smooth_stage) = 0;
         rig_close(c);
         c = recorded(&s, ITEM_CURVATURE, 3000);
         j = judge_of(c);

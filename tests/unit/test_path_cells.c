@@ -3,6 +3,8 @@
    against the surface read directly. */
 #include "force/path_cells.h"
 
+#include "pipeline/stages.h"
+#include "scene/params.h"
 #include "surface/height_map.h"
 #include "surface/limiter.h"
 #include "surface/profile.h"
@@ -58,7 +60,8 @@ static void prepare(const struct motion *m, double rate, int over)
     size_t n = (size_t)((FRAMES + 1) * over);
     double *t = ARENA_TAKE(arena, double, n), *x[6];
     contact.motion = *m;
-    contact.contact.limiter = (struct limiter){.alpha = 0.03, .ratio_y = 0.5, .force_range = {NAN, NAN}};
+    *(struct limiter *)params_edit(&contact, limiter_stage.params, arena) =
+        (struct limiter){.alpha = 0.03, .ratio_y = 0.5, .force_range = {NAN, NAN}};
     contact.load.constant = 1;
     ck_assert_msg(trajectory_make(m, 7, arena, &motion, &e), "%s", e.text);
     board = (struct board){.rate = rate, .over = over, .trajectory = &motion, .relief = &relief};

@@ -1,5 +1,6 @@
 /* Scenes against structs and messages written down by hand: places, words, cures; merging, overrides, mutations of a
  * good scene. */
+#include "force/scrape.h"
 #include "scene/scene_read.h"
 
 #include <sys/stat.h>
@@ -10,6 +11,7 @@
 #include "scene/params.h"
 #include "scenes.h"
 #include "surface/height_map.h"
+#include "surface/limiter.h"
 
 static struct result read_good(const char *text, const char *const *set)
 {
@@ -37,7 +39,7 @@ START_TEST(test_full)
               c->motion.rate == 2);
     ck_assert(c->motion.duration == 1.5 && isnan(c->motion.speed));
     ck_assert(c->grip.given && c->grip.angle == 0.5 && c->grip.friction == 0.3 && isnan(c->load.constant));
-    ck_assert(c->contact.force == FORCE_PAPER && isnan(c->contact.leak) && c->contact.limiter.force_range[1] == 5);
+    ck_assert(scrape_law(c)->force == FORCE_PAPER && isnan(scrape_law(c)->leak) && limiter_of(c)->force_range[1] == 5);
     ck_assert(!params_given(c, roughness_stage.params) && isnan(map_of(c)->read.pitch));
     ck_assert_str_eq(s->accuracy.preset, "high");
     ck_assert(s->accuracy.oversampling == 16 && s->accuracy.gain_ramp == 16);
@@ -57,15 +59,16 @@ START_TEST(test_defaults)
 {
     struct result r = read_good(MIN, NULL);
     const struct contact *c = r.scene.contacts;
-    const struct limiter *l = &c->contact.limiter;
+    const struct limiter *l = limiter_of(c);
     ck_assert_str_eq(c->name, "contact");
     ck_assert(c->start == 0 && c->gain == 1 && r.scene.seed == 0 && !r.scene.title && r.scene.n_inputs == 0);
     ck_assert(map_of(c)->read.height_scale == 1 && c->surface.along == ALONG_AUTO &&
               map_of(c)->off_map == OFF_MAP_MIRROR);
     ck_assert(c->surface.origin[0] == 0 && c->surface.response.modes == 50 && isnan(c->surface.response.length));
     ck_assert(c->motion.from[0] == 0 && c->motion.from[1] == 0 && isnan(c->motion.rate) && c->motion.law == SPEED_AUTO);
-    ck_assert(!c->grip.given && isnan(c->load.constant) && c->contact.leak == 2e-3 && c->contact.smoothing == 50e-6);
-    ck_assert(c->contact.gravity == 9.80665 && c->contact.beta1 == 0.05 && c->contact.beta2 == 1);
+    ck_assert(!c->grip.given && isnan(c->load.constant) && scrape_law(c)->leak == 2e-3 &&
+              *(const double *)params_of(c, smooth_stage.params) == 50e-6);
+    ck_assert(c->contact.gravity == 9.80665 && scrape_law(c)->beta1 == 0.05 && scrape_law(c)->beta2 == 1);
     ck_assert(l->curve == LIMITER_TANH && l->alpha == 0.03 && l->alpha_min == 0.01 && l->alpha_max == 0.05 &&
               isnan(l->force_range[0]));
     ck_assert(r.scene.output.sample_rate == 48000 && r.scene.output.ramp == 0.01 && isnan(r.scene.output.tail));

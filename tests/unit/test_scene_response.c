@@ -12,6 +12,7 @@
 #include "response/response.h"
 #include "scene/params.h"
 #include "scenes.h"
+#include "surface/limiter.h"
 #include "trajectory/load.h"
 #include "trajectory/motion.h"
 
@@ -438,9 +439,9 @@ START_TEST(test_values)
               k->pulse == PULSE_HERTZ);
     ck_assert(k->stiffness == 3e8 && isnan(k->interval) &&
               !((const struct given_force *)params_of(c, given_table_stage.params))->file &&
-              isnan(c->contact.limiter.alpha));
-    ck_assert(isnan(c->contact.smoothing) && isnan(c->load.constant) && c->contact.gravity == 9.80665 &&
-              c->surface.response.pairing == 0.03);
+              isnan(limiter_of(c)->alpha));
+    ck_assert(isnan(*(const double *)params_of(c, smooth_stage.params)) && isnan(c->load.constant) &&
+              c->contact.gravity == 9.80665 && c->surface.response.pairing == 0.03);
     ck_assert(r.scene.output.listen.n_places == 2 && memcmp(r.scene.output.listen.places, places, sizeof places) == 0);
     ck_assert(r.scene.output.listen.radiator == RADIATOR_MONOPOLE && r.scene.output.listen.density == 1.204 &&
               r.scene.output.quantity == QUANTITY_AUTO);

@@ -1,7 +1,9 @@
 /* The scraping force on profiles and straight paths against a slow judge (tests/unit/judge.h): tolerances say what the
  * closed forms leave out. */
 #include "force/path_integral.h"
+#include "force/scrape.h"
 #include "judge.h"
+#include "surface/limiter.h"
 #include "surface/profile.h"
 
 static const char *const head = "rasp: 1\n"
@@ -212,8 +214,8 @@ START_TEST(a_smoothing_of_seconds_is_refused)
         struct err e = {0};
         s.output.sample_rate = 768000;
         s.output.diagnostics.given = true;
-        s.contacts[0].contact.smoothing = smoothing[k];
-        s.contacts[0].contact.limiter.alpha = 1000; /* the scene's text would be refused */
+        *(double *)rig_edit(&s, &smooth_stage) = smoothing[k];
+        ((struct limiter *)rig_edit(&s, &limiter_stage))->alpha = 1000; /* the scene's text would be refused */
         ck_assert(plan_make(stages_table, &s.contacts[0], &s, a, &p, &e));
         ck_assert(!run_open(&r, &p, &s, NULL, &e)); /* before the table stage opens */
         ck_assert_int_eq(e.kind, ERR_SCENE);
@@ -331,8 +333,9 @@ START_TEST(limits_of_the_limiter)
                                               "surface: {roughness: {rms: 1 um, shortest: 1 mm, longest: 2 "
                                               "mm}}\ncontact: {beta1: 0, smoothing: 0 s}\n%s",
                                               reversing));
-        s.contacts[0].contact.limiter.curve = k == 0 ? LIMITER_NONE : LIMITER_TANH;
-        s.contacts[0].contact.limiter.alpha = alphas[k];
+        struct limiter *limiter = rig_edit(&s, &limiter_stage);
+        limiter->curve = k == 0 ? LIMITER_NONE : LIMITER_TANH;
+        limiter->alpha = alphas[k];
         struct rig *g = rig_record(&s, ITEM_SUBFORCE, 2000, 1024);
         x[k] = g->x;
         g->x = NULL;

@@ -19,7 +19,7 @@ static struct rig *recorded(const char *rest, double smoothing)
 {
     struct arena *a = rig_arena();
     struct scene s = rig_scene(a, arena_format(a, text, rest));
-    s.contacts[0].contact.smoothing = smoothing;
+    *(double *)rig_edit(&s, &smooth_stage) = smoothing;
     return rig_record(&s, ITEM_SUBFORCE, FRAMES, 1024);
 }
 
@@ -104,7 +104,7 @@ START_TEST(joined_to_decimation)
     struct filter f = filter_decimator_bspline(a, OVER);
     struct rig *smooth = recorded("load: {constant: 1 N}", 50e-6), *both[2];
     double off = 0, most = 0;
-    s.contacts[0].contact.smoothing = 50e-6;
+    *(double *)rig_edit(&s, &smooth_stage) = 50e-6;
     both[0] = rig_record(&s, ITEM_FORCE, FRAMES, 1024);
     both[1] = rig_record(&s, ITEM_FORCE, FRAMES, 77);
     ck_assert(both[0]->run.board.smoothing->taken && !smooth->run.board.smoothing->taken);
