@@ -1,5 +1,5 @@
-/* rasp-modes compute ...: the action of `rasp modes` that needs sparse and dense linear algebra, in a program of its
- * own, so that rasp starts without them. */
+/* rasp-modes compute ..., material ...: the actions of `rasp modes` that need sparse and dense linear algebra, in a
+ * program of its own, so that rasp starts without them. */
 #include "cmd/cmd.h"
 #include "cmd/modes.h"
 
@@ -8,7 +8,8 @@ extern void openblas_set_num_threads(int n);
 static int modes_run(struct cmd_call *c, struct err *e)
 {
     openblas_set_num_threads(1); /* the order of additions must not depend on the number of processors */
-    return modes_compute_only(c, modes_compute_run, e);
+    return modes_solids_only(c, e,
+                             (int (*const[])(struct cmd_call *, struct err *)){modes_compute_run, modes_material_run});
 }
 
 static int run(int argc, char **argv)

@@ -537,7 +537,7 @@ const char *modes_per_impulse(int quantity)
     return units[quantity];
 }
 
-/* compute is the other program's (modes_elsewhere_run). */
+/* compute and material are the other program's (modes_elsewhere_run). */
 static const struct action actions[] = {
     {"object",
      "one RECIPE or SCENE",
@@ -562,6 +562,13 @@ static const struct action actions[] = {
       "distance",         "delay",   "impulse",     "modes",         "low",   "high",        "fastest",  "method",
       "strike-threshold", "strikes", "resynthesis", "residual",      "plot",  "json",        "quiet"},
      modes_extract_run},
+    {"material",
+     "an OBJECT and its STRIKE..., as often as there are objects",
+     2,
+     -1,
+     {"output", "force", "name",    "density", "mass",   "poisson", "gamma",       "material",   "modes", "order",
+      "unit",   "clamp", "support", "face",    "origin", "listen",  "model-error", "size-error", "json",  "quiet"},
+     modes_elsewhere_run},
     {"list",
      "one FILE: a mode table (.csv), RECIPE or SCENE",
      1,
@@ -571,13 +578,17 @@ static const struct action actions[] = {
     {NULL, NULL, 0, 0, {NULL}, NULL},
 };
 
-int modes_compute_only(struct cmd_call *c, int (*run)(struct cmd_call *c, struct err *e), struct err *e)
+int modes_solids_only(struct cmd_call *c, struct err *e, int (*const run[2])(struct cmd_call *c, struct err *e))
 {
-    struct action mine[2];
+    struct action mine[3];
+    int n = 0;
     memset(mine, 0, sizeof mine);
     for (const struct action *a = actions; a->name; a++)
-        if (!strcmp(a->name, "compute")) mine[0] = *a;
-    mine[0].run = run;
+        if (a->run == modes_elsewhere_run) {
+            mine[n] = *a;
+            mine[n].run = run[n];
+            n++;
+        }
     return cmd_actions("modes", mine, c, e);
 }
 
@@ -598,6 +609,13 @@ static const struct args_option options[] = {
      "compute: Young's modulus, of a wood that along the grain, x (its other moduli keep their ratios to it)"},
     {"poisson", 0, "NUMBER", false, "compute: Poisson's ratio"},
     {"density", 0, "DENSITY", false, "compute: density"},
+    {"mass", 0, "MASS", true, "material: what the object weighs; of several objects once for each, in their order"},
+    {"name", 0, "NAME", false, "material: its name in the file; default: that of the file"},
+    {"gamma", 0, "LOW,HIGH", false, "material: E/density is looked for from LOW to HIGH, m^2/s^2 (default 1e5,5e8)"},
+    {"model-error", 0, "SHARE", false,
+     "material: standard error of computed frequencies besides the mesh's, such as 0.3% (default 0.1%)"},
+    {"size-error", 0, "SHARE", false,
+     "material: standard error of the object's lengths, such as 1%: all together too long or too short"},
     {"alpha", 0, "RATE", false, "compute: Rayleigh's damping C = alpha M + beta K, in 1/s"},
     {"beta", 0, "TIME", false, "compute: Rayleigh's damping, in s"},
     {"loss", 0, "NUMBER", false,

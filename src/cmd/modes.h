@@ -44,10 +44,11 @@ bool modes_places_distinct(const struct modes_places *p, struct arena *a, int *b
 /* The lines of the table's head that tell damping and sources of a material; NULL: all figures are given. */
 void modes_damping_write(FILE *f, const double damping[3], const struct material *m, bool own, bool own_damping);
 
-/* What rasp-modes does: compute alone, which needs CHOLMOD and LAPACK; `run` is modes_compute_run, which rasp does not
-   link. Of the other actions GSL's matrices would be OpenBLAS's there, and the bytes those of the CPU. */
-int modes_compute_only(struct cmd_call *c, int (*run)(struct cmd_call *c, struct err *e), struct err *e);
+/* What rasp-modes does: compute and material, which need CHOLMOD and LAPACK; `run` are their functions, which rasp does
+   not link. Of the other actions GSL's matrices would be OpenBLAS's there, and the bytes those of the CPU. */
+int modes_solids_only(struct cmd_call *c, struct err *e, int (*const run[2])(struct cmd_call *c, struct err *e));
 int modes_compute_run(struct cmd_call *c, struct err *e);
+int modes_material_run(struct cmd_call *c, struct err *e);
 int modes_extract_run(struct cmd_call *c, struct err *e);
 
 /* Gains and poles of the object as a table would hold them, at any place in its own coordinates; how far off (m) that

@@ -51,6 +51,17 @@ struct compute {
 /* Operand or --shape, --unit, --material ..., --clamp, --support: all that the modes are computed of. */
 bool modes_compute_solid_read(struct compute *k, struct err *e);
 
+/* Parts of that: the mesh file, or the shape, and --unit; --material, a word of the table (named NULL: not given); the
+   constants of a wood whose moduli keep their ratios to that along the grain; --clamp, --support. */
+bool modes_compute_solid_mesh(struct compute *k, const char *mesh, const char *shape, struct err *e);
+bool modes_compute_solid_named(struct compute *k, struct err *e);
+bool modes_compute_solid_wooden(const struct material *t, double youngs_modulus, double density,
+                                struct elastic *elastic, struct err *e);
+bool modes_compute_solid_fixed(struct compute *k, struct err *e);
+
+/* The same solid of longer cells. */
+bool modes_compute_solid_coarser(const struct compute *k, const char *shape, struct compute *c, struct err *e);
+
 /* The modes. A pair w^2 = lambda decays with d = (alpha + beta w^2 + loss w)/2 and sounds at sqrt(lambda - d^2)/(2 pi):
    papers/003 equations 4, 5, with a loss factor besides; lambda <= d^2 is overdamped and left out, with a note. */
 bool modes_compute_solid_solve(struct compute *k, struct err *e);

@@ -65,35 +65,41 @@ static bool check_solid(struct compute *k, struct err *e)
 
 /* ------------------------------------------------------------------ mesh */
 
-static bool read_mesh(struct compute *k, struct err *e)
+bool modes_compute_solid_mesh(struct compute *k, const char *mesh, const char *shape, struct err *e)
 {
     const struct args *g = &k->c->args;
-    const char *shape = args_value(g, "shape");
     struct arena *a = k->c->arena;
     double unit = 1;
-    if (!shape == !g->n_operands)
-        return err_set(e, ERR_USAGE,
-                       shape ? "a mesh and --shape exclude each other"
-                             : "rasp modes compute takes one MESH, or --shape");
-    if (shape && args_given(g, "unit"))
-        return err_set(e, ERR_USAGE, "--unit is that of a mesh file; the lengths of --shape have their own units");
     const char *text = args_value(g, "unit"); /* "mm" or "25.4 mm" */
     struct units_fault fault = {NULL, NULL};
+    if (shape && text)
+        return err_set(e, ERR_USAGE, "--unit is that of a mesh file; the lengths of --shape have their own units");
     if (text &&
         !units_read(text_number_length(text) > 0 ? text : arena_format(a, "1 %s", text), KEY_LENGTH, &unit, a, &fault))
         return err_set(e, ERR_USAGE, "--unit: '%s' %s; write m, cm, mm or a length such as 25.4 mm", text, fault.text);
     if (!(unit >= 1e-9 && unit <= 1e3)) return err_set(e, ERR_USAGE, "--unit: %s is not from 1 nm to 1 km", text);
     if (!(shape ? shapes_mesh(shape, a, &k->mesh, e)
-                : mesh_read(g->operands[0], unit, a, &k->mesh, e) && mesh_check(&k->mesh, a, e)))
+                : mesh_read(mesh, unit, a, &k->mesh, e) && mesh_check(&k->mesh, a, e)))
         return false;
     topology_elevate(&k->mesh, a);
     boundary_make(&k->mesh, a, &k->boundary);
     return true;
 }
 
+static bool read_mesh(struct compute *k, struct err *e)
+{
+    const struct args *g = &k->c->args;
+    const char *shape = args_value(g, "shape");
+    if (!shape == !g->n_operands)
+        return err_set(e, ERR_USAGE,
+                       shape ? "a mesh and --shape exclude each other"
+                             : "rasp modes compute takes one MESH, or --shape");
+    return modes_compute_solid_mesh(k, shape ? NULL : g->operands[0], shape, e);
+}
+
 /* ------------------------------------------------------------------ material */
 
-static bool name_material(struct compute *k, struct err *e)
+bool modes_compute_solid_named(struct compute *k, struct err *e)
 {
     const char *word = args_value(&k->c->args, "material"), *names[64] = {NULL};
     int n = 0;
@@ -112,9 +118,9 @@ static bool name_material(struct compute *k, struct err *e)
 }
 
 /* All moduli of a wood keep their ratios to that along the grain. */
-static bool wooden(struct compute_material *m, double youngs_modulus, double density, struct err *e)
+bool modes_compute_solid_wooden(const struct material *t, double youngs_modulus, double density,
+                                struct elastic *elastic, struct err *e)
 {
-    const struct material *t = m->named;
     const struct material_radial *r = &t->radial;
     double more = youngs_modulus / t->youngs_modulus;
     struct elastic_wood w = {.e = {youngs_modulus, more * t->across, more * r->youngs_modulus},
@@ -123,14 +129,14 @@ static bool wooden(struct compute_material *m, double youngs_modulus, double den
     w.nu[0] = r->poisson_rt * t->across / r->youngs_modulus; /* of a pull along y: nu_TR = nu_RT E_T/E_R */
     w.nu[1] = r->poisson_lr;
     w.nu[2] = t->poisson;
-    return solid_element_orthotropic(&w, &m->elastic, e);
+    return solid_element_orthotropic(&w, elastic, e);
 }
 
 static bool read_material(struct compute *k, struct err *e)
 {
     struct compute_material *m = &k->material;
     const struct args *g = &k->c->args;
-    if (!name_material(k, e)) return false;
+    if (!modes_compute_solid_named(k, e)) return false;
     const struct material none =
                               {.youngs_modulus = NAN, .poisson = NAN, .density = NAN, .alpha = 0, .beta = 0, .loss = 0},
                           *t = m->named ? m->named : &none;
@@ -166,7 +172,7 @@ static bool read_material(struct compute *k, struct err *e)
     if (!within(k, "youngs-modulus", m->youngs_modulus, e) || !within(k, "density", density, e) ||
         !(wood || within(k, "poisson", m->poisson, e)))
         return false;
-    return wood ? wooden(m, m->youngs_modulus, density, e)
+    return wood ? modes_compute_solid_wooden(t, m->youngs_modulus, density, &m->elastic, e)
                 : solid_element_isotropic(m->youngs_modulus, m->poisson, density, &m->elastic, e);
 }
 
@@ -223,7 +229,7 @@ static bool hold(struct compute *k, const char *option, int how, struct err *e)
 }
 
 /* --clamp, --support: the faces of k->mesh into k->held. */
-static bool read_fixed(struct compute *k, struct err *e)
+bool modes_compute_solid_fixed(struct compute *k, struct err *e)
 {
     int clamped, supported;
     args_values(&k->c->args, "clamp", &clamped);
@@ -245,7 +251,7 @@ bool modes_compute_solid_read(struct compute *k, struct err *e)
         return false;
     if (!(k->top > 0 && k->top <= 1e7))
         return err_set(e, ERR_USAGE, "--top: %g Hz is not above 0 and at most 10 MHz", k->top);
-    if (!read_material(k, e) || !read_mesh(k, e) || !read_fixed(k, e)) return false;
+    if (!read_material(k, e) || !read_mesh(k, e) || !modes_compute_solid_fixed(k, e)) return false;
     k->note = k->mesh.note;
     return check_solid(k, e);
 }
@@ -297,6 +303,15 @@ bool modes_compute_solid_solve(struct compute *k, struct err *e)
 
 enum { BEYOND = 12 }; /* modes more: a coarse mesh has them in another order */
 
+bool modes_compute_solid_coarser(const struct compute *k, const char *shape, struct compute *c, struct err *e)
+{
+    c->c = k->c;
+    if (!shapes_mesh_coarser(shape, LONGER, k->c->arena, &c->mesh, e)) return false;
+    topology_elevate(&c->mesh, k->c->arena);
+    boundary_make(&c->mesh, k->c->arena, &c->boundary);
+    return modes_compute_solid_fixed(c, e); /* the faces that are held, by the same names */
+}
+
 bool modes_compute_solid_estimate(struct compute *k, struct err *e)
 {
     const char *shape = args_value(&k->c->args, "shape");
@@ -308,9 +323,7 @@ bool modes_compute_solid_estimate(struct compute *k, struct err *e)
                         .order = k->order};
     if (!args_given(&k->c->args, "estimate")) return true;
     if (shape) {
-        if (!shapes_mesh_coarser(shape, LONGER, k->c->arena, &c.mesh, e)) return false;
-        topology_elevate(&c.mesh, k->c->arena);
-        boundary_make(&c.mesh, k->c->arena, &c.boundary);
+        if (!modes_compute_solid_coarser(k, shape, &c, e)) return false;
     } else if (--c.order < SOLID_LATTICE_LEAST)
         return err_set(
             e, ERR_USAGE,
@@ -318,7 +331,6 @@ bool modes_compute_solid_estimate(struct compute *k, struct err *e)
             "3 (or 4)");
     struct solid_ask ask = {
         .material = &k->material.elastic, .order = (int)c.order, .most = k->modes.n + BEYOND, .top = 3 * k->top};
-    if (c.mesh.at != k->mesh.at && !read_fixed(&c, e)) return false; /* the faces that are held, by the same names */
     ask.fixed = c.fixed;
     ask.n_fixed = c.n_fixed;
     if (!solid_modes(&c.mesh, &c.boundary, &ask, k->c->arena, &c.modes, e)) return false;

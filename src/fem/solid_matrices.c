@@ -343,6 +343,17 @@ void solid_matrices_spread(const struct solid_freedoms *f, const double *q, doub
         }
 }
 
+void solid_matrices_gather(const struct solid_freedoms *f, const double *u, double *q)
+{
+    for (int i = 0; i < f->nodes; i++)
+        for (int k = 0; k < 3; k++) {
+            double d[3];
+            if (f->of[i][k] < 0) continue;
+            direction(f, i, k, d);
+            q[f->of[i][k]] = d[0] * u[3 * i] + d[1] * u[3 * i + 1] + d[2] * u[3 * i + 2];
+        }
+}
+
 struct graph {
     int *first, *node; /* [nodes + 1]; neighbours of node i, itself included, not below i: node[first[i]] ..
                           node[first[i + 1] - 1], rising */

@@ -38,6 +38,9 @@ bool solid_matrices_freedoms(const struct solid_net *net, const struct solid_ask
 /* The displacements [nodes][3] along x, y, z of values q [n]. */
 void solid_matrices_spread(const struct solid_freedoms *f, const double *q, double *u);
 
+/* The values q [n] of displacements that do not move what is held. */
+void solid_matrices_gather(const struct solid_freedoms *f, const double *u, double *q);
+
 struct solid_matrices {
     cholmod_common common;
     cholmod_sparse *k, *m;  /* lower halves, of the same pattern */

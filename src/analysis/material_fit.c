@@ -1,0 +1,781 @@
+/* Stages, of which each needs nothing of the next:
+
+   1. For every node of nu and 2400 values of gamma (a step of 0.18 % in frequency): how well measured modes find a
+      computed one beside them, and how well computed modes below the highest measured find a measured one. The second
+      half matters: without it a gamma so low that computed modes lie everywhere fits anything.
+   2. From each of the best places: measured and computed modes are paired in order of frequency by dynamic programming
+      (what is left out costs as much as 1 % of frequency), log gamma and nu follow by Gauss and Newton with Cauchy's
+      weights, until the pairs stay.
+   3. With those pairs, laws of damping over the measured lambda (eq. 4 and others), in logarithms, by robust least
+      squares; the one of least BIC is chosen.
+
+   Intervals are the wider of the covariance's (times Birge's ratio, by Student's t) and of a bootstrap over modes;
+   gamma's is wider by the error of the mesh and of the object's size: lambda goes with gamma/length^2. */
+#include "analysis/material_fit.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_sort_double.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "num/noise.h"
+#include "num/real.h"
+
+enum { STEPS = 2400, PLACES = 16, ROUNDS = 12, DRAWS = 200, LEAST_MODES = 3, SURE_MODES = 6 };
+
+static const double near = 0.006;     /* of frequency: a neighbour farther off than that is none */
+static const double tolerance = 0.01; /* of frequency: two farther apart are no pair */
+static const double apart = 0.01;     /* of gamma: another place */
+static const double unlike = 1.2;     /* times the cost: less is not unique */
+static const double highest_nu = 0.45, prior_nu[2] = {0.3, 0.5};
+static const double rough = 0.15; /* of decays: less than that they do not follow any law */
+static const double spare = 0.25; /* cost of a mode that should show and is not there, to that of a pair's leaving */
+
+/* ------------------------------------------------------------------ computed modes */
+
+struct branch {
+    double log_ratio, slope; /* corrected for the mesh */
+    int of;
+};
+
+static int by_ratio(const void *x, const void *y)
+{
+    const struct branch *p = x, *q = y;
+    if (p->log_ratio != q->log_ratio) return p->log_ratio < q->log_ratio ? -1 : 1;
+    return p->of - q->of;
+}
+
+struct spectrum {
+    int n;
+    struct branch *branch; /* [n] by rising ratio */
+};
+
+struct work {
+    const struct material_problem *p;
+    struct arena *arena;
+    int objects;
+    struct spectrum *now; /* [objects] at one nu */
+    double *log_ratio, *slope;
+};
+
+static double mesh_error(const struct solid_family *f, int j) { return isnan(f->error[j]) ? 0.0 : f->error[j]; }
+
+static void spectra(struct work *w, double nu)
+{
+    for (int o = 0; o < w->objects; o++) {
+        const struct solid_family *f = &w->p->object[o];
+        struct spectrum *s = &w->now[o];
+        solid_family_at(f, nu, w->log_ratio, w->slope);
+        s->n = f->n;
+        for (int j = 0; j < f->n; j++)
+            s->branch[j] = (struct branch){w->log_ratio[j] + 2.0 * real_log1p(-mesh_error(f, j)), w->slope[j], j};
+        qsort(s->branch, (size_t)s->n, sizeof *s->branch, by_ratio);
+    }
+}
+
+static double visible(const struct material_set *s, int branch) { return s->visible ? s->visible[branch] : 1.0; }
+
+/* ------------------------------------------------------------------ 1: all of gamma and nu */
+
+/* Mean over measured modes, and over computed ones below the highest measured, of the distance to the nearest of the
+   others, as a share of `near`, at most 1. */
+static double score(const struct work *w, double log_gamma)
+{
+    double all = 0.0;
+    for (int k = 0; k < w->p->sets; k++) {
+        const struct material_set *s = &w->p->set[k];
+        const struct spectrum *c = &w->now[s->object];
+        double there = 0.0, back = 0.0, weight = 0.0, top = s->log_lambda[s->n - 1] + 2.0 * near,
+               bottom = s->log_lambda[0] - 0.5;
+        for (int i = 0, j = 0; i < s->n; i++) {
+            double at = s->log_lambda[i] - log_gamma;
+            while (j + 1 < c->n && fabs(c->branch[j + 1].log_ratio - at) <= fabs(c->branch[j].log_ratio - at))
+                j++;
+            there += fmin(0.5 * fabs(c->branch[j].log_ratio - at) / near, 1.0);
+        }
+        for (int i = 0, j = 0; j < c->n; j++) {
+            double at = c->branch[j].log_ratio + log_gamma, share = visible(s, c->branch[j].of);
+            if (at > top) break;
+            if (at < bottom) continue;
+            while (i + 1 < s->n && fabs(s->log_lambda[i + 1] - at) <= fabs(s->log_lambda[i] - at))
+                i++;
+            back += share * fmin(0.5 * fabs(s->log_lambda[i] - at) / near, 1.0);
+            weight += share;
+        }
+        all += there / s->n + (weight > 0.0 ? back / weight : 1.0);
+    }
+    return all / w->p->sets;
+}
+
+struct place {
+    double log_gamma, nu, cost;
+};
+
+static int by_cost(const void *x, const void *y)
+{
+    const struct place *p = x, *q = y;
+    if (p->cost != q->cost) return p->cost < q->cost ? -1 : 1;
+    return (p->log_gamma > q->log_gamma) - (p->log_gamma < q->log_gamma);
+}
+
+/* The best minima along gamma of all values of nu, no two close together; returns how many. */
+static int scan(struct work *w, struct place *best)
+{
+    const struct solid_family *f = &w->p->object[0];
+    const double low = real_log(w->p->gamma[0]), high = real_log(w->p->gamma[1]);
+    bool one = !isnan(w->p->poisson) || f->nodes == 1;
+    struct arena *room = arena_open();
+    struct place *found = NULL;
+    int n = 0, many = 0;
+    double s[STEPS];
+    for (int i = 0; i < (one ? 1 : f->nodes); i++) {
+        double nu = !one ? f->nu[i] : f->nodes == 1 ? 0.0 : w->p->poisson;
+        if (nu > highest_nu) break;
+        spectra(w, nu);
+        for (int k = 0; k < STEPS; k++)
+            s[k] = score(w, low + (high - low) * k / (STEPS - 1));
+        for (int k = 1; k + 1 < STEPS; k++)
+            if (s[k] <= s[k - 1] && s[k] < s[k + 1]) {
+                found = arena_more(room, found, n, sizeof *found);
+                found[n++] = (struct place){low + (high - low) * k / (STEPS - 1), nu, s[k]};
+            }
+    }
+    qsort(found, (size_t)n, sizeof *found, by_cost);
+    for (int i = 0; i < n && many < PLACES; i++) {
+        bool new = true;
+        for (int k = 0; k < many; k++)
+            new =
+                new && (fabs(found[i].log_gamma - best[k].log_gamma) > apart || fabs(found[i].nu - best[k].nu) > 0.06);
+        if (new) best[many++] = found[i];
+    }
+    arena_close(room);
+    return many;
+}
+
+/* ------------------------------------------------------------------ 2: pairs, gamma and nu */
+
+/* Pairs in order of frequency, of least cost: of a pair (difference/tolerance)^2 and what its mode lacks in
+   visibility, of a measured mode without one 1, of a computed one in the band without one `spare`. */
+static void pair(const struct work *w, double log_gamma, struct material_set *s)
+{
+    const struct spectrum *c = &w->now[s->object];
+    struct arena *room = arena_open();
+    int m = s->n, n = c->n;
+    double *cost = ARENA_TAKE(room, double, (m + 1) * (n + 1)), top = s->log_lambda[m - 1],
+           bottom = s->log_lambda[0] - 0.5;
+    unsigned char *way = ARENA_TAKE(room, unsigned char, (m + 1) * (n + 1));
+    for (int i = 0; i <= m; i++)
+        for (int j = 0; j <= n; j++) {
+            double *here = &cost[i * (n + 1) + j], least = HUGE_VAL;
+            int from = 0;
+            if (i > 0) least = here[-(n + 1)] + 1.0;
+            if (j > 0) {
+                double at = c->branch[j - 1].log_ratio + log_gamma,
+                       skip = at < top && at > bottom ? spare * visible(s, c->branch[j - 1].of) : 0.0;
+                if (here[-1] + skip < least) {
+                    least = here[-1] + skip;
+                    from = 1;
+                }
+                if (i > 0) {
+                    double off = 0.5 * (s->log_lambda[i - 1] - at) / tolerance,
+                           both = here[-(n + 2)] + off * off + 0.3 * (1.0 - visible(s, c->branch[j - 1].of));
+                    if (fabs(off) < 1.0 && both < least) {
+                        least = both;
+                        from = 2;
+                    }
+                }
+            }
+            *here = i || j ? least : 0.0;
+            way[i * (n + 1) + j] = (unsigned char)from;
+        }
+    for (int i = m, j = n; i > 0;) {
+        int from = way[i * (n + 1) + j];
+        if (from == 2) {
+            s->match[--i] = c->branch[--j].of;
+        } else if (from == 1) {
+            j--;
+        } else {
+            s->match[--i] = -1;
+        }
+    }
+    arena_close(room);
+}
+
+struct row {                  /* a pair */
+    double off, slope, sigma; /* half of log lambda less log ratio; d log f/d nu; standard error of off */
+};
+
+static int rows(struct work *w, struct row *r)
+{
+    const struct material_problem *p = w->p;
+    int n = 0;
+    for (int k = 0; k < p->sets; k++) {
+        const struct material_set *s = &p->set[k];
+        const struct solid_family *f = &p->object[s->object];
+        const struct spectrum *c = &w->now[s->object];
+        for (int j = 0; j < c->n; j++) {
+            w->log_ratio[c->branch[j].of] = c->branch[j].log_ratio;
+            w->slope[c->branch[j].of] = c->branch[j].slope;
+        }
+        for (int i = 0; i < s->n; i++) {
+            int j = s->match[i];
+            if (j < 0) continue;
+            double mesh = 0.3 * mesh_error(f, j);
+            r[n++] = (struct row){0.5 * (s->log_lambda[i] - w->log_ratio[j]), 0.5 * w->slope[j],
+                                  sqrt(s->error[i] * s->error[i] + p->model_error * p->model_error + mesh * mesh)};
+        }
+    }
+    return n;
+}
+
+struct solution {
+    double log_gamma, nu;
+    double covariance[3]; /* of log gamma, both, nu; by sigma alone */
+    double chi2, weight;  /* with Cauchy's weights, and their sum */
+};
+
+/* One step from (log gamma, nu) over the rows, weighted `times` (NULL: 1 each). */
+static void newton(const struct row *r, int n, const double *times, bool nu_free, struct solution *x)
+{
+    double a = 0.0, b = 0.0, c = 0.0, g = 0.0, h = 0.0;
+    x->chi2 = x->weight = 0.0;
+    for (int i = 0; i < n; i++) {
+        double rest = (r[i].off - 0.5 * x->log_gamma) / r[i].sigma, j = 0.5 / r[i].sigma, k = r[i].slope / r[i].sigma,
+               weight = (times ? times[i] : 1.0) / (1.0 + rest * rest / 4.0);
+        a += weight * j * j;
+        b += weight * j * k;
+        c += weight * k * k;
+        g += weight * j * rest;
+        h += weight * k * rest;
+        x->chi2 += weight * rest * rest;
+        x->weight += weight;
+    }
+    if (!nu_free) {
+        x->covariance[0] = 1.0 / a;
+        x->covariance[1] = x->covariance[2] = 0.0;
+        x->log_gamma += g / a;
+        return;
+    }
+    double tight = 1.0 / (prior_nu[1] * prior_nu[1]);
+    c += tight; /* where frequencies do not say anything of nu it stays where things are */
+    h += tight * (prior_nu[0] - x->nu);
+    double det = a * c - b * b;
+    x->covariance[0] = c / det;
+    x->covariance[1] = -b / det;
+    x->covariance[2] = a / det;
+    x->log_gamma += (c * g - b * h) / det;
+    x->nu = fmin(fmax(x->nu + (a * h - b * g) / det, 0.0), highest_nu);
+}
+
+static bool nu_free(const struct work *w) { return isnan(w->p->poisson) && w->p->object[0].nodes > 1; }
+
+/* Robust cost of the place: of pairs, of measured modes without one, of computed ones that should show. */
+static double cost_of(struct work *w, const struct row *r, int n, const struct solution *x)
+{
+    const double alone = real_log1p(tolerance * tolerance / (4.0 * w->p->model_error * w->p->model_error));
+    double all = 0.0;
+    for (int i = 0; i < n; i++) {
+        double rest = (r[i].off - 0.5 * x->log_gamma) / r[i].sigma;
+        all += real_log1p(rest * rest / 4.0);
+    }
+    for (int k = 0; k < w->p->sets; k++) {
+        const struct material_set *s = &w->p->set[k];
+        const struct spectrum *c = &w->now[s->object];
+        for (int i = 0; i < s->n; i++)
+            all += s->match[i] < 0 ? alone : 0.0;
+        for (int j = 0; j < c->n; j++) {
+            double at = c->branch[j].log_ratio + x->log_gamma;
+            bool found = at > s->log_lambda[s->n - 1] || at < s->log_lambda[0] - 0.5;
+            for (int i = 0; !found && i < s->n; i++)
+                found = s->match[i] == c->branch[j].of;
+            all += found ? 0.0 : spare * alone * visible(s, c->branch[j].of);
+        }
+    }
+    return all;
+}
+
+static int count_modes(const struct material_problem *p)
+{
+    int n = 0;
+    for (int k = 0; k < p->sets; k++)
+        n += p->set[k].n;
+    return n;
+}
+
+/* From a place to where the pairs stay. */
+static double refine(struct work *w, struct solution *x, struct row *r, int *n)
+{
+    const int all = count_modes(w->p);
+    int *last = ARENA_TAKE(w->arena, int, all);
+    for (int round = 0; round < ROUNDS; round++) {
+        bool same = round > 0;
+        spectra(w, x->nu);
+        for (int k = 0, at = 0; k < w->p->sets; at += w->p->set[k++].n) {
+            struct material_set *s = &w->p->set[k];
+            pair(w, x->log_gamma, s);
+            for (int i = 0; i < s->n; i++) {
+                same = same && last[at + i] == s->match[i];
+                last[at + i] = s->match[i];
+            }
+        }
+        *n = rows(w, r);
+        if (*n == 0) return INFINITY;
+        double before = x->log_gamma;
+        for (int i = 0; i < 6; i++) {
+            newton(r, *n, NULL, nu_free(w), x);
+            spectra(w, x->nu);
+            rows(w, r);
+        }
+        if (same && fabs(x->log_gamma - before) < 1e-9) break;
+    }
+    return cost_of(w, r, *n, x);
+}
+
+/* ------------------------------------------------------------------ 3: damping */
+
+static const struct {
+    const char *name;
+    int n;
+    int term[3]; /* 0: 1, 1: lambda, 2: sqrt(lambda); of the first seven */
+    const char *parameter[3], *unit[3];
+} laws[MATERIAL_LAWS] = {
+    {"alpha", 1, {0}, {"alpha"}, {"1/s"}},
+    {"beta", 1, {1}, {"beta"}, {"s"}},
+    {"loss", 1, {2}, {"loss"}, {""}},
+    {"rayleigh", 2, {0, 1}, {"alpha", "beta"}, {"1/s", "s"}},
+    {"alpha_loss", 2, {0, 2}, {"alpha", "loss"}, {"1/s", ""}},
+    {"beta_loss", 2, {1, 2}, {"beta", "loss"}, {"s", ""}},
+    {"alpha_beta_loss", 3, {0, 1, 2}, {"alpha", "beta", "loss"}, {"1/s", "s", ""}},
+    {"power", 2, {0}, {"decay_at_1khz", "exponent"}, {"1/s", ""}},
+    {"zener", 2, {0}, {"strength", "relaxation_time"}, {"", "s"}},
+};
+
+/* log of the decay and its derivatives to the parameters' logarithms (of an exponent: to itself). */
+static double law_log(int law, const double *x, double lambda, double *slope)
+{
+    double w = sqrt(lambda), sum = 0.0, part[3];
+    if (law == MATERIAL_POWER) {
+        double octave = real_log(w / (2000.0 * REAL_PI));
+        slope[0] = 1.0;
+        slope[1] = octave;
+        return x[0] + x[1] * octave;
+    }
+    if (law == MATERIAL_ZENER) {
+        double t = real_exp(x[1]), wt2 = lambda * t * t;
+        slope[0] = 1.0;
+        slope[1] = (1.0 - wt2) / (1.0 + wt2);
+        return x[0] + x[1] + real_log(0.5 * lambda / (1.0 + wt2));
+    }
+    for (int k = 0; k < laws[law].n; k++) {
+        int term = laws[law].term[k];
+        part[k] = 0.5 * real_exp(x[k]) * (term == 0 ? 1.0 : term == 1 ? lambda : w);
+        sum += part[k];
+    }
+    for (int k = 0; k < laws[law].n; k++)
+        slope[k] = part[k] / sum;
+    return real_log(sum);
+}
+
+double material_fit_decay(int law, const double *parameter, double lambda)
+{
+    double x[3] = {0}, slope[3];
+    for (int k = 0; k < laws[law].n; k++)
+        x[k] = law == MATERIAL_POWER && k == 1 ? parameter[k] : real_log(fmax(parameter[k], 1e-300));
+    return real_exp(law_log(law, x, lambda, slope));
+}
+
+struct decay {
+    double log_lambda, log_decay, sigma;
+};
+
+/* a x = b by elimination with pivots; n up to 3. */
+static bool solve(int n, double a[3][3], double *b)
+{
+    for (int k = 0; k < n; k++) {
+        int best = k;
+        for (int i = k + 1; i < n; i++)
+            best = fabs(a[i][k]) > fabs(a[best][k]) ? i : best;
+        if (!(fabs(a[best][k]) > 1e-300)) return false;
+        for (int j = 0; j < n; j++) {
+            double t = a[k][j];
+            a[k][j] = a[best][j];
+            a[best][j] = t;
+        }
+        double t = b[k];
+        b[k] = b[best];
+        b[best] = t;
+        for (int i = k + 1; i < n; i++) {
+            double share = a[i][k] / a[k][k];
+            for (int j = k; j < n; j++)
+                a[i][j] -= share * a[k][j];
+            b[i] -= share * b[k];
+        }
+    }
+    for (int k = n - 1; k >= 0; k--) {
+        for (int j = k + 1; j < n; j++)
+            b[k] -= a[k][j] * b[j];
+        b[k] /= a[k][k];
+    }
+    return true;
+}
+
+/* Soft-L1 cost, 2 (sqrt(1 + r^2) - 1) summed, and its normal equations. */
+static double damping_equations(int law, const double *x, const struct decay *d, int n, const double *times,
+                                double a[3][3], double b[3])
+{
+    double cost = 0.0, slope[3];
+    int m = laws[law].n;
+    memset(a, 0, 9 * sizeof(double));
+    memset(b, 0, 3 * sizeof(double));
+    for (int i = 0; i < n; i++) {
+        double t = times ? times[i] : 1.0,
+               rest = (d[i].log_decay - law_log(law, x, real_exp(d[i].log_lambda), slope)) / d[i].sigma,
+               root = sqrt(1.0 + rest * rest);
+        cost += t * 2.0 * (root - 1.0);
+        for (int k = 0; k < m; k++) {
+            b[k] += t / root * slope[k] / d[i].sigma * rest;
+            for (int l = 0; l < m; l++)
+                a[k][l] += t / root * slope[k] * slope[l] / (d[i].sigma * d[i].sigma);
+        }
+    }
+    return cost;
+}
+
+/* Levenberg and Marquardt from x; returns the cost. */
+static double damping_descend(int law, double *x, const struct decay *d, int n, const double *times)
+{
+    double a[3][3], b[3], step[3], more[3][3], to[3], unused[3][3], none[3], mu = 1e-3;
+    int m = laws[law].n;
+    double cost = damping_equations(law, x, d, n, times, a, b);
+    for (int pass = 0; pass < 60 && mu < 1e8; pass++) {
+        memcpy(more, a, sizeof more);
+        memcpy(step, b, sizeof step);
+        for (int k = 0; k < m; k++)
+            more[k][k] += mu * (a[k][k] + 1e-9);
+        if (!solve(m, more, step)) break;
+        double size = 0.0;
+        for (int k = 0; k < m; k++) {
+            step[k] = fmin(fmax(step[k], -2.0), 2.0);
+            to[k] = x[k] + step[k];
+            size = fmax(size, fabs(step[k]));
+        }
+        double here = damping_equations(law, to, d, n, times, unused, none);
+        if (here <= cost) {
+            memcpy(x, to, (size_t)m * sizeof *x);
+            cost = damping_equations(law, x, d, n, times, a, b);
+            mu *= 0.2;
+            if (size < 1e-7) break;
+        } else
+            mu *= 5.0;
+    }
+    return cost;
+}
+
+/* The best of several starts: each term alone makes the median decay, or a fiftieth of it. */
+static double damping_search(int law, double *x, const struct decay *d, int n)
+{
+    double best = INFINITY, one[3], middle[2],
+           *sorted[2] = {malloc(sizeof(double) * (size_t)n), malloc(sizeof(double) * (size_t)n)};
+    for (int i = 0; i < n; i++) {
+        sorted[0][i] = d[i].log_lambda;
+        sorted[1][i] = d[i].log_decay;
+    }
+    for (int k = 0; k < 2; k++) {
+        gsl_sort(sorted[k], 1, (size_t)n);
+        middle[k] = sorted[k][n / 2];
+        free(sorted[k]);
+    }
+    const int starts = law == MATERIAL_ZENER ? 7 : law == MATERIAL_POWER ? 1 : laws[law].n > 1 ? 1 << laws[law].n : 1;
+    for (int s = 0; s < starts; s++) {
+        for (int k = 0; k < laws[law].n; k++) {
+            int term = laws[law].term[k];
+            one[k] = middle[1] + real_log(2.0) -
+                     (term == 0   ? 0.0
+                      : term == 1 ? middle[0]
+                                  : 0.5 * middle[0]) -
+                     (s >> k & 1 ? real_log(50.0) : 0.0);
+        }
+        if (law == MATERIAL_POWER) {
+            one[0] = middle[1];
+            one[1] = 0.5;
+        } else if (law == MATERIAL_ZENER) {
+            one[1] = -0.5 * middle[0] + s - 3.0; /* w t from e^-3 to e^3 */
+            one[0] = 0.0;
+            double slope[3];
+            one[0] = middle[1] - law_log(law, one, real_exp(middle[0]), slope);
+        }
+        double cost = damping_descend(law, one, d, n, NULL);
+        if (cost < best) {
+            best = cost;
+            memcpy(x, one, sizeof one);
+        }
+    }
+    return best;
+}
+
+static int by_size(const void *x, const void *y)
+{
+    double a = *(const double *)x, b = *(const double *)y;
+    return (a > b) - (a < b);
+}
+
+/* Half widths that hold 95 %: of the covariance, and from draws. */
+static double student(double freedoms) { return gsl_cdf_tdist_Pinv(0.975, fmax(freedoms, 1.0)); }
+
+static double spread_of(double *draw, double value)
+{
+    qsort(draw, DRAWS, sizeof *draw, by_size);
+    return fmax(draw[(int)(0.975 * DRAWS)] - value, value - draw[(int)(0.025 * DRAWS)]);
+}
+
+/* How often each of n is drawn, of n draws. */
+static void resample(int draw, const char *what, int n, double *times)
+{
+    struct noise s = noise_make(1, what);
+    memset(times, 0, (size_t)n * sizeof *times);
+    for (int i = 0; i < n; i++)
+        times[(int)(noise_uniform(s, (uint64_t)draw, (uint64_t)i) * n)] += 1.0;
+}
+
+static void damping_law(int law, const struct decay *d, int n, struct arena *a, struct material_damping *g)
+{
+    struct arena *room = arena_open();
+    const int m = laws[law].n;
+    double x[3] = {0}, square = 0.0, slope[3], matrix[3][3], b[3], *times = ARENA_TAKE(room, double, n),
+           *draws = ARENA_TAKE(room, double, 3 * DRAWS);
+    (void)a;
+    *g = (struct material_damping){.name = laws[law].name, .n = m, .bic = INFINITY};
+    for (int k = 0; k < m; k++) {
+        g->parameter[k] = laws[law].parameter[k];
+        g->unit[k] = laws[law].unit[k];
+        g->figure[k] = (struct material_figure){NAN, NAN, NAN};
+    }
+    if (n > m) {
+        double cost = damping_search(law, x, d, n), birge = sqrt(cost / (n - m));
+        for (int i = 0; i < n; i++) {
+            double rest = d[i].log_decay - law_log(law, x, real_exp(d[i].log_lambda), slope);
+            square += rest * rest;
+        }
+        g->scatter = sqrt(square / n);
+        g->bic = n * real_log(fmax(cost, 1e-300) / n) + m * real_log(n);
+        for (int i = 0; i < DRAWS; i++) {
+            double one[3];
+            memcpy(one, x, sizeof one);
+            resample(i, "damping", n, times);
+            damping_descend(law, one, d, n, times);
+            for (int k = 0; k < m; k++)
+                draws[k * DRAWS + i] = one[k];
+        }
+        for (int k = 0; k < m; k++) {
+            damping_equations(law, x, d, n, NULL, matrix, b);
+            for (int l = 0; l < m; l++) {
+                matrix[l][l] *= 1.0 + 1e-12;
+                b[l] = l == k;
+            }
+            double half = solve(m, matrix, b) ? student(n - m) * birge * sqrt(fmax(b[k], 0.0)) : INFINITY;
+            half = fmax(half, spread_of(draws + k * DRAWS, x[k]));
+            bool log_scale = !(law == MATERIAL_POWER && k == 1);
+            g->figure[k].value = log_scale ? real_exp(x[k]) : x[k];
+            g->figure[k].low = log_scale ? real_exp(x[k] - half) : x[k] - half;
+            g->figure[k].high = log_scale ? real_exp(fmin(x[k] + half, 700.0)) : x[k] + half;
+        }
+    }
+    arena_close(room);
+}
+
+void material_fit_rayleigh(const struct material_fit *f, int law, double damping[3])
+{
+    damping[0] = damping[1] = damping[2] = 0.0;
+    for (int k = 0; law < MATERIAL_POWER && k < laws[law].n; k++)
+        damping[laws[law].term[k]] = f->damping[law].figure[k].value;
+}
+
+static void damping(const struct material_problem *p, struct arena *a, struct material_fit *f)
+{
+    struct decay *d = ARENA_TAKE(a, struct decay, count_modes(p));
+    int n = 0;
+    for (int k = 0; k < p->sets; k++)
+        for (int i = 0; i < p->set[k].n; i++)
+            if (p->set[k].match[i] >= 0)
+                d[n++] = (struct decay){p->set[k].log_lambda[i], real_log(p->set[k].decay[i]),
+                                        fmax(p->set[k].decay_error[i], rough)};
+    f->best = MATERIAL_RAYLEIGH;
+    for (int law = 0; law < MATERIAL_LAWS; law++)
+        damping_law(law, d, n, a, &f->damping[law]);
+    for (int law = 0; law < MATERIAL_POWER; law++)
+        if (f->damping[law].bic < f->damping[f->best].bic) f->best = law;
+}
+
+/* ------------------------------------------------------------------ the whole */
+
+static void figures(struct work *w, const struct row *r, int n, const struct solution *x, struct material_fit *f)
+{
+    const struct material_problem *p = w->p;
+    struct arena *room = arena_open();
+    const bool free_nu = nu_free(w);
+    double *times = ARENA_TAKE(room, double, n), *gamma = ARENA_TAKE(room, double, DRAWS),
+           *nu = ARENA_TAKE(room, double, DRAWS), square = 0.0, mesh = 0.0, t = student(n - 1 - free_nu);
+    int with_mesh = 0;
+    for (int i = 0; i < n; i++) {
+        double rest = r[i].off - 0.5 * x->log_gamma;
+        square += rest * rest;
+    }
+    f->scatter = sqrt(square / n);
+    f->birge = sqrt(x->chi2 / fmax(n - 1 - free_nu, 1));
+    for (int i = 0; i < DRAWS; i++) {
+        struct solution one = *x;
+        resample(i, "modes", n, times);
+        /* rows are linear in nu here: what a draw moves is little */
+        for (int pass = 0; pass < 4; pass++) {
+            struct row *moved = ARENA_TAKE(room, struct row, n);
+            for (int j = 0; j < n; j++) {
+                moved[j] = r[j];
+                moved[j].off -= r[j].slope * (one.nu - x->nu);
+            }
+            newton(moved, n, times, free_nu, &one);
+        }
+        gamma[i] = one.log_gamma;
+        nu[i] = one.nu;
+    }
+    for (int k = 0; k < p->sets; k++)
+        for (int i = 0; i < p->set[k].n; i++)
+            if (p->set[k].match[i] >= 0 && !isnan(p->object[p->set[k].object].error[p->set[k].match[i]])) {
+                mesh += fabs(p->object[p->set[k].object].error[p->set[k].match[i]]);
+                with_mesh++;
+            }
+    mesh = with_mesh ? 0.5 * mesh / with_mesh : 0.0;
+    double half = fmax(t * f->birge * sqrt(x->covariance[0]), spread_of(gamma, x->log_gamma)),
+           half_nu = fmax(t * f->birge * sqrt(x->covariance[2]), spread_of(nu, x->nu)),
+           common = 1.96 * 2.0 * sqrt(p->size_error * p->size_error + mesh * mesh);
+    half = sqrt(half * half + common * common);
+    f->gamma =
+        (struct material_figure){real_exp(x->log_gamma), real_exp(x->log_gamma - half), real_exp(x->log_gamma + half)};
+    f->nu = (struct material_figure){x->nu, x->nu - half_nu, x->nu + half_nu};
+    if (!free_nu) f->nu.low = f->nu.high = NAN;
+    f->correlation = free_nu ? x->covariance[1] / sqrt(x->covariance[0] * x->covariance[2]) : 0.0;
+    f->nu_known = free_nu && half_nu < 0.2;
+    f->nu_at_bound = free_nu && (x->nu <= 0.0 || x->nu >= highest_nu);
+    arena_close(room);
+}
+
+static void warn(struct material_fit *f, struct arena *a, const char *text)
+{
+    f->warning = arena_line(a, f->warning, text);
+}
+
+static void doubt(const struct work *w, struct arena *a, struct material_fit *f)
+{
+    double edge[2] = {real_log(w->p->gamma[0]), real_log(w->p->gamma[1])}, at = real_log(f->gamma.value);
+    f->sure = f->matched >= SURE_MODES && f->unique && !f->nu_at_bound;
+    if (f->matched < SURE_MODES)
+        warn(f, a,
+             arena_format(a, "%d modes match computed ones, and %d are needed for intervals", f->matched, SURE_MODES));
+    if (!f->unique)
+        warn(f, a,
+             arena_format(a,
+                          "not unique: E/density %.4g m^2/s^2 with Poisson's ratio %.3f fits nearly as well (cost %.3g "
+                          "to %.3g); more strikes, another place, or the object's exact sizes may decide",
+                          f->next.gamma, f->next.nu, f->next.cost, f->cost));
+    if (2 * f->matched < f->modes) {
+        f->sure = false;
+        warn(f, a,
+             arena_format(a,
+                          "only %d of %d modes match computed ones: is it this object, held like this, of these sizes?",
+                          f->matched, f->modes));
+    }
+    if (f->nu_at_bound)
+        warn(f, a,
+             arena_format(a, "Poisson's ratio came to the end of what is looked for, %.2f: give --poisson",
+                          f->nu.value));
+    else if (nu_free(w) && !f->nu_known)
+        warn(f, a, "these modes hardly depend on Poisson's ratio: its interval is wide; give --poisson if it is known");
+    if (fabs(at - edge[0]) < 0.01 || fabs(at - edge[1]) < 0.01) {
+        f->sure = false;
+        warn(f, a, "E/density lies at the end of what is looked for; give --gamma");
+    }
+    if (f->birge > 4.0)
+        warn(
+            f, a,
+            arena_format(a,
+                         "matched modes lie %.2g %% (rms) beside computed ones, more than their errors explain: shape, "
+                         "sizes or support differ from the object's",
+                         100.0 * f->scatter));
+    if (!f->sure) {
+        struct material_figure *all[] = {&f->gamma, &f->nu};
+        for (int k = 0; k < 2; k++)
+            all[k]->low = all[k]->high = NAN;
+        for (int law = 0; law < MATERIAL_LAWS; law++)
+            for (int k = 0; k < 3; k++)
+                f->damping[law].figure[k].low = f->damping[law].figure[k].high = NAN;
+    }
+}
+
+static void count_missing(const struct work *w, const struct solution *x, struct material_fit *f)
+{
+    for (int k = 0; k < w->p->sets; k++) {
+        const struct material_set *s = &w->p->set[k];
+        const struct spectrum *c = &w->now[s->object];
+        for (int j = 0; j < c->n; j++) {
+            double at = c->branch[j].log_ratio + x->log_gamma;
+            bool found = at > s->log_lambda[s->n - 1] || at < s->log_lambda[0] || visible(s, c->branch[j].of) < 0.5;
+            for (int i = 0; !found && i < s->n; i++)
+                found = s->match[i] == c->branch[j].of;
+            f->missing += !found;
+        }
+    }
+}
+
+bool material_fit(const struct material_problem *p, struct arena *a, struct material_fit *f, struct err *e)
+{
+    struct arena *room = arena_open();
+    struct work w = {.p = p, .arena = room};
+    struct place place[PLACES];
+    struct solution best = {0};
+    int n = 0, most = 0, all = count_modes(p), best_at = -1;
+    *f = (struct material_fit){.modes = all, .cost = INFINITY, .next.cost = NAN};
+    for (int k = 0; k < p->sets; k++)
+        w.objects = p->set[k].object + 1 > w.objects ? p->set[k].object + 1 : w.objects;
+    w.now = ARENA_TAKE(room, struct spectrum, w.objects);
+    for (int o = 0; o < w.objects; o++) {
+        w.now[o].branch = ARENA_TAKE(room, struct branch, p->object[o].n);
+        most = p->object[o].n > most ? p->object[o].n : most;
+    }
+    w.log_ratio = ARENA_TAKE(room, double, most);
+    w.slope = ARENA_TAKE(room, double, most);
+    struct row *r = ARENA_TAKE(room, struct row, all);
+    struct solution *at = ARENA_TAKE(room, struct solution, PLACES);
+    int places = all >= LEAST_MODES ? scan(&w, place) : 0;
+    for (int k = 0; k < places; k++) {
+        at[k] = (struct solution){.log_gamma = place[k].log_gamma, .nu = place[k].nu};
+        place[k].cost = refine(&w, &at[k], r, &n);
+        if (n >= LEAST_MODES && place[k].cost < f->cost) {
+            f->cost = place[k].cost;
+            best_at = k;
+        }
+    }
+    if (best_at < 0) {
+        arena_close(room);
+        return err_set(
+            e, ERR_SCENE,
+            "of %d modes no %d match those of the object for any E/density from %.3g to %.3g m^2/s^2; are its "
+            "shape and sizes (and units) right?",
+            all, LEAST_MODES, p->gamma[0], p->gamma[1]);
+    }
+    for (int k = 0; k < places; k++)
+        if (fabs(at[k].log_gamma - at[best_at].log_gamma) > apart && !(place[k].cost >= f->next.cost)) {
+            f->next.cost = place[k].cost;
+            f->next.gamma = real_exp(at[k].log_gamma);
+            f->next.nu = at[k].nu;
+        }
+    best = at[best_at];
+    f->cost = refine(&w, &best, r, &n);
+    f->matched = n;
+    f->unique = !(f->next.cost < unlike * f->cost);
+    figures(&w, r, n, &best, f);
+    count_missing(&w, &best, f);
+    damping(p, room, f);
+    doubt(&w, a, f);
+    arena_close(room);
+    return true;
+}

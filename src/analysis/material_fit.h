@@ -1,0 +1,86 @@
+/* What an object is made of, from the modes of its recordings: papers/003 section C, in the domain of features.
+
+   papers/003 looks for alpha, beta, gamma = E/density and a strike's strength at a given Poisson's ratio, by a local
+   search from a guess. Here nu is an unknown too, all of gamma and nu is scanned before anything is refined, and
+   frequencies fix gamma and nu by themselves (eq. 5 and 7): damping is fitted afterwards, by several laws. */
+#ifndef ANALYSIS_MATERIAL_FIT_H
+#define ANALYSIS_MATERIAL_FIT_H
+#include <stdbool.h>
+
+#include "base/arena.h"
+#include "base/err.h"
+#include "fem/solid_family.h"
+
+struct material_set {    /* the modes of one table, of one object */
+    int object, n;       /* n by rising frequency */
+    double *log_lambda;  /* [n] log of lambda = (2 pi f)^2 + d^2, rad^2/s^2 */
+    double *frequency;   /* [n] Hz */
+    double *error;       /* [n] standard error of the frequency, a share of it */
+    double *decay;       /* [n] 1/s */
+    double *decay_error; /* [n] its standard error, a share */
+    double *visible;     /* [modes of the object] 0 to 1: how well its recordings show a mode; NULL: not known */
+    int *match;          /* [n] output: branch of the object's family, -1: of none */
+};
+
+struct material_problem {
+    const struct solid_family *object; /* [objects] */
+    int sets;
+    struct material_set *set;
+    double gamma[2];    /* m^2/s^2, the range that is scanned */
+    double poisson;     /* given; NAN: to be found */
+    double model_error; /* standard error of a computed frequency besides the mesh's, a share */
+    double size_error;  /* standard error of the object's lengths, a share: all together too long or too short */
+};
+
+struct material_figure {
+    double value, low, high; /* and its 95 % interval; NAN: there is none */
+};
+
+enum material_law {                 /* of decay over lambda, w = sqrt(lambda) */
+                    MATERIAL_ALPHA, /* alpha/2 */
+                    MATERIAL_BETA,  /* beta w^2/2 */
+                    MATERIAL_LOSS,  /* loss w/2 */
+                    MATERIAL_RAYLEIGH,
+                    MATERIAL_ALPHA_LOSS,
+                    MATERIAL_BETA_LOSS,
+                    MATERIAL_ALL,   /* (alpha + beta w^2 + loss w)/2 */
+                    MATERIAL_POWER, /* c w^m */
+                    MATERIAL_ZENER, /* strength/2 w^2 t/(1 + w^2 t^2), a standard linear solid */
+                    MATERIAL_LAWS
+};
+
+struct material_damping {
+    const char *name;
+    int n;                    /* parameters */
+    const char *parameter[3]; /* their names */
+    const char *unit[3];
+    struct material_figure figure[3];
+    double bic, scatter; /* scatter: rms of log(decay/law) */
+};
+
+struct material_fit {
+    int modes, matched, missing; /* of all sets; missing: branches that should show and do not, in the sets' bands */
+    struct material_figure gamma, nu;
+    double correlation;    /* of log gamma and nu */
+    double scatter, birge; /* rms of log(f/f_model); root of chi^2 by its freedoms */
+    double cost;           /* robust, of the best place */
+    struct {
+        double gamma, nu, cost;
+    } next; /* the best place elsewhere (gamma by 1 % or more); cost NAN: none */
+    bool unique, nu_at_bound, nu_known;
+    struct material_damping damping[MATERIAL_LAWS];
+    int best;            /* law of the least BIC of those that a scene can have (the first seven) */
+    bool sure;           /* intervals are given: enough matches, unique */
+    const char *warning; /* lines; NULL */
+};
+
+/* ERR_SCENE: less than three modes, or no place at which three match. */
+bool material_fit(const struct material_problem *p, struct arena *a, struct material_fit *f, struct err *e);
+
+/* decay of a law at lambda (rad^2/s^2), 1/s, by its parameters. */
+double material_fit_decay(int law, const double *parameter, double lambda);
+
+/* alpha, beta, loss of one of the first seven laws; 0 where it has none. */
+void material_fit_rayleigh(const struct material_fit *f, int law, double damping[3]);
+
+#endif
