@@ -29,8 +29,9 @@ static const double tolerance = 0.01; /* of frequency: two farther apart are no 
 static const double apart = 0.01;     /* of gamma: another place */
 static const double unlike = 1.2;     /* times the cost: less is not unique */
 static const double highest_nu = 0.45, prior_nu[2] = {0.3, 0.5};
-static const double rough = 0.15; /* of decays: less than that they do not follow any law */
-static const double spare = 0.25; /* cost of a mode that should show and is not there, to that of a pair's leaving */
+static const double unseen = 0.01; /* of a decay: a term that nowhere makes more is none */
+static const double rough = 0.15;  /* of decays: less than that they do not follow any law */
+static const double spare = 0.25;  /* cost of a mode that should show and is not there, to that of a pair's leaving */
 
 /* ------------------------------------------------------------------ computed modes */
 
@@ -78,11 +79,11 @@ static double visible(const struct material_set *s, int branch) { return s->visi
 
 /* ------------------------------------------------------------------ 1: all of gamma and nu */
 
-/* Mean over measured modes, and over computed ones below the highest measured, of the distance to the nearest of the
-   others, as a share of `near`, at most 1. */
+/* Mean over measured modes, and computed ones below the highest measured as far as they are visible, of the distance to
+   the nearest of the others, as a share of `near`, at most 1. */
 static double score(const struct work *w, double log_gamma)
 {
-    double all = 0.0;
+    double all = 0.0, count = 0.0;
     for (int k = 0; k < w->p->sets; k++) {
         const struct material_set *s = &w->p->set[k];
         const struct spectrum *c = &w->now[s->object];
@@ -103,9 +104,10 @@ static double score(const struct work *w, double log_gamma)
             back += share * fmin(0.5 * fabs(s->log_lambda[i] - at) / near, 1.0);
             weight += share;
         }
-        all += there / s->n + (weight > 0.0 ? back / weight : 1.0);
+        all += there + back;
+        count += s->n + weight;
     }
-    return all / w->p->sets;
+    return all / count;
 }
 
 struct place {
@@ -386,7 +388,7 @@ double material_fit_decay(int law, const double *parameter, double lambda)
 }
 
 struct decay {
-    double log_lambda, log_decay, sigma;
+    double lambda, log_decay, sigma;
 };
 
 /* a x = b by elimination with pivots; n up to 3. */
@@ -429,8 +431,7 @@ static double damping_equations(int law, const double *x, const struct decay *d,
     memset(a, 0, 9 * sizeof(double));
     memset(b, 0, 3 * sizeof(double));
     for (int i = 0; i < n; i++) {
-        double t = times ? times[i] : 1.0,
-               rest = (d[i].log_decay - law_log(law, x, real_exp(d[i].log_lambda), slope)) / d[i].sigma,
+        double t = times ? times[i] : 1.0, rest = (d[i].log_decay - law_log(law, x, d[i].lambda, slope)) / d[i].sigma,
                root = sqrt(1.0 + rest * rest);
         cost += t * 2.0 * (root - 1.0);
         for (int k = 0; k < m; k++) {
@@ -478,7 +479,7 @@ static double damping_search(int law, double *x, const struct decay *d, int n)
     double best = INFINITY, one[3], middle[2],
            *sorted[2] = {malloc(sizeof(double) * (size_t)n), malloc(sizeof(double) * (size_t)n)};
     for (int i = 0; i < n; i++) {
-        sorted[0][i] = d[i].log_lambda;
+        sorted[0][i] = real_log(d[i].lambda);
         sorted[1][i] = d[i].log_decay;
     }
     for (int k = 0; k < 2; k++) {
@@ -542,7 +543,7 @@ static void damping_law(int law, const struct decay *d, int n, struct arena *a, 
 {
     struct arena *room = arena_open();
     const int m = laws[law].n;
-    double x[3] = {0}, square = 0.0, slope[3], matrix[3][3], b[3], *times = ARENA_TAKE(room, double, n),
+    double x[3] = {0}, most[3] = {0}, square = 0.0, slope[3], matrix[3][3], b[3], *times = ARENA_TAKE(room, double, n),
            *draws = ARENA_TAKE(room, double, 3 * DRAWS);
     (void)a;
     *g = (struct material_damping){.name = laws[law].name, .n = m, .bic = INFINITY};
@@ -554,8 +555,10 @@ static void damping_law(int law, const struct decay *d, int n, struct arena *a, 
     if (n > m) {
         double cost = damping_search(law, x, d, n), birge = sqrt(cost / (n - m));
         for (int i = 0; i < n; i++) {
-            double rest = d[i].log_decay - law_log(law, x, real_exp(d[i].log_lambda), slope);
+            double rest = d[i].log_decay - law_log(law, x, d[i].lambda, slope);
             square += rest * rest;
+            for (int k = 0; k < m; k++)
+                most[k] = fmax(most[k], slope[k]); /* of a sum each one's share of the decay */
         }
         g->scatter = sqrt(square / n);
         g->bic = n * real_log(fmax(cost, 1e-300) / n) + m * real_log(n);
@@ -576,6 +579,10 @@ static void damping_law(int law, const struct decay *d, int n, struct arena *a, 
             double half = solve(m, matrix, b) ? student(n - m) * birge * sqrt(fmax(b[k], 0.0)) : INFINITY;
             half = fmax(half, spread_of(draws + k * DRAWS, x[k]));
             bool log_scale = !(law == MATERIAL_POWER && k == 1);
+            if (law < MATERIAL_POWER && most[k] < unseen) {
+                g->figure[k].value = 0.0; /* and there is no interval: the others do without it */
+                continue;
+            }
             g->figure[k].value = log_scale ? real_exp(x[k]) : x[k];
             g->figure[k].low = log_scale ? real_exp(x[k] - half) : x[k] - half;
             g->figure[k].high = log_scale ? real_exp(fmin(x[k] + half, 700.0)) : x[k] + half;
@@ -598,7 +605,7 @@ static void damping(const struct material_problem *p, struct arena *a, struct ma
     for (int k = 0; k < p->sets; k++)
         for (int i = 0; i < p->set[k].n; i++)
             if (p->set[k].match[i] >= 0)
-                d[n++] = (struct decay){p->set[k].log_lambda[i], real_log(p->set[k].decay[i]),
+                d[n++] = (struct decay){real_exp(p->set[k].log_lambda[i]), real_log(p->set[k].decay[i]),
                                         fmax(p->set[k].decay_error[i], rough)};
     f->best = MATERIAL_RAYLEIGH;
     for (int law = 0; law < MATERIAL_LAWS; law++)

@@ -175,7 +175,7 @@ static void level_read(const struct design_reading *r)
         return;
     }
     const struct key *k = keys_find(arena_format(r->arena, "output.level.%s", names[i]));
-    struct scene_part part = {r->yaml, r->root, "", KEY_SCENE, NULL};
+    struct scene_part part = {r->yaml, r->root, "", KEY_SCENE, NULL, NULL};
     scene_values_number(&part, k, value, arena_format(r->arena, "level.%s.%s", word, names[i]), fields[i]);
 }
 
@@ -196,7 +196,7 @@ static void length_read(const struct design_reading *r)
         design_reading_must(r, node, "length", "longest, own or a time", "write for instance: length: 2 s");
         return;
     }
-    struct scene_part part = {r->yaml, r->root, "", KEY_SCENE, NULL};
+    struct scene_part part = {r->yaml, r->root, "", KEY_SCENE, NULL, NULL};
     scene_values_number(&part, keys_find("output.duration"), node, "length", &d->length);
 }
 

@@ -95,7 +95,7 @@ static bool leaf_add(const struct design_reading *r, struct design_change *c, co
         struct arena *own = arena_open(); /* some kilobytes, for each of perhaps thousands of levels */
         void *to = k->of == KEY_CONTACT ? (void *)params_contacts(own, 1) : ARENA_TAKE(own, struct scene, 1);
         int n = (int)(keys_text_plain(key->text) - key->text); /* "contacts.rod." */
-        struct scene_part part = {r->yaml, r->root, arena_format(own, "%.*s", n, key->text), k->of, to};
+        struct scene_part part = {r->yaml, r->root, arena_format(own, "%.*s", n, key->text), k->of, to, NULL};
         bool good = scene_values_read(&part, k, value);
         arena_close(own);
         if (!good) return false;

@@ -210,6 +210,17 @@ void cmd_print(FILE *f)
 
 /* ------------------------------------------------------------------ man rasp(1) */
 
+/* A full stop ends a sentence and so a line, as mdoc asks for. */
+static void put_sentences(FILE *f, const char *text)
+{
+    for (const char *p = text; *p; p++) {
+        bool ends = *p == '.' && p[1] == ' ';
+        fputc(*p, f);
+        if (ends) fputc('\n', f);
+        p += ends;
+    }
+}
+
 void cmd_print_man(FILE *f)
 {
     struct arena *a = arena_open();
@@ -217,12 +228,10 @@ void cmd_print_man(FILE *f)
         if ((*m)->group) fprintf(f, "%s.Ss %s\n.Bl -tag -width Ds\n", m == cmd_table ? "" : ".El\n", (*m)->group);
         fprintf(f, ".It Nm Cm %s Oo Ar OPTION Oc ...%s%s\n%c%s.\n", (*m)->name, *(*m)->operands ? " " : "",
                 (*m)->operands, toupper((unsigned char)(*m)->summary[0]), (*m)->summary + 1);
-        /* A full stop ends a sentence and so a line, as mdoc asks for. */
-        for (const char *p = (*m)->does; *p; p++) {
-            bool ends = *p == '.' && p[1] == ' ';
-            fputc(*p, f);
-            if (ends) fputc('\n', f);
-            p += ends;
+        put_sentences(f, (*m)->does);
+        if ((*m)->also) {
+            fputc('\n', f);
+            put_sentences(f, (*m)->also);
         }
         fputs("\n.Bl -tag -width Ds\n", f);
         for (const struct args_option *o = cmd_options(*m, a); o->name; o++) {
@@ -260,6 +269,7 @@ void cmd_print_help(const struct command *m)
     }
     printf("\nUsage: rasp %s [OPTION]...%s%s\n\n", m->name, *m->operands ? " " : "", m->operands);
     text_wrap(stdout, m->does, 0, "");
+    if (m->also) text_wrap(stdout, m->also, 0, "");
     printf("\nOptions:\n");
     struct arena *a = arena_open();
     for (const struct args_option *o = cmd_options(m, a); o->name; o++)

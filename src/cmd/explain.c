@@ -13,6 +13,7 @@
 #include "scene/keys_text.h"
 #include "scene/keys_yaml.h"
 #include "scene/params.h"
+#include "scene/scene_materials.h"
 #include "scene/scene_write.h"
 #include "scene/units.h"
 
@@ -91,6 +92,8 @@ static json_t *of_dimension(const struct key *k, struct arena *a)
                     k->type == KEY_TIME_OR_AUTO ? "auto" : NULL, a);
 }
 
+static const char material_name[] = "^[A-Za-z_][A-Za-z0-9_]*$"; /* of a scene's own */
+
 static json_t *typed(const struct key *k, struct arena *a)
 {
     switch (k->type) {
@@ -125,7 +128,8 @@ static json_t *typed(const struct key *k, struct arena *a)
         const char *words[64] = {NULL};
         for (int i = 0; i < 63 && k->choices[i].word; i++)
             words[i] = k->choices[i].word;
-        return one_of(words);
+        if (!scene_materials_key(k)) return one_of(words);
+        return json_pack("{s:[o, {s:s, s:s}]}", "anyOf", one_of(words), "type", "string", "pattern", material_name);
     }
     }
     return json_object();
@@ -206,6 +210,20 @@ static void add_keys(json_t *properties, enum key_struct of, struct arena *a)
     }
 }
 
+/* An entry's numbers have the ranges of the object's keys of their names. */
+static json_t *own_materials(struct arena *a)
+{
+    static const char *const numbers[] = {"youngs_modulus", "poisson", "density", "alpha", "beta", "loss", NULL};
+    json_t *entry = json_object(), *all = map(json_object(), frame_meaning("materials"));
+    for (const char *const *n = numbers; *n; n++)
+        json_object_set_new(entry, *n, of_dimension(keys_find(arena_format(a, "surface.object.%s", *n)), a));
+    json_object_set_new(entry, "wave_speed", quantity(KEY_SPEED, 1, 1e5, false, NULL, a));
+    json_object_set_new(entry, "like", plain("text", NULL));
+    json_object_set_new(entry, "source", plain("text", NULL));
+    json_object_set_new(all, "patternProperties", json_pack("{s:o}", material_name, map(entry, NULL)));
+    return all;
+}
+
 static json_t *schema_scene(struct arena *a)
 {
     json_t *contact = json_object(), *all = json_object();
@@ -219,6 +237,7 @@ static json_t *schema_scene(struct arena *a)
                                   "pattern", "^[0-9a-f]{64}$"),
                         NULL);
     json_object_set_new(entry, "required", json_pack("[s]", "file"));
+    json_object_set_new(all, "materials", own_materials(a));
     json_object_set_new(all, "inputs", list(entry, 0, 1000000, frame_meaning("inputs")));
     return json_pack("{s:s, s:s, s:s, s:s, s:o, s:b, s:o}", "$schema", "https://json-schema.org/draft/2020-12/schema",
                      "title", "a scene of rasp", "description",
@@ -243,8 +262,9 @@ static json_t *settings(struct arena *a)
                             keys_find(*names) && !strchr(*names, '.') ? key_value(keys_find(*names), a)
                                                                       : ref(arena_format(a, "%s%s", to, rest)));
     }
-    for (const char *const *own = (const char *const[]){"rasp", "seed", "include", "inputs", "contacts", NULL}; *own;
-         own++)
+    for (const char *const *own =
+             (const char *const[]){"rasp", "seed", "include", "inputs", "contacts", "materials", NULL};
+         *own; own++)
         json_object_del(all, *own);
     json_t *o =
         map(all,

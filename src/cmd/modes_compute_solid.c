@@ -15,6 +15,7 @@
 #include "num/real.h"
 #include "scene/keys.h"
 #include "scene/keys_text.h"
+#include "scene/scene_materials.h"
 #include "scene/units.h"
 
 static const double usual_size = 3, usual_mass = 1000, slowest = 2, fastest = 20000; /* m, kg, m/s */
@@ -99,12 +100,43 @@ static bool read_mesh(struct compute *k, struct err *e)
 
 /* ------------------------------------------------------------------ material */
 
+/* FILE.yaml or FILE.yaml:NAME, an entry of the `materials` of a scene or of a file for one. */
+static bool entry_of_file(struct compute *k, const char *word, struct err *e)
+{
+    struct arena *a = k->c->arena;
+    char *file = arena_text(a, word), *name = strstr(file, ".yaml:");
+    struct yaml *y = yaml_open(a);
+    struct scene s = {0};
+    if (name) {
+        name += 5;
+        *name++ = '\0';
+    }
+    const struct diag_source *source = yaml_bytes_read(y, file, (struct diag_place){0});
+    const struct yaml_node *root = source ? yaml_parse(y, source) : NULL,
+                           *map = root ? yaml_get(root, "materials") : NULL;
+    if (root && !map) return err_set(e, ERR_SCENE, "--material: %s has no materials", file);
+    scene_materials_read(y, map, &s);
+    if (y->diag->n) return err_set(e, y->missing ? ERR_INPUT : ERR_SCENE, "--material: %s", diag_first(y->diag));
+    for (int i = 0; i < s.n_materials; i++)
+        if (name ? !strcmp(name, s.materials[i].m.name) : s.n_materials == 1) k->material.named = &s.materials[i].m;
+    const struct material *m = k->material.named;
+    if (!m)
+        return err_set(e, ERR_USAGE,
+                       name ? "--material: %s has no material '%s'"
+                            : "--material: %s has several materials: write %s:NAME",
+                       file, name ? name : file);
+    return !isnan(m->youngs_modulus) ||
+           err_set(e, ERR_USAGE, "--material: '%s' has a wave_speed and no density: give it a density in %s", m->name,
+                   file);
+}
+
 bool modes_compute_solid_named(struct compute *k, struct err *e)
 {
     const char *word = args_value(&k->c->args, "material"), *names[64] = {NULL};
     int n = 0;
     k->material.named = NULL;
     if (!word) return true;
+    if (strstr(word, ".yaml")) return entry_of_file(k, word, e);
     for (const struct material *m = material_table; m->name && n < 63; m++) {
         names[n++] = m->name;
         if (!strcmp(word, m->name)) k->material.named = m;

@@ -200,7 +200,6 @@ static bool read_options(struct job *j, struct err *e)
             return err_set(e, ERR_USAGE, "--name: rasp has a material '%s'; give another name", j->name);
     j->poisson = NAN;
     j->model_error = 1e-3;
-    j->modes = 100;
     if (!read_range(j, e) || !args_number(g, "poisson", ratios, &j->poisson, e) ||
         !args_whole(g, "modes", counts, &j->modes, e) || !share(j, "model-error", &j->model_error, e) ||
         !share(j, "size-error", &j->size_error, e))
@@ -282,6 +281,15 @@ static bool read_places(struct job *j, struct err *e)
     return true;
 }
 
+/* More than the strikes show: not all modes are struck, and those above the highest may be its neighbours. */
+static long modes_needed(const struct job *j, int o)
+{
+    long most = 0;
+    for (int i = 0; i < j->strikes; i++)
+        if (j->set[i].object == o && (long)j->strike[i].table.modes > most) most = (long)j->strike[i].table.modes;
+    return j->modes ? j->modes : 20 + most + most / 2;
+}
+
 static bool compute_family(struct job *j, int o, struct err *e)
 {
     struct thing *t = &j->thing[o];
@@ -291,7 +299,7 @@ static bool compute_family(struct job *j, int o, struct err *e)
                                    .fixed = t->solid.fixed,
                                    .n_fixed = t->solid.n_fixed,
                                    .order = (int)t->solid.order,
-                                   .most = (int)j->modes,
+                                   .most = (int)modes_needed(j, o),
                                    .point = t->point,
                                    .points = t->points};
     if (j->wood) {
@@ -462,7 +470,8 @@ static void write_material(FILE *f, const struct job *j)
     const struct material_fit *t = &j->fit;
     struct arena *a = j->c->arena;
     double damping[3];
-    struct material_figure gamma = t->gamma, e = times(&t->gamma, j->density);
+    struct material_figure e = times(&t->gamma, j->density),
+                           speed = {sqrt(t->gamma.value), sqrt(t->gamma.low), sqrt(t->gamma.high)};
     fprintf(f, "# A material by rasp modes material: include this file in a scene and write material: %s\n", j->name);
     for (int o = 0; o < j->n; o++)
         fprintf(f, "# object %d: %s, %.6g m^3\n", o + 1, text_shown(a, j->thing[o].text),
@@ -478,7 +487,7 @@ static void write_material(FILE *f, const struct job *j)
         fprintf(f, "# warning: %s\n", line);
     fprintf(f, "materials:\n  %s:\n", j->name);
     if (isnan(j->density))
-        put(f, "youngs_modulus_per_density", &gamma, "m^2/s^2");
+        put(f, "wave_speed", &speed, "m/s"); /* sqrt(E/density) */
     else {
         put(f, "youngs_modulus", &e, "Pa");
         fprintf(f, "    density: %.6g kg/m^3\n", j->density);

@@ -18,7 +18,7 @@
 /* (1 - nu^2) / E, 1/Pa; NAN: not known. */
 static double compliance(const struct object_given *o)
 {
-    const struct material *m = material_find(o->material);
+    const struct material *m = material_given(o);
     double youngs = o->youngs_modulus, across = o->youngs_modulus_across, poisson = o->poisson;
     if (m) {
         across = isnan(across) && isnan(youngs) ? m->across : across;
@@ -62,7 +62,7 @@ bool hertz_unit(const struct yaml_node *node, bool linear)
 static bool is_elastic(const struct scene_part *p, const char *body, const struct object_given *o)
 {
     struct arena *a = p->yaml->arena;
-    return o->material != MATERIAL_CUSTOM || !scene_part_known(p, arena_format(a, "%s.material", body)) ||
+    return material_given(o) || !scene_part_known(p, arena_format(a, "%s.material", body)) ||
            (scene_part_given(p, arena_format(a, "%s.object.youngs_modulus", body)) &&
             scene_part_given(p, arena_format(a, "%s.object.poisson", body)));
 }

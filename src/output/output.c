@@ -122,7 +122,7 @@ static void audible_check(const struct scene_part *p, struct yaml_node *root, co
 {
     const struct contact *c = p->to;
     const struct output *o = &s->output;
-    const struct scene_part top = {p->yaml, root, "", KEY_SCENE, (void *)s};
+    const struct scene_part top = {p->yaml, root, "", KEY_SCENE, (void *)s, s};
     const char *needs = o->listen.given ? lacks(&o->listen, &c->surface.response) : NULL,
                *name = scene_part_contact(p, c->name);
     const char *radiator = "output.listen.radiator", *quantity = "output.quantity", *file = c->surface.response.file;

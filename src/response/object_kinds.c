@@ -89,7 +89,7 @@ const struct object_body *object_kinds_body(const struct object_given *given, co
 {
     struct object_body *b = ARENA_TAKE(a, struct object_body, 1);
     struct object_given *copy = ARENA_TAKE(a, struct object_given, 1);
-    const struct material *m = material_find(given->material);
+    const struct material *m = material_given(given);
     *copy = *given;
     *b = (struct object_body){
         .given = copy, .key = arena_text(a, key), .density = given_or(given->density, m ? m->density : NAN)};

@@ -14,6 +14,12 @@ const struct keys_text_frame keys_text_frames[] = {
     {"contacts", "list of contacts",
      "several contacts, whose sounds add up: each entry holds a name and what else stands at the top level of a "
      "scene with one (surface, scraper, motion, ...)"},
+    {"materials", "map of names",
+     "materials of the scene's own, which material of a body takes by name: each a map of youngs_modulus (or "
+     "wave_speed, "
+     "sqrt(youngs_modulus/density), where the density is not known), poisson (or like: a wood, whose ratios of moduli "
+     "it "
+     "keeps), density, alpha, beta, loss, source; rasp modes material writes such entries"},
     {"accuracy", "draft, standard, high, reference, or a map",
      "how much time is spent on accuracy: a preset, or a map of preset, error and single knobs"},
     {"accuracy.error", "number, dB, -240 to below 0",

@@ -21,6 +21,11 @@ const struct material *material_find(int name)
     return name > MATERIAL_CUSTOM && name <= MATERIAL_ALUMINIUM ? &material_table[name - MATERIAL_CUSTOM - 1] : NULL;
 }
 
+const struct material *material_given(const struct object_given *o)
+{
+    return o->own ? o->own : material_find(o->material);
+}
+
 double material_decay(double alpha, double beta, double loss, double w)
 {
     return 0.5 * (alpha + w * (loss + beta * w));

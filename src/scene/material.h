@@ -20,6 +20,9 @@ struct material {
 /* NULL for MATERIAL_CUSTOM. */
 const struct material *material_find(int name);
 
+/* Of a body: the scene's own material that it names, else that of its word. */
+const struct material *material_given(const struct object_given *o);
+
 /* All of them; ends with a NULL name. */
 extern const struct material material_table[];
 

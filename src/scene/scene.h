@@ -82,10 +82,14 @@ struct file_cache;
 
 /* ------------------------------------------------------------------ one contact */
 
+struct material;
+struct scene_material;
+
 struct object_given { /* an object of simple shape, whose modes are closed forms: response/object.h */
     bool given;
     int shape, edges, waves;      /* enum object_shape, object_edges, object_waves                     */
     int material;                 /* enum material_name: what the figures below are where they are NAN */
+    const struct material *own;   /* one of the scene's own materials, in place of that; NULL: none   */
     double length, width;         /* m, along x and y                                                  */
     double thickness;             /* m; of a rod its wall's, NAN: solid                                */
     double diameter;              /* m                                                                 */
@@ -313,6 +317,8 @@ struct scene {
     int n_contacts;
     struct output output;
     struct accuracy accuracy;
+    const struct scene_material *materials; /* its own (scene/scene_materials.h)                   */
+    int n_materials;
     struct input *inputs; /* pinned hashes of an effective scene                               */
     int n_inputs;
     bool inputs_known; /* they are as these hashes say, whatever the files hold by now          */

@@ -80,7 +80,7 @@ void scene_part_refuse(const struct scene_part *p, const char *path, const char 
 
 enum { NAMES_MAX = 64, DEEP_MAX = 256 };
 
-static const char *const top_names[] = {"include", "contacts", "accuracy", "inputs", NULL};
+static const char *const top_names[] = {"include", "contacts", "materials", "accuracy", "inputs", NULL};
 
 struct walk {
     struct yaml *y;

@@ -11,6 +11,7 @@ struct scene_part {
     const char *prefix; /* of key names in messages: "", or "contacts.rod." */
     enum key_struct of;
     void *to; /* struct scene or struct contact */
+    const struct scene *scene; /* whose own materials are known; NULL: any name of one may be meant */
 };
 
 /* A key's name in messages. */

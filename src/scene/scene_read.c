@@ -10,6 +10,7 @@
 #include "scene/accuracy.h"
 #include "scene/keys.h"
 #include "scene/params.h"
+#include "scene/scene_materials.h"
 #include "scene/scene_merge.h"
 #include "scene/scene_part.h"
 #include "scene/scene_places.h"
@@ -130,7 +131,7 @@ static const char *name_of(const struct yaml_node *map)
    known to be missing. */
 static void contact_read(const struct tree *t, struct yaml_node *map, const char *prefix, int errors, struct contact *c)
 {
-    struct scene_part part = {t->yaml, map, prefix, KEY_CONTACT, c};
+    struct scene_part part = {t->yaml, map, prefix, KEY_CONTACT, c, t->scene};
     const struct params *own;
     const char *name = name_of(map);
     if (name && *name && !is_name(name))
@@ -138,6 +139,7 @@ static void contact_read(const struct tree *t, struct yaml_node *map, const char
                  "a contact's name must be of letters, digits and _, and must not start with a digit, not '%s'",
                  diag_shown(t->yaml->diag, name));
     scene_part_fill(&part);
+    scene_materials_assign(&part, t->scene, c);
     scene_places_note(&part, c->name, t->scene);
     for (int i = 0; (own = stages_params(i)); i++)
         if (own->derive) own->derive(c, (char *)params_block(c) + params_at(own));
@@ -205,10 +207,11 @@ static void check_scene(const struct scene_part *top, bool contacts)
 
 static void tree_read(struct yaml *y, struct yaml_node *root, struct scene *s)
 {
-    struct scene_part top = {y, root, "", KEY_SCENE, s};
+    struct scene_part top = {y, root, "", KEY_SCENE, s, s};
     scene_part_fill(&top);
     scene_places_note(&top, NULL, s);
     check_scene(&top, false);
+    scene_materials_read(y, yaml_get(root, "materials"), s);
     contacts_read(y, root, s);
     const struct yaml_node *accuracy = yaml_get(root, "accuracy"), /* its knobs are no rows of keys.def */
         *map = accuracy && accuracy->kind == YAML_MAP ? accuracy : NULL, *at = map ? map->key : accuracy;

@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "file/yaml.h"
+#include "scene/scene_materials.h"
 #include "scene/scene_merge.h"
 #include "scene/units.h"
 
@@ -337,6 +338,20 @@ static bool choice_set(const struct value *v)
     for (; v->key->choices[n].word && n < 31; n++) {
         words[n] = v->key->choices[n].word;
         all = arena_format(y->arena, "%s%s%s", all, n ? ", " : "", words[n]);
+    }
+    const struct scene *s = v->part->scene;
+    for (int k = 0; scene_materials_key(v->key) && s && k < s->n_materials; k++) {
+        const char *own = s->materials[k].m.name;
+        all = arena_format(y->arena, "%s, %s", all, own);
+        if (n < 31) words[n++] = own;
+        if (v->node->kind == YAML_SCALAR && !strcmp(own, v->node->text)) {
+            *(int *)v->field = MATERIAL_CUSTOM; /* scene_materials_assign */
+            return true;
+        }
+    }
+    if (scene_materials_key(v->key) && !s && v->node->kind == YAML_SCALAR && *v->node->text) {
+        *(int *)v->field = MATERIAL_CUSTOM;
+        return true;
     }
     const char *former = v->node->kind == YAML_SCALAR ? keys_former(v->key->path, v->node->text) : NULL;
     if (former) return diag_add(y->diag, v->node->at, former, "%s: %s is no longer there", v->label, v->node->text);

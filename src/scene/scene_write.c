@@ -15,6 +15,7 @@
 #include "scene/keys.h"
 #include "scene/keys_yaml.h"
 #include "scene/params.h"
+#include "scene/scene_materials.h"
 
 /* ------------------------------------------------------------------ inputs */
 
@@ -102,6 +103,8 @@ static const char *text(const struct key *k, const void *owner) { return *(const
 
 static const char *word(const struct key *k, const void *owner)
 {
+    const char *own = k->of == KEY_CONTACT ? scene_materials_name(k, owner) : NULL;
+    if (own) return own;
     return k->choices[*(const int *)keys_field(k, owner)].word;
 }
 
@@ -266,6 +269,7 @@ const char *scene_write(const struct scene *s, const char *beside, struct arena 
     for (const struct key_knob *k = keys_knobs; k->name; k++)
         fprintf(w.f, "  %s: %s\n", k->name,
                 keys_yaml_number(*(const double *)((const char *)&s->accuracy + k->offset), a));
+    scene_materials_write(w.f, s, a);
     inputs_write(w.f, s, beside, a);
     memory_stream_end(w.f, &memory);
     const char *copy = arena_text(a, memory);

@@ -17,7 +17,7 @@
 
 static double density(const struct object_given *o)
 {
-    const struct material *m = material_find(o->material);
+    const struct material *m = material_given(o);
     return !isnan(o->density) || !m ? o->density : m->density;
 }
 
@@ -101,7 +101,7 @@ void contact_derive(struct contact *c, void *own)
 /* What the mass lacks, with an example of the cure; NULL: it is not the mass. */
 static const char *mass_lacks(const struct scene_part *p, const struct ball *b)
 {
-    bool of_material = b->response.object.material != MATERIAL_CUSTOM || !isnan(b->response.object.density);
+    bool of_material = material_given(&b->response.object) || !isnan(b->response.object.density);
     if (b->body == BODY_HOOP || b->body == BODY_WHEEL)
         return ": what a hoop or a wheel weighs does not follow from its radius";
     if (b->body == BODY_HOLLOW && !scene_part_given(p, "ball.wall"))
