@@ -342,15 +342,19 @@ static int by_frequency(const void *x, const void *y)
 static void read_errors(const struct strike *s, const char *mode, int slope, double strikes, struct arena *a,
                         struct measured *m)
 {
+    static const char *const words[] = {"frequency_hz se ", "se_between ", "decay_per_s se ", "se_between "};
     const char *text = csv_comment(&s->table.csv, arena_format(a, "error %s.%d", mode, slope));
-    double f[2], d[2];
+    double x[4];
     m->error = 2e-4;
     m->decay_error = 0.05;
-    if (!text || sscanf(text, "frequency_hz se %lg se_between %lg, decay_per_s se %lg se_between %lg", &f[0], &f[1],
-                        &d[0], &d[1]) != 4)
-        return;
-    m->error = sqrt(f[0] * f[0] + f[1] * f[1] / strikes) / m->frequency;
-    m->decay_error = sqrt(d[0] * d[0] + d[1] * d[1] / strikes) / m->decay;
+    for (int k = 0; k < 4; k++) {
+        text = text ? strstr(text, words[k]) : NULL;
+        if (!text) return;
+        x[k] = strtod(text + strlen(words[k]), NULL);
+        text += strlen(words[k]);
+    }
+    m->error = sqrt(x[0] * x[0] + x[1] * x[1] / strikes) / m->frequency;
+    m->decay_error = sqrt(x[2] * x[2] + x[3] * x[3] / strikes) / m->decay;
 }
 
 static void read_modes(const struct job *j, const struct strike *s, struct material_set *set)

@@ -180,7 +180,7 @@ void scene_materials_assign(const struct scene_part *p, const struct scene *s, s
             own->m.youngs_modulus = o->density * t->wave_speed * t->wave_speed;
             moduli(own);
             o->own = &own->m;
-            if (isnan(o->density) && o->given)
+            if (isnan(o->density) && o->given && !isnan(t->wave_speed))
                 scene_part_missing(p, arena_format(a, "%.*s.object.density", (int)strcspn(keys[i], "."), keys[i]),
                                    "2500 kg/m^3",
                                    arena_format(a, ": the material '%s' has a wave_speed and no density", t->m.name));

@@ -70,7 +70,7 @@ def mutants(scene):
         elif isinstance(node, (int, float)):
             yield path, "nonsense"
         elif isinstance(node, list) and node and path[-1] not in ("contacts", "include", "inputs"):
-            yield path, "nonsense"
+            yield path, "no word"
             yield path, []
 
 tried = 0
