@@ -64,13 +64,13 @@ def mutants(scene):
         if isinstance(node, dict) and path[:1] != ("inputs",):
             yield path + ("nonsense",), 1
         elif isinstance(node, str) and path[-1] not in ("title", "file", "name", "recipe", "height_map", "response", "sha256") and path[0] != "include":
-            yield path, "nonsense"
+            yield path, "no word" if path[-1] == "material" else "nonsense" # a material may be one of the scene's own
             if node[0].isdigit():
                 yield path, node.split()[0] + " furlongs"
         elif isinstance(node, (int, float)):
             yield path, "nonsense"
         elif isinstance(node, list) and node and path[-1] not in ("contacts", "include", "inputs"):
-            yield path, "no word"
+            yield path, "nonsense"
             yield path, []
 
 tried = 0
