@@ -527,7 +527,6 @@ static const struct params coupled_params = {
     .derive = coupled_derive,
     .check = coupled_check,
     .given = rolls,
-    .shown = true,
 };
 
 const struct roll_coupled *roll_coupled_of(const struct contact *c) { return params_of(c, &coupled_params); }

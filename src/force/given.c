@@ -71,7 +71,6 @@ static const struct params given_params = {
     .keys = keys,
     .check = check,
     .given = is_given,
-    .shown = true,
 };
 
 static const struct given_force *given_of(const struct contact *c) { return params_of(c, &given_params); }

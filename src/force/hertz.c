@@ -120,7 +120,6 @@ const struct params hertz_params = {
     .keys = keys,
     .check = unit_check,
     .given = contact_rolls,
-    .shown = true,
 };
 
 const struct hertz *hertz_of(const struct contact *c) { return params_of(c, &hertz_params); }

@@ -270,7 +270,6 @@ const struct params impact_law_params = {
     .keys = keys,
     .check = check,
     .given = draws_impacts,
-    .shown = true,
 };
 
 const struct impacts *impact_law_given(const struct contact *c) { return params_of(c, &impact_law_params); }

@@ -220,7 +220,7 @@ static const struct key keys[] = {{ROW_NUMBER(playback_given, stiffness, "contac
 static bool plays(const struct contact *c) { return c->contact.model == CONTACT_PLAYBACK; }
 
 static const struct params playback_params = {
-    .section = "contact.playback", .size = sizeof(struct playback_given), .keys = keys, .given = plays, .shown = true};
+    .section = "contact.playback", .size = sizeof(struct playback_given), .keys = keys, .given = plays};
 
 static double playback_work(const struct contact *c, const struct scene *s) { return 90 * path_cells_work(c, s); }
 

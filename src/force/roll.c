@@ -715,7 +715,6 @@ static const struct params roll_params = {
     .derive = roll_derive,
     .check = roll_check,
     .given = rolls,
-    .shown = true,
 };
 
 const struct roll *roll_of(const struct contact *c) { return params_of(c, &roll_params); }

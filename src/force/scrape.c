@@ -128,7 +128,7 @@ static const struct key keys[] = {
     {.path = NULL}};
 
 static const struct params scrape_params = {
-    .section = "contact.force", .size = sizeof(struct scrape_law), .keys = keys, .shown = true};
+    .section = "contact.force", .size = sizeof(struct scrape_law), .keys = keys};
 
 const struct scrape_law *scrape_law(const struct contact *c) { return params_of(c, &scrape_params); }
 

@@ -112,7 +112,6 @@ static const struct params smooth_params = {
     .derive = smooth_derive,
     .check = smooth_check,
     .given = smooth_model,
-    .shown = true,
 };
 
 static double smooth_width(const struct contact *c)

@@ -113,7 +113,6 @@ static const struct params strike_params = {
     .keys = keys,
     .check = check,
     .given = strikes,
-    .shown = true,
 };
 
 static const struct strike *strike_of(const struct contact *c) { return params_of(c, &strike_params); }

@@ -69,15 +69,18 @@ static const struct key_alternative alternatives[] = {
 
 static struct keys all;
 
-/* Do the effect's rows stand at STAGES(map)? They go to the first place whose map they are in. */
-static bool is_here(const struct params *p, const char *map)
+/* The longest of the places among rows, and from there on in those of all params, that `section` is in; NULL: none. */
+static const char *place_of(const char *section)
 {
-    const struct key *k = rows;
-    for (; k->path; k++) {
-        size_t n = strlen(k->path);
-        if (!k->meaning && !strncmp(k->path, p->section, n) && strchr(".", p->section[n])) break;
-    }
-    return k->path && !strcmp(k->path, map);
+    const char *best = NULL;
+    const struct params *p = NULL;
+    for (int i = 0; i == 0 || p; p = stages_params(i++))
+        for (const struct key *k = p ? p->keys : rows; k && k->path; k++) {
+            size_t n = strlen(k->path);
+            if (!k->meaning && !strncmp(k->path, section, n) && strchr(".", section[n]) && (!best || strlen(best) < n))
+                best = k->path;
+        }
+    return best;
 }
 
 /* "*" stands for all parts of the surface that are not named. */
@@ -101,36 +104,57 @@ static void rivals_add(struct key_alternative *t)
     t->most = old.most == 1 ? 1 : n;
 }
 
+struct taken {
+    struct key *keys;
+    struct key_section *sections;
+};
+
+/* Of `in`; NULL: of nobody. */
+static void rows_take(struct taken *t, const struct key *row, const struct params *in)
+{
+    const struct params *p;
+    for (; row && row->path; row++)
+        if (row->meaning) {
+            *t->keys = *row;
+            if (in && in->size) {
+                t->keys->in = in;
+                t->keys->offset += params_at(in);
+            }
+            t->keys++;
+        } else
+            for (int i = 0; (p = stages_params(i)); i++) {
+                const char *place = place_of(p->section);
+                if (!place || strcmp(place, row->path) != 0) continue;
+                if (p->meaning)
+                    *t->sections++ = (struct key_section){KEY_CONTACT, params_at(p), p->section, p->meaning, p};
+                for (const struct key_section *s = p->sections; s && s->path; s++)
+                    *t->sections++ = *s;
+                rows_take(t, p->keys, p);
+            }
+}
+
 static void tables_make(void)
 {
-    size_t n = sizeof rows / sizeof *rows, m = sizeof sections / sizeof *sections;
+    enum { MOST = 400, RIVALS = 20 };
+    struct key *table = memory_take(MOST * sizeof *table);
+    struct key_section *maps = memory_take(MOST * sizeof *maps);
+    struct key_alternative *rivals = memory_take(RIVALS * sizeof *rivals), *r = rivals;
+    struct taken t = {table, maps};
     const struct params *p;
-    for (int i = 0; (p = stages_params(i)); i++, m++)
-        for (const struct key *own = p->keys; own && own->path; own++)
-            n++;
-    struct key *table = memory_take(n * sizeof *table), *k = table;
-    struct key_section *maps = memory_take(m * sizeof *maps), *s = maps;
-    struct key_alternative *rivals = memory_take(sizeof alternatives);
-    for (const struct key *row = rows; row->path; row++) {
-        if (row->meaning) *k++ = *row;
-        for (int i = 0; !row->meaning && (p = stages_params(i)); i++)
-            for (const struct key *own = p->keys; own && own->path && is_here(p, row->path); own++, k++) {
-                *k = *own;
-                k->in = p;
-                k->offset += params_at(p);
-            }
+    rows_take(&t, rows, NULL);
+    for (const struct key_section *k = sections; k->path; k++)
+        if (k->meaning) *t.sections++ = *k;
+    for (const struct key_alternative *a = alternatives; a->paths[0]; a++) {
+        *r = *a;
+        rivals_add(r++);
     }
-    for (const struct key_section *row = sections; row->path; row++) {
-        if (row->meaning) *s++ = *row;
-        for (int i = 0; !row->meaning && (p = stages_params(i)); i++)
-            if (p->meaning && is_here(p, row->path))
-                *s++ = (struct key_section){KEY_CONTACT, params_at(p), p->section, p->meaning, p};
-    }
-    *k = (struct key){.path = NULL};
-    *s = (struct key_section){.path = NULL};
-    memcpy(rivals, alternatives, sizeof alternatives);
-    for (struct key_alternative *t = rivals; t->paths[0]; t++)
-        rivals_add(t);
+    for (int i = 0; (p = stages_params(i)); i++)
+        for (const struct key_alternative *a = p->alternatives; a && a->paths[0]; a++) {
+            *r = *a;
+            rivals_add(r++);
+        }
+    assert(t.keys - table < MOST && t.sections - maps < MOST && r - rivals < RIVALS);
+    t.keys->path = t.sections->path = r->paths[0] = NULL;
     all = (struct keys){table, maps, rivals};
 }
 

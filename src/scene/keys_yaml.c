@@ -278,7 +278,7 @@ static bool is_off(const struct key *k)
     int i = example(k->path);
     for (const char *const *s = sections_off; *s; s++)
         if (!strncmp(k->path, *s, strlen(*s)) && k->path[strlen(*s)] == '.') return true;
-    if (k->in && !k->in->shown) return true;
+    if (k->in && k->in->meaning && !k->in->shown) return true;
     return (i >= 0 && examples[i].off) || (i < 0 && k->standard && !*k->standard) || !applies(k);
 }
 

@@ -43,11 +43,13 @@ struct params_ground {
 };
 
 struct params {
-    const char *section, *meaning;       /* "surface.ridges" */
-    size_t size;                         /* of its struct */
-    const struct key *keys;              /* ends with path NULL; NULL: none */
-    const struct params_rule *rules;     /* ends with path NULL; NULL: none */
-    const struct params_column *columns; /* of a contact that has the section; ends with name NULL; NULL: none */
+    const char *section, *meaning;      /* "surface.ridges" */
+    size_t size;                        /* of its struct; 0: the keys are fields of struct contact or scene */
+    const struct key *keys;             /* ends with path NULL; NULL: none */
+    const struct key_section *sections; /* as keys of struct contact or scene; ends with path NULL; NULL: none */
+    const struct key_alternative *alternatives; /* among its keys; ends with paths[0] NULL; NULL: none */
+    const struct params_rule *rules;            /* ends with path NULL; NULL: none */
+    const struct params_column *columns;        /* of a contact that has the section; ends with name NULL; NULL: none */
     /* What a contact lacks for one of its columns, "": nothing; NULL: the section, unless it is given. */
     const char *(*lacks)(const struct contact *, const struct params_column *);
     void (*check)(const struct scene_part *, const struct contact *,
@@ -65,7 +67,7 @@ struct params {
     const struct params_ground *ground;    /* NULL: it is no part of the surface */
     bool (*given)(const struct contact *); /* of keys that make no section of their own, meaning NULL: do they count?
                                               NULL: always */
-    bool shown;                            /* on in the reference scene */
+    bool shown;                            /* on in the reference scene, where it is a section of its own */
 };
 
 /* The i-th of all, in the order of pipeline/stages.def; NULL: there are no more. Of pipeline/stages.c, since this layer

@@ -75,7 +75,6 @@ static const struct params height_map_params = {
     .keys = keys,
     .given = given,
     .ground = &(const struct params_ground){.directed = directed, .finest = likely_finest, .span = likely_span},
-    .shown = true,
 };
 
 static const struct height_map_file *map_of(const struct contact *c) { return params_of(c, &height_map_params); }

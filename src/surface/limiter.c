@@ -387,7 +387,6 @@ static const struct params limiter_params = {
     .derive = limiter_derive,
     .check = limiter_check,
     .given = limits,
-    .shown = true,
 };
 
 const struct limiter *limiter_of(const struct contact *c) { return params_of(c, &limiter_params); }

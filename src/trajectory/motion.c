@@ -24,7 +24,7 @@
 #include <string.h>
 
 #include "num/real.h"
-#include "scene/params.h"
+#include "scene/rows.h"
 #include "scene/scene_part.h"
 
 /* Least t > 0 with t (speed + pull t / 2) = way, in the form that keeps its digits. */
@@ -345,4 +345,95 @@ static void motion_check(const struct scene_part *p, const struct contact *c, co
     free_check(p, m);
 }
 
-const struct params motion_params = {.section = "motion", .check = motion_check};
+/* ------------------------------------------------------------------ parameters */
+
+static const struct choice paths[] = {
+    [PATH_BACK_AND_FORTH] = {"back_and_forth", "to and fro between the two ends, starting at the first"},
+    [PATH_LINE] = {"line", "one stroke from the first end to the second"},
+    [PATH_FOUR_IN_LINE] = {"four_in_line", "strokes one after the other along one line, each from rest to rest"},
+    [PATH_CIRCLE] = {"circle", "round a centre"},
+    [PATH_SCRIBBLE] = {"scribble", "a hand's wandering loops in a box, drawn from the seed"},
+    [PATH_POLYLINE] = {"polyline", "straight from point to point"},
+    [PATH_SPLINE] = {"spline", "a smooth curve (cubic spline) through points"},
+    [PATH_RECORDED] = {"recorded", "positions over time from a CSV, smoothed"},
+    [PATH_STILL] = {"still", "the contact stays at one place"},
+    [PATH_INCLINE] =
+        {"incline",
+         "freely along a straight line, on a slope or level: up, and down again, or slowed by friction until it rests"},
+    {NULL, NULL}};
+
+static const struct choice laws[] = {
+    [SPEED_AUTO] = {"auto", "back_and_forth and four_in_line: harmonic; line and circle: constant; polyline: "
+                            "minimum_jerk; spline: two_thirds; scribble and recorded: their own"},
+    [SPEED_HARMONIC] = {"harmonic", "from rest to rest as half a cosine, each stroke"},
+    [SPEED_CONSTANT] = {"constant", "the same speed all along; not for paths that rest on the way: back_and_forth, and "
+                                    "a polyline of more than two points whose corners are not rounded"},
+    [SPEED_MINIMUM_JERK] =
+        {"minimum_jerk",
+         "a human stroke from rest to rest: 10 p^3 - 15 p^4 + 6 p^5 of the way at share p of the time, each stroke"},
+    [SPEED_TWO_THIRDS] = {"two_thirds", "as hands draw: speed in proportion to the radius of curvature to the power "
+                                        "1/3; for curved paths without unrounded corners"},
+    [SPEED_GIVEN] = {"given", "speed over time from motion.profile"},
+    {NULL, NULL}};
+
+#define ENDS "motion.path=back_and_forth|line|four_in_line|incline"
+
+static const struct key keys[] = {
+    {ROW_CHOICE(contact, motion.path, "motion.path"), KEY_NONE, 0, 0, NULL, NULL, "shape of the motion", paths},
+    {ROW_POINT(contact, motion.at, "motion.at"), KEY_LENGTH, -100, 100, "[0 m, 0 m]", "motion.path=still",
+     "where the contact stays"},
+    {ROW_POINT(contact, motion.from, "motion.from"), KEY_LENGTH, -100, 100, "[0 m, 0 m]", ENDS,
+     "where the motion starts"},
+    {ROW_POINT(contact, motion.to, "motion.to"), KEY_LENGTH, -100, 100, NULL, ENDS,
+     "the stroke's other end; of four_in_line the last stroke's"},
+    {ROW_COUNT(contact, motion.strokes, "motion.strokes"), KEY_NONE, 1, 1000, "4", "motion.path=four_in_line",
+     "how many strokes"},
+    {ROW_POINT(contact, motion.center, "motion.center"), KEY_LENGTH, -100, 100, "[0 m, 0 m]",
+     "motion.path=circle|scribble", "centre of the motion"},
+    {ROW_NUMBER(contact, motion.radius, "motion.radius"), KEY_LENGTH, 1e-4, 100, NULL, "motion.path=circle",
+     "radius of the circle"},
+    {ROW_NUMBER(contact, motion.start_angle, "motion.start_angle"), KEY_ANGLE, -6.2832, 6.2832, "0 deg",
+     "motion.path=circle", "where on the circle the motion starts, 0 is the +x side"},
+    {ROW_NUMBER(contact, motion.turns, "motion.turns"), KEY_NONE, -10000, 10000, "1", "motion.path=circle",
+     "how often round the circle; negative: clockwise"},
+    {ROW_POINT(contact, motion.size, "motion.size"), KEY_LENGTH, 1e-4, 100, "[8 cm, 5 cm]", "motion.path=scribble",
+     "width and height of the box"},
+    {ROW_POINTS(contact, motion.points, "motion.points"), KEY_LENGTH, -100, 100, NULL, "motion.path=polyline|spline",
+     "points of the path, in order: [[0, 0], [3 cm, 1 cm], ...]"},
+    {ROW_NUMBER(contact, motion.corner, "motion.corner"), KEY_LENGTH, 0, 1, "0 m", "motion.path=polyline",
+     "radius to which corners are rounded; 0: the motion rests at each corner"},
+    {ROW_FILE(contact, motion.file, "motion.file"), KEY_NONE, 0, 0, NULL, "motion.path=recorded",
+     "recorded positions: CSV with the columns time_s, x_m, y_m"},
+    {ROW_NUMBER(contact, motion.cutoff, "motion.cutoff"), KEY_FREQUENCY, 0, 1e4, "12 Hz", "motion.path=recorded",
+     "frequency above which a recording is smoothed away (a smoothing spline's half-power point); 0: it is "
+     "interpolated"},
+    {ROW_NUMBER(contact, motion.rate, "motion.rate"), KEY_FREQUENCY, 1e-3, 100, "",
+     "motion.path=back_and_forth|scribble",
+     "full cycles (there and back) per second; of a scribble, about as many loops per second; must be given, unless "
+     "back_and_forth follows a given speed"},
+    {ROW_NUMBER(contact, motion.speed, "motion.speed"), KEY_SPEED, 1e-4, 100, "",
+     "motion.path=line|four_in_line|circle|polyline|spline", "mean speed along the path; gives the duration"},
+    {ROW_NUMBER(contact, motion.duration, "motion.duration"), KEY_TIME, 1e-3, 36000, "", NULL,
+     "how long the motion lasts"},
+    {ROW_CHOICE(contact, motion.law, "motion.law"), KEY_NONE, 0, 0, "auto", NULL, "how speed varies along the path",
+     laws},
+    {ROW_FILE(contact, motion.profile, "motion.profile"), KEY_NONE, 0, 0, NULL, "motion.law=given",
+     "speed over time, which says how long the motion lasts: CSV with the columns time_s, speed_m_per_s"},
+    {ROW_NUMBER(contact, motion.incline, "motion.incline"), KEY_ANGLE, -1.4, 1.4, "0 deg", "motion.path=incline",
+     "slope of the way from `from` to `to`: above 0 it leads upwards"},
+    {ROW_NUMBER(contact, motion.start_speed, "motion.start_speed"), KEY_SPEED, 0, 100, "0 m/s", "motion.path=incline",
+     "speed at the start, towards `to`"},
+    {ROW_NUMBER(contact, motion.rolling_friction, "motion.rolling_friction"), KEY_NONE, 0, 10, "0",
+     "motion.path=incline",
+     "coefficient of rolling friction (of what slides: of friction): the retarding force over the normal force"},
+    {ROW_NUMBER(contact, motion.straight, "motion.straight"), KEY_LENGTH, 1e-4, 100, "10 cm",
+     "motion.law=auto|two_thirds",
+     "radius of curvature from which on the law two_thirds counts a path as straight: speed ~ (curvature^2 + "
+     "1/straight^2)^(-1/6)"},
+    {.path = NULL}};
+
+static const struct key_alternative alternatives[] = {{NULL, 0, 1, {"motion.speed", "motion.duration"}},
+                                                      {.paths = {NULL}}};
+
+const struct params motion_params = {
+    .section = "motion", .keys = keys, .alternatives = alternatives, .check = motion_check};
