@@ -9,7 +9,7 @@
 #include "force/impact_series.h"
 #include "force/strike.h"
 #include "num/decimal.h"
-#include "scene/params.h"
+#include "scene/rows.h"
 #include "stage.h"
 #include "surface/limiter.h"
 #include "trajectory/contact.h"
@@ -78,7 +78,31 @@ static const char *own_lacks(const struct contact *c, const struct params_column
     return lacks_of[column - own_columns] ? lacks_of[column - own_columns](c) : "";
 }
 
-const struct params force_table_params = {.section = "output.diagnostics", .columns = own_columns, .lacks = own_lacks};
+static const struct choice formats[] = {
+    [TABLE_CSV] = {"csv", "NAME.csv (of several contacts NAME.CONTACT.csv): text, %.9g"},
+    [TABLE_NPY] = {"npy", "NAME.npy (NAME.CONTACT.npy): NumPy's format, a field of float64 for each column: t = "
+                          "numpy.load(\"NAME.npy\"), t[\"force_rms_n\"]; for many rows"},
+    {NULL, NULL}};
+
+static const struct key keys[] = {{ROW_NUMBER(scene, output.diagnostics.rate, "output.diagnostics.rate"), KEY_FREQUENCY,
+                                   1, 768000, "1 kHz", NULL, "rows per second"},
+                                  {ROW_LIST(scene, output.diagnostics.columns, "output.diagnostics.columns"), KEY_NONE,
+                                   0, 0, "", NULL, "columns to write; left out: all that the scene has"},
+                                  {ROW_CHOICE(scene, output.diagnostics.format, "output.diagnostics.format"), KEY_NONE,
+                                   0, 0, "csv", NULL, "how the table is written", formats},
+                                  {.path = NULL}};
+
+static const struct key_section sections[] = {
+    {ROW_SECTION(scene, output.diagnostics, "output.diagnostics", "a table of the physics behind the sound")},
+    {.path = NULL}};
+
+const struct params force_table_params = {
+    .section = "output.diagnostics",
+    .keys = keys,
+    .sections = sections,
+    .columns = own_columns,
+    .lacks = own_lacks,
+};
 
 /* ------------------------------------------------------------------ their values */
 

@@ -4,6 +4,7 @@
 #include "output/impact_rows.h"
 
 #include "force/impact_series.h"
+#include "scene/rows.h"
 #include "stage.h"
 #include "trajectory/contact.h"
 
@@ -44,8 +45,21 @@ static struct stage_report rows_report(const struct stage_run *r, struct arena *
     return impact_series_report(&t->report, a);
 }
 
+static const struct choice listings[] = {
+    [LISTING_NONE] = {"none", "no"},
+    [LISTING_TABLE] = {"table", "NAME.impacts.csv (of several contacts NAME.CONTACT.impacts.csv): time, amplitude, "
+                                "interval and duration of each"},
+    {NULL, NULL}};
+
+static const struct key keys[] = {{ROW_CHOICE(scene, output.impacts, "output.impacts"), KEY_NONE, 0, 0, "none", NULL,
+                                   "is the series of a contact of model impacts written?", listings},
+                                  {.path = NULL}};
+
+static const struct params impact_rows_params = {.section = "output.impacts", .keys = keys};
+
 const struct stage impact_rows_stage = {
     .name = "impact_rows",
+    .params = &impact_rows_params,
     .does = "the series of impacts, one row each",
     .paper = "",
     .idle = "no output.impacts, or contact.model is not impacts",

@@ -6,7 +6,7 @@
 #include "output/impact_rows.h"
 #include "output/sound.h"
 #include "response/response.h"
-#include "scene/params.h"
+#include "scene/rows.h"
 #include "scene/scene_part.h"
 #include "trajectory/contact.h"
 
@@ -246,5 +246,81 @@ static double output_instead(const struct key *k, const void *owner)
     return NAN;
 }
 
-const struct params output_params = {
-    .section = "output", .check_scene = output_check, .check_asked = contact_check, .instead = output_instead};
+/* ------------------------------------------------------------------ parameters */
+
+static const struct choice encodings[] = {[ENCODING_PCM16] = {"pcm16", "16-bit integer"},
+                                          [ENCODING_PCM24] = {"pcm24", "24-bit integer"},
+                                          [ENCODING_FLOAT32] = {"float32", "32-bit floating point"},
+                                          [ENCODING_FLOAT64] = {"float64", "64-bit floating point"},
+                                          {NULL, NULL}};
+
+static const struct choice quantities[] = {
+    [QUANTITY_AUTO] = {"auto", "what the mode tables hold; velocity of objects"},
+    [QUANTITY_DISPLACEMENT] = {"displacement", "displacement in m"},
+    [QUANTITY_VELOCITY] = {"velocity", "velocity in m/s"},
+    [QUANTITY_ACCELERATION] = {"acceleration", "acceleration in m/s^2, with its direct term"},
+    [QUANTITY_FORCE] = {"force", "the contact force itself, in N: papers/002 and 004 play it as a sound; no response "
+                                 "is needed, and none is computed"},
+    {NULL, NULL}};
+
+static const struct choice envelopes[] = {
+    [ENVELOPE_NONE] = {"none", "as it is"},
+    [ENVELOPE_APPROACH_RECEDE] = {"approach_recede",
+                                  "a source that comes, passes in the middle of the sound and goes, at constant speed: "
+                                  "gain 1 / sqrt(1 + (c (2 t/T - 1))^2), T the whole sound"},
+    {NULL, NULL}};
+
+static const struct key keys[] = {
+    {ROW_WHOLE(scene, output.sample_rate, "output.sample_rate"), KEY_FREQUENCY, 8000, 768000, "48 kHz", NULL,
+     "audio samples per second"},
+    {ROW_CHOICE(scene, output.encoding, "output.encoding"), KEY_NONE, 0, 0, "pcm24", NULL,
+     "how samples are stored in the WAV", encodings},
+    {ROW_COUNT(scene, output.channels, "output.channels"), KEY_NONE, 1, 64, "1", NULL,
+     "channels of the WAV, all with the same sound"},
+    {ROW_CHOICE(scene, output.quantity, "output.quantity"), KEY_NONE, 0, 0, "auto", NULL,
+     "which quantity is the sound: of the vibration, or the force that excites it", quantities},
+    {ROW_PLACE("output.listen")},
+    {ROW_LIST(scene, output.stems, "output.stems"), KEY_NONE, 0, 0, "", NULL,
+     "parts that are written as WAVs of their own: force, surface, scraper, ball"},
+    {ROW_NUMBER(scene, output.level.full_scale, "output.level.full_scale"), KEY_OUTPUT, 1e-30, 1e30, "", NULL,
+     "physical level: the value, in the response's unit (of quantity: force in N), that becomes 1.0 in the file; "
+     "beyond 1.0, integers are refused, and floating point is written and warned of; so is a file whose samples are "
+     "all rounded to 0"},
+    {ROW_NUMBER(scene, output.level.peak, "output.level.peak"), KEY_DECIBEL, -200, 0, "", NULL,
+     "scales the file to this peak, dB re full scale"},
+    {ROW_NUMBER(scene, output.level.rms, "output.level.rms"), KEY_DECIBEL, -200, 0, "", NULL,
+     "scales the file to this rms, dB re full scale"},
+    {ROW_NUMBER(scene, output.level.lufs, "output.level.lufs"), KEY_LUFS, -200, 0, "", NULL,
+     "scales the file to this integrated loudness (BS.1770, which needs 0.4 s; mono counts as dual mono)"},
+    {ROW_NUMBER(scene, output.level.dbfs_at_1_pa, "output.level.dbfs_at_1_pa"), KEY_DECIBEL, -200, 100, "", NULL,
+     "physical level of a sound in pascals: the level that 1 Pa gets, dB re full scale; beyond 1.0, integers are "
+     "refused, and floating point is written and warned of; so is a file whose samples are all rounded to 0"},
+    {ROW_NUMBER(scene, output.ramp, "output.ramp"), KEY_TIME, 0, 10, "10 ms", NULL,
+     "raised-cosine ramps at both ends of the total"},
+    {ROW_CHOICE(scene, output.envelope, "output.envelope"), KEY_NONE, 0, 0, "none", NULL,
+     "how loud the sound and its stems (but force) are over time, ramps apart; levels are those of the sound under its "
+     "envelope",
+     envelopes},
+    {ROW_NUMBER(scene, output.envelope_depth, "output.envelope_depth"), KEY_DECIBEL, 0, 200, "20 dB",
+     "output.envelope=approach_recede", "how far both ends of the sound lie below its middle"},
+    {ROW_TIME_OR_AUTO(scene, output.tail, "output.tail"), KEY_TIME, 0, 600, "auto", NULL,
+     "how long the sound rings after the last motion; auto: until every response has decayed by 80 dB, at most 60 s"},
+    {ROW_NUMBER(scene, output.duration, "output.duration"), KEY_TIME, 1e-3, 36000, "", NULL,
+     "exact length of the file, rounded to samples: a sound that would be shorter rings on, one that would be longer "
+     "is cut, under output.ramp; left out: as long as motion and tail take"},
+    {ROW_PLACE("output.diagnostics")},
+    {.path = NULL}};
+
+static const struct key_alternative alternatives[] = {{NULL,
+                                                       0,
+                                                       1,
+                                                       {"output.level.full_scale", "output.level.dbfs_at_1_pa",
+                                                        "output.level.peak", "output.level.rms", "output.level.lufs"}},
+                                                      {.paths = {NULL}}};
+
+const struct params output_params = {.section = "output",
+                                     .keys = keys,
+                                     .alternatives = alternatives,
+                                     .check_scene = output_check,
+                                     .check_asked = contact_check,
+                                     .instead = output_instead};

@@ -22,6 +22,7 @@
 
 #include "num/real.h"
 #include "response/radiator.h"
+#include "scene/rows.h"
 
 struct listener {
     int n, radiator, extra, quantity;
@@ -255,3 +256,30 @@ void listener_apply(const struct listener *l, const double *frequency, const dou
         if (p->frequency) listener_poles(l, p->frequency + i, p->decay + i);
     }
 }
+
+/* ------------------------------------------------------------------ parameters */
+
+static const struct choice radiators[] = {
+    [RADIATOR_CONTACT] = {"contact", "what a mode table holds; of objects the motion of the place that is touched"},
+    [RADIATOR_POINT] = {"point", "the motion of an object at other places of it"},
+    [RADIATOR_MONOPOLE] = {"monopole", "sound pressure of a pulsating sphere of the object's size"},
+    [RADIATOR_PLATE] = {"plate",
+                        "sound pressure of a flat object in a baffle, by Rayleigh's integral over its mode shapes"},
+    {NULL, NULL}};
+
+static const struct key keys[] = {
+    {ROW_CHOICE(scene, output.listen.radiator, "output.listen.radiator"), KEY_NONE, 0, 0, "monopole", NULL,
+     "how vibration becomes what is heard", radiators},
+    {ROW_PLACES(scene, output.listen.places, "output.listen.places"), KEY_LENGTH, -1000, 1000, NULL,
+     "output.listen.radiator=point|monopole|plate",
+     "listening places [x, y, z] in the scene's coordinates, z above the surface; each becomes a channel"},
+    {ROW_NUMBER(scene, output.listen.density, "output.listen.density"), KEY_DENSITY, 1e-3, 1e5, "1.204 kg/m^3",
+     "output.listen.radiator=monopole|plate", "density of the air"},
+    {ROW_NUMBER(scene, output.listen.sound_speed, "output.listen.sound_speed"), KEY_SPEED, 10, 1e4, "343.2 m/s",
+     "output.listen.radiator=monopole|plate", "speed of sound in the air"},
+    {.path = NULL}};
+
+static const struct key_section sections[] = {
+    {ROW_SECTION(scene, output.listen, "output.listen", "where the sound is heard, and through what")}, {.path = NULL}};
+
+const struct params listener_params = {.section = "output.listen", .keys = keys, .sections = sections};
