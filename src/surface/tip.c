@@ -30,7 +30,7 @@
 #include <math.h>
 
 #include "num/real.h"
-#include "scene/params.h"
+#include "scene/rows.h"
 #include "scene/scene_part.h"
 #include "stage.h"
 #include "surface/contact_patch.h"
@@ -275,7 +275,18 @@ static void tip_check(const struct scene_part *p, const struct contact *c, const
 
 static bool scrapes(const struct contact *c) { return c->contact.model == CONTACT_SCRAPE; }
 
-static const struct params tip_params = {.section = "scraper", .check = tip_check, .given = scrapes};
+#define SCRAPES "contact.model=scrape|strike|given|impacts|playback"
+
+static const struct key keys[] = {
+    {ROW_NUMBER(contact, scraper.radius, "scraper.radius"), KEY_LENGTH, 1e-6, 1, "", SCRAPES,
+     "radius of the tip: a scraper's follows the upper envelope of a sphere on the surface, and an impact's stiffness "
+     "may follow from it; left out: a point"},
+    {ROW_NUMBER(contact, scraper.patch, "scraper.patch"), KEY_LENGTH, 1e-7, 1e-3, "20 um", "scraper.radius",
+     "radius of the contact patch: the envelope, which has kinks, is smoothed by a Gaussian of this standard "
+     "deviation"},
+    {.path = NULL}};
+
+static const struct params tip_params = {.section = "scraper", .keys = keys, .check = tip_check, .given = scrapes};
 
 static bool tip_wanted(const struct contact *c, const struct scene *s)
 {

@@ -12,7 +12,7 @@
 #include "num/real.h"
 #include "scene/keys.h"
 #include "scene/material.h"
-#include "scene/params.h"
+#include "scene/rows.h"
 #include "scene/scene_part.h"
 
 static double density(const struct object_given *o)
@@ -110,8 +110,10 @@ static const char *mass_lacks(const struct scene_part *p, const struct ball *b)
                        : ": it is not known what the ball is made of; ball.material, such as glass, would do as well";
 }
 
-static void ball_check(const struct scene_part *p, const struct ball *b)
+static void ball_check(const struct scene_part *p, const struct contact *c, const void *own)
 {
+    const struct ball *b = &c->ball;
+    (void)own;
     const struct {
         const char *path;
         double size;
@@ -177,7 +179,135 @@ static void contact_check(const struct scene_part *p, const struct contact *c, c
     if (!scene_part_known(p, "contact.model")) return;
     still_check(p, c);
     if (c->contact.model != CONTACT_SCRAPE) idle_check(p, c);
-    if (contact_rolls(c)) ball_check(p, &c->ball);
 }
 
-const struct params contact_params = {.section = "contact", .derive = contact_derive, .check = contact_check};
+/* ------------------------------------------------------------------ keys */
+
+static const struct choice models[] = {
+    [CONTACT_SCRAPE] = {"scrape", "a scraper that follows the surface without bouncing"},
+    [CONTACT_STRIKE] = {"strike", "impacts: one, several, or a train of bounces, from mass, speed and stiffness"},
+    [CONTACT_GIVEN] = {"given", "a force from a file"},
+    [CONTACT_ROLL] =
+        {"roll", "a ball that rolls: the force follows from its centre's way over the surface (papers/000, section 4)"},
+    [CONTACT_ROLL_COUPLED] = {"roll_coupled", "a ball that rolls and may bounce: its flight, the contact and the "
+                                              "surface's modes are solved together (papers/002, section II)"},
+    [CONTACT_IMPACTS] = {"impacts", "a series of impacts drawn from its statistics: rubbing, scratching, rolling, and "
+                                    "what lies between (papers/002, sections IV and V; papers/004)"},
+    [CONTACT_PLAYBACK] = {"playback", "the surface's heights are the force, played at the contact's speed "
+                                      "(FoleyAutomatic, in papers/002, section II-B)"},
+    {NULL, NULL}};
+
+static const struct key contact_keys[] = {
+    {ROW_CHOICE(contact, contact.model, "contact.model"), KEY_NONE, 0, 0, "scrape", NULL, "model of the contact",
+     models},
+    {ROW_NUMBER(contact, contact.gravity, "contact.gravity"), KEY_ACCELERATION, 0, 1000, "9.80665 m/s^2",
+     "contact.model=scrape|strike|roll|roll_coupled|impacts|playback", "acceleration of gravity"},
+    {ROW_PLACE("contact.limiter")},
+    {ROW_PLACE("contact.force")},
+    {ROW_PLACE("contact.roll")},
+    {ROW_PLACE("contact.impacts")},
+    {.path = NULL}};
+
+const struct params contact_params = {
+    .section = "contact", .keys = contact_keys, .derive = contact_derive, .check = contact_check};
+
+#define SCRAPES "contact.model=scrape|strike|given|impacts|playback"
+#define ROLLS "contact.model=roll|roll_coupled"
+
+static const struct key scraper_keys[] = {
+    {ROW_NUMBER(contact, scraper.mass, "scraper.mass"), KEY_MASS, 1e-9, 1000, NULL, "contact.model=scrape|strike",
+     "mass of the scraper (m_p of equation 1), or of what strikes"},
+    {ROW_NUMBER(contact, scraper.weight, "scraper.weight"), KEY_NONE, 0, 1000, "1", SCRAPES,
+     "eta, the weight of the scraper's response in the total: where at 1 a light scraper drowns the surface, 0.1 makes "
+     "it 20 dB quieter; 0: the scraper is damped and none is computed"},
+    {.path = NULL}};
+
+const struct params contact_scraper_params = {.section = "scraper", .keys = scraper_keys};
+
+static const struct choice bodies[] = {
+    [BODY_SOLID] = {"solid", "a solid ball: moment of inertia 2/5 m R^2"},
+    [BODY_HOLLOW] = {"hollow", "a hollow ball: 2/3 m R^2 where the wall is thin, else as ball.wall has it"},
+    [BODY_HOOP] = {"hoop", "a thin hoop or tube: m R^2"},
+    [BODY_WHEEL] = {"wheel", "a solid disk or cylinder: 1/2 m R^2"},
+    {NULL, NULL}};
+
+static const struct key ball_keys[] = {
+    {ROW_NUMBER(contact, ball.radius, "ball.radius"), KEY_LENGTH, 1e-4, 10, NULL, ROLLS, "radius R of the ball"},
+    {ROW_NUMBER(contact, ball.mass, "ball.mass"), KEY_MASS, 1e-9, 1e5, "", ROLLS,
+     "mass of the ball; left out: from radius and material (of what is hollow, wall too; of a hoop or wheel it must be "
+     "given)"},
+    {ROW_CHOICE(contact, ball.body, "ball.body"), KEY_NONE, 0, 0, "solid", ROLLS,
+     "what kind of body rolls: its moment of inertia, for motions of path incline", bodies},
+    {ROW_NUMBER(contact, ball.wall, "ball.wall"), KEY_LENGTH, 1e-6, 10, "", "ball.body=hollow",
+     "thickness of the hollow ball's wall; left out: thin"},
+    {ROW_NUMBER(contact, ball.offset, "ball.offset"), KEY_LENGTH, 0, 10, "0 m", ROLLS,
+     "r, distance of the centre of mass from the geometric centre"},
+    {ROW_NUMBER(contact, ball.start_angle, "ball.start_angle"), KEY_ANGLE, -6.2832, 6.2832, "0 deg", ROLLS,
+     "theta at the start: 0, the centre of mass is lowest"},
+    {ROW_NUMBER(contact, ball.lobe_height, "ball.lobe_height"), KEY_LENGTH, 0, 1e-2, "0 m", ROLLS,
+     "amplitude of the ball's out-of-roundness, a sinusoid round it; roll follows it and presses by N(t), under "
+     "penetration: paper it is in rho"},
+    {ROW_COUNT(contact, ball.lobes, "ball.lobes"), KEY_NONE, 1, 1000, "2", ROLLS,
+     "periods of that sinusoid in one turn; 2: an oval"},
+    {ROW_NUMBER(contact, ball.patch, "ball.patch"), KEY_LENGTH, 0, 1e-3, "20 um", ROLLS,
+     "radius of the contact patch: the rolling curve, which has kinks, is smoothed by a Gaussian of this standard "
+     "deviation; 0 (roll_coupled, not in the plane): it is not"},
+    {ROW_NUMBER(contact, ball.weight, "ball.weight"), KEY_NONE, 0, 1000, "1", ROLLS,
+     "weight of the ball's response in the total: 10 makes it 20 dB louder; 0: none is computed"},
+    {.path = NULL}};
+
+const struct params contact_ball_params = {
+    .section = "ball", .keys = ball_keys, .check = ball_check, .given = contact_rolls};
+
+static const struct choice forces[] = {
+    [ABLATED_FORCE_VARYING] = {"varying", "as the scene has it"},
+    [ABLATED_FORCE_CONSTANT] =
+        {"constant", "held (papers/000, omitting section 2.3): at its mean over a motion that ends as fast as it "
+                     "began, of a grip m g / (1 - mu tan theta), of a ball that turns its weight m g cos(incline); "
+                     "alpha is contact.limiter.alpha, or with force_range what that force makes of it"},
+    {NULL, NULL}};
+
+static const struct choice limits[] = {
+    [ABLATED_NONLINEARITY_FULL] = {"kept", "as the scene has it"},
+    [ABLATED_NONLINEARITY_OMITTED] = {"omitted",
+                                      "it is not, and the smoothing that follows the limiter is left out, too "
+                                      "(papers/000, omitting section 2.2): the surface is followed exactly"},
+    [ABLATED_NONLINEARITY_SMOOTHED] = {"smoothed", "it is not, but smoothing stays, as for an alpha of 3 cm"},
+    {NULL, NULL}};
+
+static const struct choice responses[] = {
+    [ABLATED_RESPONSE_BY_PLACE] = {"by_place", "it does, as far as it has places"},
+    [ABLATED_RESPONSE_CONSTANT] = {"constant", "it does not (papers/000, omitting the morphing of section 2.4): the "
+                                               "surface rings everywhere, and all the time, as at one place"},
+    {NULL, NULL}};
+
+static const struct choice sounds[] = {[ABLATED_SOUND_BOTH] = {"both", "both, as far as they have responses"},
+                                       [ABLATED_SOUND_SURFACE] = {"surface", "the surface: of the other eta is 0"},
+                                       [ABLATED_SOUND_SCRAPER] = {"scraper", "the scraper"},
+                                       [ABLATED_SOUND_BALL] = {"ball", "the ball"},
+                                       {NULL, NULL}};
+
+static const struct key ablation_keys[] = {
+    {ROW_CHOICE(contact, ablation.normal_force, "ablation.normal_force"), KEY_NONE, 0, 0, "varying",
+     "contact.model=scrape|roll", "how the normal force goes over the motion", forces},
+    {ROW_CHOICE(contact, ablation.nonlinearity, "ablation.nonlinearity"), KEY_NONE, 0, 0, "kept",
+     "contact.model=scrape|roll",
+     "whether the curvature of the contact's way is limited, as equations 4 and 5 of papers/000 have it", limits},
+    {ROW_CHOICE(contact, ablation.response, "ablation.response"), KEY_NONE, 0, 0, "by_place", NULL,
+     "whether the surface's response depends on where it is touched", responses},
+    {ROW_POINT(contact, ablation.place, "ablation.place"), KEY_LENGTH, -100, 100, "", "ablation.response=constant",
+     "the place whose response it is everywhere; left out: where the motion starts"},
+    {ROW_CHOICE(contact, ablation.sound, "ablation.sound"), KEY_NONE, 0, 0, "both", NULL,
+     "which of the two bodies is heard; the other's response is not computed, and not read unless the force depends on "
+     "it",
+     sounds},
+    {.path = NULL}};
+
+static const struct key_section ablation_sections[] = {
+    {ROW_SECTION(contact, ablation, "ablation",
+                 "what is left out of the model, to hear what it is for: the ablated models of papers/000, experiments "
+                 "1 to 3; all else stays as the scene has it, bit for bit")},
+    {.path = NULL}};
+
+const struct params contact_ablation_params = {
+    .section = "ablation", .keys = ablation_keys, .sections = ablation_sections};

@@ -40,7 +40,7 @@
 #include <string.h>
 
 #include "num/real.h"
-#include "scene/params.h"
+#include "scene/rows.h"
 #include "scene/scene_part.h"
 #include "stage.h"
 #include "trajectory/contact.h"
@@ -108,7 +108,51 @@ static double load_instead(const struct key *k, const void *owner)
     return strcmp(k->path, "load.constant") == 0 ? weight(owner) : NAN;
 }
 
-static const struct params load_params = {.section = "load", .check = load_check, .instead = load_instead};
+#define SCRAPES "contact.model=scrape"
+#define LOWERED "contact.model=scrape|roll|roll_coupled|impacts|playback"
+
+/* The hand's keys stand first. */
+static const struct key keys[] = {
+    {ROW_NUMBER(contact, grip.angle, "grip.angle"), KEY_ANGLE, 0, 1.5707, "30 deg", SCRAPES,
+     "theta, the tool's angle above the horizontal"},
+    {ROW_NUMBER(contact, grip.azimuth, "grip.azimuth"), KEY_ANGLE, -6.2832, 6.2832, "0 deg", SCRAPES,
+     "horizontal direction from the torso outwards; 0 is +x"},
+    {ROW_NUMBER(contact, grip.friction, "grip.friction"), KEY_NONE, 0, 10, "0.3", SCRAPES,
+     "mu, the coefficient of friction"},
+    {ROW_NUMBER(contact, load.constant, "load.constant"), KEY_FORCE, 0, 1e5, "", SCRAPES,
+     "constant normal force, which sets alpha when limiter.force_range is given, and nothing else; left out: the "
+     "scraper's weight m g"},
+    {ROW_FILE(contact, load.recorded, "load.recorded"), KEY_NONE, 0, 0, "", SCRAPES,
+     "normal force over time: CSV with the columns time_s, normal_force_n, in the time of a recorded motion's file, "
+     "else from the contact's start; values below 0 lift the scraper off"},
+    {ROW_TIME_OR_AUTO(contact, load.approach, "load.approach"), KEY_TIME, 0, 10, "auto", LOWERED,
+     "time over which the force rises at the start, by 10 u^3 - 15 u^4 + 6 u^5 at the share u of it, as the scraper "
+     "(or ball) is lowered; auto: 5 ms where the motion starts at speed, and where there is a force at rest too: of a "
+     "ball that lies on the surface, of impacts and of playback; else 0 (a ball that is dropped comes down by itself). "
+     "Approach and release must fit into the motion, also where they are auto: of one of a few milliseconds give 0 s, "
+     "or shorter ones"},
+    {ROW_TIME_OR_AUTO(contact, load.release, "load.release"), KEY_TIME, 0, 10, "auto", LOWERED,
+     "time over which the force falls at the end, by the same law, as the scraper (or ball) is raised; auto: 5 ms "
+     "where the motion ends at speed, of every ball, of impacts and of playback, else 0; it must fit into the motion "
+     "beside load.approach"},
+    {.path = NULL}};
+
+static const struct key_section sections[] = {
+    {ROW_SECTION(contact, grip, "grip",
+                 "the hand that holds the scraper: the normal force then follows the motion (equations 8 and 9)")},
+    {.path = NULL}};
+
+static const struct key_alternative alternatives[] = {{NULL, 0, 1, {"grip", "load.constant", "load.recorded"}},
+                                                      {.paths = {NULL}}};
+
+static const struct params load_params = {
+    .section = "load",
+    .keys = keys,
+    .sections = sections,
+    .alternatives = alternatives,
+    .check = load_check,
+    .instead = load_instead,
+};
 
 enum { LOAD_SOME = 256 };
 
