@@ -281,7 +281,7 @@ struct part {
     double least_amplitude, least_interval; /* NAN: not given */
 };
 
-/* No value that the keys refuse (scene/keys.def): said here, with what to do. */
+/* No value that the keys refuse: said here, with what to do. */
 static bool value_fits(const char *what, double x, double low, double high, struct err *e)
 {
     return (x >= low && x <= high) || err_set(e, ERR_SCENE,

@@ -13,10 +13,10 @@
 #include "scene/keys_text.h"
 #include "scene/keys_yaml.h"
 
-/* Starter scenes as texts of keys and values, which are off behind a #; the comment above a key is its meaning in
-   keys.def. They render as they are: no line that is on names a file. The shipped responses that are off fit the
-   motion: tables with places on y = 0 where it is a line along x, else one response that holds everywhere. "-" begins
-   one of several contacts, "." ends them. */
+/* Starter scenes as texts of keys and values, which are off behind a #; the comment above a key is its meaning. They
+   render as they are: no line that is on names a file. The shipped responses that are off fit the motion: tables with
+   places on y = 0 where it is a line along x, else one response that holds everywhere. "-" begins one of several
+   contacts, "." ends them. */
 
 #define ROUGHNESS                                                                                                      \
     "surface.roughness.exponent -2.4; surface.roughness.rms 4 um; surface.roughness.longest 2 mm; "                    \

@@ -39,7 +39,7 @@ static bool surface_options(struct cmd_call *c, enum heightfile_holes holes, str
     static const char *const hole_words[] = {"refuse", "fill", "keep", NULL}, *const levelling_words[] = {
                                                                                   "none", "mean", "plane", NULL};
     static const double pitch[2] = {1e-8, 1e-3}, scale[2] = {1e-12, 1e3},
-                        range[2] = {1e-9, 1e-1}; /* as in scene/keys.def */
+                        range[2] = {1e-9, 1e-1}; /* as the key has it */
     *o = (struct heightfile_options){.pitch = NAN,
                                      .height_scale = NAN,
                                      .height_range = NAN,

@@ -25,6 +25,7 @@
 #include "convolution/ring.h"
 #include "force/approach.h"
 #include "force/hertz.h"
+#include "force/roll.h"
 #include "num/real.h"
 #include "response/response.h"
 #include "scene/rows.h"
@@ -545,4 +546,5 @@ const struct stage roll_coupled_stage = {
     .work = rolling_work,
     .open = rolling_open,
     .run = rolling_run,
+    .report = roll_report,
 };

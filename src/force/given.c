@@ -24,12 +24,13 @@
 
 static const struct key keys[] = {
     {ROW_FILE(given_force, file, "contact.given.file"), KEY_NONE, 0, 0, NULL, GIVEN,
-     "the force over time: a WAV, a one-dimensional NPY, or a CSV with the columns time_s and force_n"},
+     "the force over time: a WAV, a one-dimensional NPY, or a CSV with the columns time_s and force_n",
+     .example = "force.wav"},
     {ROW_COUNT(given_force, channel, "contact.given.channel"), KEY_NONE, 1, 1000, "1", GIVEN, "which channel of a WAV"},
     {ROW_NUMBER(given_force, scale, "contact.given.scale"), KEY_FORCE, -1e12, 1e12, "", GIVEN,
-     "newtons per stored unit; left out: 1 N for NPY and CSV, and a WAV must say"},
+     "newtons per stored unit; left out: 1 N for NPY and CSV, and a WAV must say", .shown = "10 N"},
     {ROW_NUMBER(given_force, rate, "contact.given.rate"), KEY_FREQUENCY, 1, 1e8, "", GIVEN,
-     "samples per second of an NPY, which does not hold it"},
+     "samples per second of an NPY, which does not hold it", .shown = "48 kHz"},
     {ROW_TEXT(given_force, column, "contact.given.column"), KEY_NONE, 0, 0, "force_n", GIVEN,
      "the column of a CSV that is the force"},
     {.path = NULL}};

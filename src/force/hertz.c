@@ -95,9 +95,10 @@ void hertz_check(const struct scene_part *p, const struct contact *c, const char
 static const struct key keys[] = {
     {ROW_NUMBER(hertz, stiffness, "contact.roll.stiffness"), KEY_STIFFNESS, 1e-3, 1e18, "", ROLLS,
      "k of k rho^1.5, in N/m^1.5; left out: roll_coupled takes Hertz's from ball.radius and both materials, roll what "
-     "follows from static_penetration; penetration: paper needs it (or kappa)"},
+     "follows from static_penetration; penetration: paper needs it (or kappa)",
+     .shown = "2e9 N/m^1.5"},
     {ROW_NUMBER(hertz, kappa, "contact.roll.kappa"), KEY_STIFFNESS_PER_MASS, 1e-3, 1e18, "", ROLLS,
-     "k over the ball's mass, in place of stiffness"},
+     "k over the ball's mass, in place of stiffness", .shown = "5e9 N/(m^1.5 kg)"},
     {ROW_NUMBER(hertz, mu, "contact.roll.mu"), KEY_PER_SPEED, 0, 1e4, "1 s/m", ROLLS,
      "dissipation in the contact: the force is k rho^1.5 (1 + mu rho'), at least 0; of penetration: paper lambda "
      "decides"},

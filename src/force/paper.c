@@ -26,6 +26,7 @@
 #include "num/real.h"
 #include "surface/limiter.h"
 #include "surface/relief.h"
+#include "trajectory/contact.h"
 #include "trajectory/trajectory.h"
 
 enum { PAPER_X, PAPER_Y, PAPER_SLOPE, PAPER_SIGNALS }; /* curvatures, as the way's channels, and |dz/du|^beta2 */
@@ -89,8 +90,7 @@ static void paper_use(void *self, const struct cells *p)
 static bool paper_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return (c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL) &&
-           scrape_law(c)->force == FORCE_PAPER;
+    return contact_pressed(c) && scrape_law(c)->force == FORCE_PAPER;
 }
 
 static double paper_work(const struct contact *c, const struct scene *s)

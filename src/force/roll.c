@@ -573,7 +573,7 @@ static double roll_height(const struct roll_state *s, const struct board *b, lon
 }
 
 /* Report and ITEM_ROLL over the chunk's sub-intervals. */
-static void roll_report(struct roll_state *s, struct board *b, const double *load, long first, int n)
+static void roll_account(struct roll_state *s, struct board *b, const double *load, long first, int n)
 {
     double dt = 1 / (b->rate * b->over), last = b->trajectory->duration / dt;
     for (int i = 0; i < n; i++) {
@@ -613,7 +613,7 @@ static void roll_chunk(struct roll_state *s, struct stage_run *r, long first, in
         roll_follows(s, v, dt, n);
     roll_turns(s, b, load, first, n);
     roll_add(s, load, dt, n);
-    roll_report(s, b, load, first, n);
+    roll_account(s, b, load, first, n);
     s->last = s->rho[n];
     s->follows[0] = s->follows[n];
     s->rate[0] = s->rate[n];
@@ -667,7 +667,8 @@ static const struct key keys[] = {
      "contact.roll.penetration=paper", "lambda of equation 15"},
     {ROW_NUMBER(roll, static_penetration, "contact.roll.static_penetration"), KEY_LENGTH, 1e-12, 1, "", DEVIATION,
      "how deep the ball lies in the contact at rest, from which the stiffness follows; left out: Hertz's depth of both "
-     "materials plus 1.5 times the ground's roughness Rq, at least 1 nm"},
+     "materials plus 1.5 times the ground's roughness Rq, at least 1 nm",
+     .shown = "8 um"},
     {ROW_NUMBER(roll, damping_ratio, "contact.roll.damping_ratio"), KEY_NONE, 0, 10, "0.3", DEVIATION,
      "damping ratio of the ball's mass on its contact, added to that of mu: a ball does not hum at its resonance; 0: "
      "mu "
@@ -712,6 +713,8 @@ static const struct params roll_params = {
     .section = "contact.roll",
     .size = sizeof(struct roll),
     .keys = keys,
+    .alternative = {.most = 1,
+                    .paths = {"contact.roll.stiffness", "contact.roll.kappa", "contact.roll.static_penetration"}},
     .derive = roll_derive,
     .check = roll_check,
     .given = rolls,
@@ -735,6 +738,7 @@ const struct stage roll_stage = {
     .open = roll_open,
     .run = roll_run,
     .skip = roll_skip,
+    .report = roll_report,
 };
 
 const struct stage roll_added_stage = {
@@ -752,4 +756,5 @@ const struct stage roll_added_stage = {
     .open = roll_open,
     .run = roll_run,
     .skip = roll_skip,
+    .report = roll_report,
 };

@@ -20,6 +20,9 @@ struct roll {                  /* contact.roll, as far as model roll alone has i
 
 const struct roll *roll_of(const struct contact *c);
 
+/* What a ball's stage says of the board's `roll`, of either model. */
+struct stage_report roll_report(const struct stage_run *r, struct arena *a);
+
 struct roll_law {
     double stiffness; /* N/m^1.5, k       */
     double mu;        /* s/m, lambda / k  */

@@ -128,7 +128,7 @@ static const struct key keys[] = {
     {.path = NULL}};
 
 static const struct params scrape_params = {
-    .section = "contact.force", .size = sizeof(struct scrape_law), .keys = keys};
+    .section = "contact.force", .size = sizeof(struct scrape_law), .keys = keys, .given = contact_pressed};
 
 const struct scrape_law *scrape_law(const struct contact *c) { return params_of(c, &scrape_params); }
 

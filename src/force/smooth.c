@@ -50,11 +50,6 @@ static const struct key keys[] = {
      "standard deviation of the Gaussian smoothing at alpha = 3 cm, in proportion to alpha; 0: none"},
     {.path = NULL}};
 
-static bool smooth_model(const struct contact *c)
-{
-    return c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL;
-}
-
 /* m: without a limiter the width is that of 3 cm. */
 static double smooth_alpha(const struct contact *c, double alpha)
 {
@@ -111,7 +106,7 @@ static const struct params smooth_params = {
     .keys = keys,
     .derive = smooth_derive,
     .check = smooth_check,
-    .given = smooth_model,
+    .given = contact_pressed,
 };
 
 static double smooth_width(const struct contact *c)
@@ -213,7 +208,7 @@ struct smooth {
 static bool smooth_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return smooth_model(c) && smooth_width(c) > 0 && scrape_law(c)->force == FORCE_DIRECTIONAL;
+    return contact_pressed(c) && smooth_width(c) > 0 && scrape_law(c)->force == FORCE_DIRECTIONAL;
 }
 
 static bool smooth_varies(const struct contact *c) { return load_varies(c) && limiter_of(c)->curve == LIMITER_TANH; }
@@ -227,7 +222,7 @@ double smooth_still(const struct contact *c)
 static bool smooth_curvature_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return smooth_model(c) && smooth_width(c) > 0 && scrape_law(c)->force == FORCE_PAPER;
+    return contact_pressed(c) && smooth_width(c) > 0 && scrape_law(c)->force == FORCE_PAPER;
 }
 
 static bool smooth_curvature_y_wanted(const struct contact *c, const struct scene *s)

@@ -39,18 +39,19 @@ static const struct key keys[] = {
     {ROW_CHOICE(strike, pulse, "contact.strike.pulse"), KEY_NONE, 0, 0, "hertz", STRIKE,
      "what springs back in an impact", pulses},
     {ROW_NUMBER(strike, speed, "contact.strike.speed"), KEY_SPEED, 1e-6, 100, NULL, STRIKE,
-     "speed at which the first impact arrives"},
+     "speed at which the first impact arrives", .shown = "1 m/s"},
     {ROW_NUMBER(strike, stiffness, "contact.strike.stiffness"), KEY_STIFFNESS, 1e-3, 1e15, "", STRIKE,
      "stiffness of the contact, N/m of half_sine and N/m^1.5 of hertz; left out: hertz takes it from scraper.radius "
-     "and both materials"},
+     "and both materials",
+     .shown = "1e8 N/m^1.5"},
     {ROW_NUMBER(strike, first, "contact.strike.first"), KEY_TIME, 0, 3600, "20 ms", STRIKE,
      "when the first impact begins, after the contact's start; 20 ms is clear of output.ramp"},
     {ROW_COUNT(strike, count, "contact.strike.count"), KEY_NONE, 0, 1000000, "0", STRIKE,
      "how many impacts, at most; 0: one, or with interval or restitution as many as the motion has time for"},
     {ROW_NUMBER(strike, interval, "contact.strike.interval"), KEY_TIME, 1e-5, 3600, "", STRIKE,
-     "time from impact to impact, all alike"},
+     "time from impact to impact, all alike", .shown = "0.5 s"},
     {ROW_NUMBER(strike, restitution, "contact.strike.restitution"), KEY_NONE, 0.01, 1, "", STRIKE,
-     "speed after over speed before an impact: the impacts are a bounce train under contact.gravity"},
+     "speed after over speed before an impact: the impacts are a bounce train under contact.gravity", .shown = "0.7"},
     {.path = NULL}};
 
 /* The unit, where one is written, says which pulse the figure is meant for. */
@@ -111,6 +112,7 @@ static const struct params strike_params = {
     .section = "contact.strike",
     .size = sizeof(struct strike),
     .keys = keys,
+    .alternative = {.most = 1, .paths = {"contact.strike.interval", "contact.strike.restitution"}},
     .check = check,
     .given = strikes,
 };

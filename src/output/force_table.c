@@ -29,8 +29,7 @@ enum column {
 
 static const char *pressed_lacks(const struct contact *c)
 {
-    int model = c->contact.model;
-    return model == CONTACT_SCRAPE || model == CONTACT_ROLL ? "" : "contact.model: scrape or roll";
+    return contact_pressed(c) ? "" : "contact.model: scrape or roll";
 }
 
 static const char *alpha_lacks(const struct contact *c)
@@ -87,19 +86,19 @@ static const struct choice formats[] = {
 static const struct key keys[] = {{ROW_NUMBER(scene, output.diagnostics.rate, "output.diagnostics.rate"), KEY_FREQUENCY,
                                    1, 768000, "1 kHz", NULL, "rows per second"},
                                   {ROW_LIST(scene, output.diagnostics.columns, "output.diagnostics.columns"), KEY_NONE,
-                                   0, 0, "", NULL, "columns to write; left out: all that the scene has"},
+                                   0, 0, "", NULL, "columns to write; left out: all that the scene has",
+                                   .example = "[speed_m_per_s, normal_force_n]",
+                                   .shown = "[time_s, speed_m_per_s, normal_force_n]"},
                                   {ROW_CHOICE(scene, output.diagnostics.format, "output.diagnostics.format"), KEY_NONE,
                                    0, 0, "csv", NULL, "how the table is written", formats},
                                   {.path = NULL}};
 
-static const struct key_section sections[] = {
-    {ROW_SECTION(scene, output.diagnostics, "output.diagnostics", "a table of the physics behind the sound")},
-    {.path = NULL}};
-
 const struct params force_table_params = {
     .section = "output.diagnostics",
+    .shown = true,
     .keys = keys,
-    .sections = sections,
+    .meaning = "a table of the physics behind the sound",
+    .flag = offsetof(struct scene, output.diagnostics.given),
     .columns = own_columns,
     .lacks = own_lacks,
 };
@@ -277,7 +276,7 @@ static bool force_table_open(struct stage_run *r, struct err *e)
     if (!columns_choose(t, r, e)) return false;
     /* The law of a varying load is on the board; a constant one's is needed for approach and release. */
     int model = r->contact->contact.model;
-    if (model == CONTACT_SCRAPE || model == CONTACT_ROLL) {
+    if (contact_pressed(r->contact)) {
         struct load_law *own = ARENA_TAKE(r->arena, struct load_law, 1);
         t->motion.load = r->board->load ? r->board->load : own;
         if (!r->board->load && !load_make(r->contact, r->board->trajectory, r->arena, own, e)) return false;

@@ -281,20 +281,24 @@ static const struct key keys[] = {
      "which quantity is the sound: of the vibration, or the force that excites it", quantities},
     {ROW_PLACE("output.listen")},
     {ROW_LIST(scene, output.stems, "output.stems"), KEY_NONE, 0, 0, "", NULL,
-     "parts that are written as WAVs of their own: force, surface, scraper, ball"},
+     "parts that are written as WAVs of their own: force, surface, scraper, ball", .example = "[force, surface]",
+     .shown = "[force, surface, scraper]"},
     {ROW_NUMBER(scene, output.level.full_scale, "output.level.full_scale"), KEY_OUTPUT, 1e-30, 1e30, "", NULL,
      "physical level: the value, in the response's unit (of quantity: force in N), that becomes 1.0 in the file; "
      "beyond 1.0, integers are refused, and floating point is written and warned of; so is a file whose samples are "
-     "all rounded to 0"},
+     "all rounded to 0",
+     .shown = "0.01"},
     {ROW_NUMBER(scene, output.level.peak, "output.level.peak"), KEY_DECIBEL, -200, 0, "", NULL,
-     "scales the file to this peak, dB re full scale"},
+     "scales the file to this peak, dB re full scale", .shown = "-3 dB"},
     {ROW_NUMBER(scene, output.level.rms, "output.level.rms"), KEY_DECIBEL, -200, 0, "", NULL,
-     "scales the file to this rms, dB re full scale"},
+     "scales the file to this rms, dB re full scale", .shown = "-20 dB"},
     {ROW_NUMBER(scene, output.level.lufs, "output.level.lufs"), KEY_LUFS, -200, 0, "", NULL,
-     "scales the file to this integrated loudness (BS.1770, which needs 0.4 s; mono counts as dual mono)"},
+     "scales the file to this integrated loudness (BS.1770, which needs 0.4 s; mono counts as dual mono)",
+     .shown = "-23 LUFS"},
     {ROW_NUMBER(scene, output.level.dbfs_at_1_pa, "output.level.dbfs_at_1_pa"), KEY_DECIBEL, -200, 100, "", NULL,
      "physical level of a sound in pascals: the level that 1 Pa gets, dB re full scale; beyond 1.0, integers are "
-     "refused, and floating point is written and warned of; so is a file whose samples are all rounded to 0"},
+     "refused, and floating point is written and warned of; so is a file whose samples are all rounded to 0",
+     .shown = "-20 dB"},
     {ROW_NUMBER(scene, output.ramp, "output.ramp"), KEY_TIME, 0, 10, "10 ms", NULL,
      "raised-cosine ramps at both ends of the total"},
     {ROW_CHOICE(scene, output.envelope, "output.envelope"), KEY_NONE, 0, 0, "none", NULL,
@@ -307,20 +311,17 @@ static const struct key keys[] = {
      "how long the sound rings after the last motion; auto: until every response has decayed by 80 dB, at most 60 s"},
     {ROW_NUMBER(scene, output.duration, "output.duration"), KEY_TIME, 1e-3, 36000, "", NULL,
      "exact length of the file, rounded to samples: a sound that would be shorter rings on, one that would be longer "
-     "is cut, under output.ramp; left out: as long as motion and tail take"},
+     "is cut, under output.ramp; left out: as long as motion and tail take",
+     .shown = "3 s"},
     {ROW_PLACE("output.diagnostics")},
     {.path = NULL}};
 
-static const struct key_alternative alternatives[] = {{NULL,
-                                                       0,
-                                                       1,
-                                                       {"output.level.full_scale", "output.level.dbfs_at_1_pa",
-                                                        "output.level.peak", "output.level.rms", "output.level.lufs"}},
-                                                      {.paths = {NULL}}};
-
-const struct params output_params = {.section = "output",
-                                     .keys = keys,
-                                     .alternatives = alternatives,
-                                     .check_scene = output_check,
-                                     .check_asked = contact_check,
-                                     .instead = output_instead};
+const struct params output_params = {
+    .section = "output",
+    .keys = keys,
+    .alternative = {.most = 1,
+                    .paths = {"output.level.full_scale", "output.level.dbfs_at_1_pa", "output.level.peak",
+                              "output.level.rms", "output.level.lufs"}},
+    .check_scene = output_check,
+    .check_asked = contact_check,
+    .instead = output_instead};

@@ -272,14 +272,15 @@ static const struct key keys[] = {
      "how vibration becomes what is heard", radiators},
     {ROW_PLACES(scene, output.listen.places, "output.listen.places"), KEY_LENGTH, -1000, 1000, NULL,
      "output.listen.radiator=point|monopole|plate",
-     "listening places [x, y, z] in the scene's coordinates, z above the surface; each becomes a channel"},
+     "listening places [x, y, z] in the scene's coordinates, z above the surface; each becomes a channel",
+     .shown = "[[0 m, 0 m, 1 m], [20 cm, 0 m, 1 m]]"},
     {ROW_NUMBER(scene, output.listen.density, "output.listen.density"), KEY_DENSITY, 1e-3, 1e5, "1.204 kg/m^3",
      "output.listen.radiator=monopole|plate", "density of the air"},
     {ROW_NUMBER(scene, output.listen.sound_speed, "output.listen.sound_speed"), KEY_SPEED, 10, 1e4, "343.2 m/s",
      "output.listen.radiator=monopole|plate", "speed of sound in the air"},
     {.path = NULL}};
 
-static const struct key_section sections[] = {
-    {ROW_SECTION(scene, output.listen, "output.listen", "where the sound is heard, and through what")}, {.path = NULL}};
-
-const struct params listener_params = {.section = "output.listen", .keys = keys, .sections = sections};
+const struct params listener_params = {.section = "output.listen",
+                                       .keys = keys,
+                                       .meaning = "where the sound is heard, and through what",
+                                       .flag = offsetof(struct scene, output.listen.given)};

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/rows.h"
 #include "scene/scene_part.h"
 #include "trajectory/contact.h"
 
@@ -164,15 +165,7 @@ static void body_check(const struct scene_part *p, const char *name, const struc
     reading_check(&b);
 }
 
-/* ------------------------------------------------------------------ the space of materials */
-
-static void space_check(const struct scene_part *p, const char *path, const double place[2])
-{
-    double r = sqrt(place[0] * place[0] + place[1] * place[1]);
-    if (r > 1 + 1e-6)
-        scene_part_refuse(p, path, path, "the rim is where x^2 + y^2 is 1",
-                          " lies %.6g from the centre, outside the disk of materials, whose radius is 1", r);
-}
+/* ------------------------------------------------------------------ what is heard */
 
 /* Is the body called as this model calls it? */
 static bool sound_named(const struct scene_part *p, const struct contact *c)
@@ -204,8 +197,193 @@ static void response_check(const struct scene_part *p, const struct contact *c, 
     body_check(p, "surface", &c->surface.response);
     body_check(p, contact_tool(c), &c->scraper.response);
     if (sound_named(p, c)) silence_check(p, c);
-    space_check(p, "surface.space.from", c->surface.response.space.from);
-    space_check(p, "surface.space.to", c->surface.response.space.to);
 }
 
-const struct params response_params = {.section = "surface.response", .check = response_check};
+/* ------------------------------------------------------------------ keys */
+
+static const struct choice engines[] = {
+    [ENGINE_AUTO] = {"auto", "resonators; overlap_add for what is recorded, cut by response_length or read out, and "
+                             "for gammatones that are launched"},
+    [ENGINE_RESONATORS] = {"resonators", "one exact recursion per mode; of launch, at nodes along the motion"},
+    [ENGINE_OVERLAP_ADD] = {"overlap_add", "fast convolution with impulse responses that overlap along the motion"},
+    {NULL, NULL}};
+
+static const struct choice movings[] = {
+    [MOVING_AUTO] =
+        {"auto",
+         "fixed where the poles are the same everywhere, launch where they differ; glide in the space of materials"},
+    [MOVING_FIXED] = {"fixed", "the object keeps its poles; the place decides how strongly each mode is driven"},
+    [MOVING_LAUNCH] = {"launch",
+                       "every force sample launches the response of its own place, which then rings as it is"},
+    [MOVING_GLIDE] = {"glide", "the contact changes the object: all that rings is retuned"},
+    [MOVING_READOUT] = {"readout", "all past force is heard through the response of the present place"},
+    {NULL, NULL}};
+
+static const struct choice outsides[] = {[EXTRAPOLATE_ERROR] = {"error", "is refused"},
+                                         [EXTRAPOLATE_NEAREST] = {"nearest", "rings as at the nearest place"},
+                                         {NULL, NULL}};
+
+static const struct choice shapes[] = {
+    [OBJECT_BAR] = {"bar", "a slender bar of rectangular section"},
+    [OBJECT_ROD] = {"rod", "a slender rod of round section, solid or a tube"},
+    [OBJECT_STRING] = {"string", "a stretched string with stiffness"},
+    [OBJECT_PLATE] = {"plate", "a thin rectangular plate, isotropic or orthotropic"},
+    [OBJECT_DISK] = {"disk", "a thin circular plate"},
+    [OBJECT_MEMBRANE] = {"membrane", "a stretched rectangular membrane"},
+    [OBJECT_DRUM] = {"drum", "a stretched circular membrane"},
+    [OBJECT_SHELL] = {"shell", "a thin closed spherical shell, touched from outside"},
+    {NULL, NULL}};
+
+static const struct choice waves[] = {
+    [WAVES_BENDING] = {"bending", "it bends"},
+    [WAVES_LONGITUDINAL] = {"longitudinal", "it is stretched and compressed along its length"},
+    {NULL, NULL}};
+
+static const struct choice edges[] = {
+    [EDGES_FREE] = {"free", "free all round"},
+    [EDGES_SUPPORTED] = {"supported", "simply supported: held in place, free to turn"},
+    [EDGES_CLAMPED] = {"clamped", "held in place and direction"},
+    [EDGES_CANTILEVER] = {"cantilever", "clamped at x = 0, else free"},
+    {NULL, NULL}};
+
+static const struct choice materials[] = {
+    [MATERIAL_CUSTOM] = {"custom", "what object.youngs_modulus, density, ... say"},
+    [MATERIAL_BASSWOOD] = {"basswood", "American basswood"},
+    [MATERIAL_POPLAR] = {"poplar", "yellow-poplar"},
+    [MATERIAL_OAK] = {"oak", "northern red oak"},
+    [MATERIAL_PVC] = {"pvc", "rigid PVC"},
+    [MATERIAL_POLYCARBONATE] = {"polycarbonate", "polycarbonate"},
+    [MATERIAL_ACRYLIC] = {"acrylic", "PMMA"},
+    [MATERIAL_GLASS] = {"glass", "soda-lime glass"},
+    [MATERIAL_CERAMIC] = {"ceramic", "porcelain stoneware"},
+    [MATERIAL_STEEL] = {"steel", "structural steel"},
+    [MATERIAL_ALUMINIUM] = {"aluminium", "aluminium alloy"},
+    {NULL, NULL}};
+
+/* What surface, scraper and ball share: paths and conditions follow the body's name. */
+static const struct key body_keys[] = {
+    {ROW_COUNT(response, modes, ".modes"), KEY_NONE, 1, 100000, "50", NULL, "how many of the strongest modes ring"},
+    {ROW_RANGE(response, band, ".band"), KEY_FREQUENCY, 0, 1e6, "[20 Hz, 20 kHz]", NULL,
+     "frequencies between which the strongest modes are chosen, whatever the sample rate (the lower end counts, the "
+     "upper does not; of objects undamped ones; where poles "
+     "differ from place to place, modes that somewhere lie inside); what is chosen and nowhere lies below 0.45 of the "
+     "sample rate does not ring, and is counted in a warning"},
+    {ROW_COUNT(response, gammatone, ".gammatone"), KEY_NONE, 1, 4, "1", NULL,
+     "gamma: each mode begins like t^(gamma - 1), its envelope scaled to the same greatest value; 2 is the softer "
+     "onset of Hermes for what rolls (papers/002, section II-B); 1: at once"},
+    {ROW_TIME_OR_AUTO(response, length, ".response_length"), KEY_TIME, 1e-4, 60, "auto", NULL,
+     "t0, at which the impulse response is cut off; auto: what rings is heard until the sound ends, but what launch "
+     "lets ring is dropped at -100 dB (-124 dB of the preset high), and what "
+     "overlap_add computes ends at -140 dB or after 60 s"},
+    {ROW_CHOICE(response, convolution, ".convolution"), KEY_NONE, 0, 0, "auto", NULL, "how force becomes sound",
+     engines},
+    {ROW_CHOICE(response, object.material, ".material"), KEY_NONE, 0, 0, "custom", NULL,
+     "what it is made of: gives the object's elastic constants, density and damping where its own keys do not",
+     materials},
+    {ROW_CHOICE(response, object.shape, ".object.shape"), KEY_NONE, 0, 0, NULL, NULL, "shape of the object", shapes,
+     .shown = "plate"},
+    {ROW_CHOICE(response, object.waves, ".object.waves"), KEY_NONE, 0, 0, "bending", ".object.shape=bar|rod",
+     "which of its motions sounds", waves},
+    {ROW_CHOICE(response, object.edges, ".object.edges"), KEY_NONE, 0, 0, "free", ".object.shape=bar|rod|plate|disk",
+     "how its ends or edges are held", edges},
+    {ROW_NUMBER(response, object.length, ".object.length"), KEY_LENGTH, 1e-3, 100, NULL,
+     ".object.shape=bar|rod|string|plate|membrane", "length along x", .shown = "30 cm"},
+    {ROW_NUMBER(response, object.width, ".object.width"), KEY_LENGTH, 1e-4, 100, NULL,
+     ".object.shape=bar|plate|membrane", "width along y", .shown = "20 cm"},
+    {ROW_NUMBER(response, object.diameter, ".object.diameter"), KEY_LENGTH, 1e-5, 100, NULL,
+     ".object.shape=rod|string|disk|drum|shell", "outer diameter", .shown = "10 cm"},
+    {ROW_NUMBER(response, object.thickness, ".object.thickness"), KEY_LENGTH, 1e-6, 1, "",
+     ".object.shape=bar|rod|plate|disk|membrane|drum|shell",
+     "thickness; of a rod that of its wall (left out: it is solid); all others need it", .shown = "5 mm"},
+    {ROW_NUMBER(response, object.tension, ".object.tension"), KEY_FORCE, 1e-3, 1e7, NULL, ".object.shape=string",
+     "tension of a string", .shown = "80 N"},
+    {ROW_NUMBER(response, object.surface_tension, ".object.surface_tension"), KEY_FORCE_PER_LENGTH, 1e-3, 1e7, NULL,
+     ".object.shape=membrane|drum", "tension of a membrane, per length of its edge", .shown = "2 kN/m"},
+    {ROW_NUMBER(response, object.youngs_modulus, ".object.youngs_modulus"), KEY_PRESSURE, 1e4, 1e13, "", NULL,
+     "Young's modulus, along x; left out: the material's", .shown = "12 GPa"},
+    {ROW_NUMBER(response, object.youngs_modulus_across, ".object.youngs_modulus_across"), KEY_PRESSURE, 1e4, 1e13, "",
+     ".object.shape=plate", "Young's modulus along y of an orthotropic plate; left out: the material's",
+     .shown = "0.8 GPa"},
+    {ROW_NUMBER(response, object.shear_modulus, ".object.shear_modulus"), KEY_PRESSURE, 1e4, 1e13, "",
+     ".object.shape=plate", "shear modulus in the plane of an orthotropic plate; left out: the material's",
+     .shown = "0.9 GPa"},
+    {ROW_NUMBER(response, object.poisson, ".object.poisson"), KEY_NONE, -0.99, 0.499, "", NULL,
+     "Poisson's ratio (along x); left out: the material's", .shown = "0.35"},
+    {ROW_NUMBER(response, object.density, ".object.density"), KEY_DENSITY, 1, 1e5, "", NULL,
+     "density; left out: the material's", .shown = "650 kg/m^3"},
+    {ROW_NUMBER(response, object.alpha, ".object.alpha"), KEY_PER_TIME, 0, 1e6, "", NULL,
+     "Rayleigh damping in proportion to mass (C = alpha M + beta K); left out: the material's", .shown = "10 1/s"},
+    {ROW_NUMBER(response, object.beta, ".object.beta"), KEY_TIME, 0, 1, "", NULL,
+     "Rayleigh damping in proportion to stiffness; left out: the material's", .shown = "0.1 us"},
+    {ROW_NUMBER(response, object.loss, ".object.loss"), KEY_NONE, 0, 1, "", NULL,
+     "loss factor; left out: the material's", .shown = "0.01"},
+    {.path = NULL}};
+
+#define BODY(name, condition)                                                                                          \
+    {                                                                                                                  \
+        .section = #name ".object",                                                                                    \
+        .meaning = "an object of simple shape, whose modes are computed from its size and material",                   \
+        .flag = offsetof(struct response, object.given), .keys = body_keys, .body = #name,                             \
+        .base = offsetof(struct contact, name.response), .when = condition                                             \
+    }
+
+#define SCRAPES "contact.model=scrape|strike|given|impacts|playback"
+#define ROLLS "contact.model=roll|roll_coupled"
+
+const struct params response_of_surface_params = BODY(surface, NULL);
+const struct params response_of_scraper_params = BODY(scraper, SCRAPES);
+const struct params response_of_ball_params = BODY(ball, ROLLS);
+
+static const struct key surface_keys[] = {
+    {ROW_FILE(contact, surface.response.file, "surface.response"), KEY_NONE, 0, 0, "", NULL,
+     "how the surface's object rings: a mode table (CSV), an impulse response (WAV), or a folder of impulse responses "
+     "with an index.csv of their places",
+     .shown = "plank.csv"},
+    {ROW_PLACE("surface.object")},
+    {ROW_POINT(contact, surface.response.object.origin, "surface.object.origin"), KEY_LENGTH, -100, 100, "[0 m, 0 m]",
+     NULL,
+     "where the object's own x = y = 0 lies in the scene: a corner of a plate, bar or membrane, the centre of what is "
+     "round"},
+    {ROW_CHOICE(contact, surface.response.moving, "surface.moving"), KEY_NONE, 0, 0, "auto", NULL,
+     "what it means that the response depends on the place of a contact that moves", movings},
+    {ROW_NUMBER(contact, surface.response.pairing, "surface.pairing"), KEY_NONE, 0, 0.5, "0.03", NULL,
+     "largest relative difference of frequencies at which modes of two places may be one and the same, in a table "
+     "whose modes are not named alike everywhere"},
+    {ROW_CHOICE(contact, surface.response.extrapolate, "surface.extrapolate"), KEY_NONE, 0, 0, "error", NULL,
+     "what a contact outside the response's places does", outsides},
+    {.path = NULL}};
+
+const struct params response_params = {
+    .section = "surface.response",
+    .keys = surface_keys,
+    .alternative = {.most = 1, .paths = {"surface.response", "surface.object", "surface.space"}},
+    .check = response_check};
+
+static const struct key scraper_keys[] = {
+    {ROW_FILE(contact, scraper.response.file, "scraper.response"), KEY_NONE, 0, 0, "", SCRAPES,
+     "how the scraper rings: a mode table (CSV; of several places the first along their line is used) or an impulse "
+     "response (WAV); without it the scraper is silent",
+     .shown = "tool.csv"},
+    {ROW_PLACE("scraper.object")},
+    {ROW_POINT(contact, scraper.response.object.at, "scraper.object.at"), KEY_LENGTH, -100, 100, "[0 m, 0 m]", SCRAPES,
+     "where on the scraper's object the contact is, in the object's own coordinates"},
+    {.path = NULL}};
+
+const struct params response_scraper_params = {
+    .section = "scraper.response",
+    .keys = scraper_keys,
+    .alternative = {.most = 1, .paths = {"scraper.response", "scraper.object"}}};
+
+static const struct key ball_keys[] = {
+    {ROW_FILE(contact, ball.response.file, "ball.response"), KEY_NONE, 0, 0, "", ROLLS,
+     "how the ball rings: a mode table (CSV; of several places the first along their line is used) or an impulse "
+     "response (WAV); without it the ball is silent",
+     .shown = "ball.csv"},
+    {ROW_PLACE("ball.object")},
+    {ROW_POINT(contact, ball.response.object.at, "ball.object.at"), KEY_LENGTH, -100, 100, "[0 m, 0 m]", ROLLS,
+     "where on the ball's object the contact is, in the object's own coordinates"},
+    {.path = NULL}};
+
+const struct params response_ball_params = {.section = "ball.response",
+                                            .keys = ball_keys,
+                                            .alternative = {.most = 1, .paths = {"ball.response", "ball.object"}}};

@@ -24,6 +24,8 @@
 #include "num/real.h"
 #include "num/vecmath.h"
 #include "scene/material.h"
+#include "scene/rows.h"
+#include "scene/scene_part.h"
 
 /* Anchors of the space of materials (papers/004, "Intuitive Sound-Synthesis Control"; its source is Aramaki, Besson,
    Kronland-Martinet, Ystad, Controlling the perceived material in an impact sound synthesizer, IEEE TASLP 2011). 004
@@ -425,3 +427,47 @@ bool space_modes(const struct space *g, const struct modes_ask *ask, struct aren
                                "the band, or change surface.space.fundamental, %g Hz",
                                ask->band[0], ask->band[1], g->fundamental);
 }
+
+/* ------------------------------------------------------------------ keys */
+
+static const struct key keys[] = {
+    {ROW_POINT(contact, surface.response.space.from, "surface.space.from"), KEY_NONE, -1, 1, "[0, 0]", NULL,
+     "place in the disk of materials: wood at [1, 0], metal at 120 degrees, glass at 240 degrees on its rim"},
+    {ROW_POINT(contact, surface.response.space.to, "surface.space.to"), KEY_NONE, -1, 1, "", NULL,
+     "place at the motion's end, reached along a straight line; left out: it stays", .shown = "[-0.5, 0.86]"},
+    {ROW_NUMBER(contact, surface.response.space.dimension, "surface.space.dimension"), KEY_NONE, 1, 3, "2", NULL,
+     "shape: 1 bar, 2 plate, 3 shell, and all between"},
+    {ROW_NUMBER(contact, surface.response.space.dimension_to, "surface.space.dimension_to"), KEY_NONE, 1, 3, "", NULL,
+     "shape at the motion's end; left out: it stays", .shown = "3"},
+    {ROW_NUMBER(contact, surface.response.space.fundamental, "surface.space.fundamental"), KEY_FREQUENCY, 20, 5000,
+     "400 Hz", NULL, "frequency of the lowest mode: the object's size"},
+    {ROW_NUMBER(contact, surface.response.space.gain, "surface.space.gain"), KEY_NONE, 1e-12, 1e12, "1", NULL,
+     "velocity per impulse of the lowest mode, in m/s per N s: how light the object is"},
+    {.path = NULL}};
+
+static void rim_check(const struct scene_part *p, const char *path, const double place[2])
+{
+    double r = sqrt(place[0] * place[0] + place[1] * place[1]);
+    if (r > 1 + 1e-6)
+        scene_part_refuse(p, path, path, "the rim is where x^2 + y^2 is 1",
+                          " lies %.6g from the centre, outside the disk of materials, whose radius is 1", r);
+}
+
+static void space_check(const struct scene_part *p, const struct contact *c, const void *own)
+{
+    (void)own;
+    rim_check(p, "surface.space.from", c->surface.response.space.from);
+    rim_check(p, "surface.space.to", c->surface.response.space.to);
+}
+
+const struct params space_params = {
+    .section = "surface.space",
+    .keys = keys,
+    .meaning = "an object somewhere between wood, metal and glass, and between bar, plate and shell, which may "
+               "change while it sounds; as anchors wood is basswood, metal steel and "
+               "glass glass, with elastic constants and damping as surface.material has them; the spacing of their "
+               "modes is that of a bar, plate and shell of each, by closed "
+               "forms; between anchors the logarithms of frequency ratios and of decays are averaged, by the shares "
+               "of wood, metal and glass at the place",
+    .flag = offsetof(struct contact, surface.response.space.given),
+    .check = space_check};

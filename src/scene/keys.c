@@ -1,107 +1,77 @@
-/* keys.def, choices.def and accuracy.def as tables. */
+/* All keys, put together from the tables of the files that read them; accuracy.def as a table. */
 #include "scene/keys.h"
 
 #include <assert.h>
 #include <pthread.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "scene/params.h"
+#include "scene/rows.h"
 
-#define CHOICES(name) static const struct choice words_##name[] = {
-#define CHOICE(name, word, meaning) {word, meaning},
-#define CHOICES_END                                                                                                    \
-    {                                                                                                                  \
-        NULL, NULL                                                                                                     \
-    }                                                                                                                  \
-    }                                                                                                                  \
-    ;
-#include "scene/choices.def"
-#undef CHOICES
-#undef CHOICE
-#undef CHOICES_END
-
-#define OFFSET_SCENE(field) offsetof(struct scene, field)
-#define OFFSET_CONTACT(field) offsetof(struct contact, field)
-#define KEY_CHOICE(name) KEY_CHOICE, .choices = words_##name
-
-#define KEY(owner, field, where, kind, unit, lowest, highest, preset, when, text)                                      \
-    {.of = KEY_##owner,                                                                                                \
-     .offset = OFFSET_##owner(field),                                                                                  \
-     .path = where,                                                                                                    \
-     .type = KEY_##kind,                                                                                               \
-     .dimension = KEY_##unit,                                                                                          \
-     .low = lowest,                                                                                                    \
-     .high = highest,                                                                                                  \
-     .standard = preset,                                                                                               \
-     .applies = when,                                                                                                  \
-     .meaning = text},
-#define SECTION(...)
-#define ALTERNATIVE(...)
-#define STAGES(map) {.path = map, .meaning = NULL},
-static const struct key rows[] = {
-#include "scene/keys.def"
+static const struct key scene_own[] = {
+    {ROW_COUNT(scene, version, "rasp"), KEY_NONE, 1, 1, NULL, NULL, "version of the scene format; this is version 1",
+     .shown = "1"},
+    {ROW_TEXT(scene, title, "title"), KEY_NONE, 0, 0, "", NULL,
+     "what the scene shows, for people; goes into the WAV as its title",
+     .shown = "\"a tool scraped back and forth on a rough plank\"", .on = true},
+    {ROW_SEED(scene, seed, "seed"), KEY_NONE, 0, 0, "0", NULL,
+     "seed of all random numbers; each stage has its own stream, so that adding an effect changes no other stage's "
+     "noise"},
+    {ROW_TEXT(contact, name, "name"), KEY_NONE, 0, 0, "contact", NULL,
+     "name of the contact, in diagnostics and messages"},
+    {ROW_NUMBER(contact, start, "start"), KEY_TIME, 0, 3600, "0 s", NULL,
+     "when the contact begins, after the start of the scene, to the nearest audio sample"},
+    {ROW_NUMBER(contact, gain, "gain"), KEY_NONE, -1000, 1000, "1", NULL, "factor on this contact's sound in the sum"},
     {.path = NULL}};
-#undef KEY
-#undef SECTION
-#undef ALTERNATIVE
 
-#define KEY(...)
-#define SECTION(owner, field, where, text)                                                                             \
-    {.of = KEY_##owner, .offset = OFFSET_##owner(field.given), .path = where, .meaning = text},
-#define ALTERNATIVE(...)
-static const struct key_section sections[] = {
-#include "scene/keys.def"
-    {.path = NULL}};
-#undef SECTION
-#undef ALTERNATIVE
-#undef STAGES
-
-#define STAGES(...)
-#define SECTION(...)
-#define ALTERNATIVE(when, lowest, highest, ...)                                                                        \
-    {.applies = when, .least = lowest, .most = highest, .paths = {__VA_ARGS__}},
-static const struct key_alternative alternatives[] = {
-#include "scene/keys.def"
-    {.paths = {NULL}}};
-
-/* ------------------------------------------------------------------ with those of the effects */
+/* Then the maps' keys, in this order, and within a map in that of pipeline/stages.def. */
+static const char *const maps[] = {"surface", "surface.response", "surface.space", "scraper", "scraper.response",
+                                   "ball",    "ball.response",    "motion",        "grip",    "load",
+                                   "contact", "ablation",         "output"};
+enum { MAPS = sizeof maps / sizeof *maps };
 
 static struct keys all;
 
-/* The longest of the places among rows, and from there on in those of all params, that `section` is in; NULL: none. */
-static const char *place_of(const char *section)
+static void longer(const char **best, const char *place, const char *section)
 {
+    size_t n = strlen(place);
+    if (!strncmp(place, section, n) && strchr(".", section[n]) && (!*best || strlen(*best) < n)) *best = place;
+}
+
+/* Do the rows of p stand at that place? It is the longest that its section is in, of `maps` and of the rows that are
+   places. */
+static bool is_here(const struct params *p, const char *place)
+{
+    const struct params *other;
     const char *best = NULL;
-    const struct params *p = NULL;
-    for (int i = 0; i == 0 || p; p = stages_params(i++))
-        for (const struct key *k = p ? p->keys : rows; k && k->path; k++) {
-            size_t n = strlen(k->path);
-            if (!k->meaning && !strncmp(k->path, section, n) && strchr(".", section[n]) && (!best || strlen(best) < n))
-                best = k->path;
-        }
-    return best;
+    for (int i = 0; i < MAPS; i++)
+        longer(&best, maps[i], p->section);
+    for (int i = 0; (other = stages_params(i)); i++)
+        for (const struct key *k = other->keys; k && k->path; k++)
+            if (!k->meaning) longer(&best, k->path, p->section);
+    return best && !strcmp(best, place);
 }
 
 /* "*" stands for all parts of the surface that are not named. */
-static void rivals_add(struct key_alternative *t)
+static void rivals_add(struct key_alternative *t, const struct key_alternative *old)
 {
-    const struct key_alternative old = *t;
     const struct params *p;
     int n = 0;
-    for (int k = 0; old.paths[k]; k++) {
-        bool rest = !strcmp(old.paths[k], "*");
-        if (!rest) t->paths[n++] = old.paths[k];
+    *t = *old;
+    for (int k = 0; old->paths[k]; k++) {
+        bool rest = !strcmp(old->paths[k], "*");
+        if (!rest) t->paths[n++] = old->paths[k];
         for (int i = 0; rest && (p = stages_params(i)); i++) {
             bool named = !p->ground || !p->ground->span;
-            for (int m = 0; old.paths[m]; m++)
-                named = named || !strcmp(old.paths[m], p->section);
+            for (int m = 0; old->paths[m]; m++)
+                named = named || !strcmp(old->paths[m], p->section);
             assert(named || n < KEYS_RIVALS);
             if (!named) t->paths[n++] = p->section;
         }
     }
     t->paths[n] = NULL;
-    t->most = old.most == 1 ? 1 : n;
+    t->most = old->most == 1 ? 1 : n;
 }
 
 struct taken {
@@ -109,53 +79,64 @@ struct taken {
     struct key_section *sections;
 };
 
-/* Of `in`; NULL: of nobody. */
-static void rows_take(struct taken *t, const struct key *row, const struct params *in)
+/* The path of a key of `in`. */
+static const char *path_in(const struct params *in, const char *path)
+{
+    if (!in->body || path[0] != '.') return path;
+    size_t n = strlen(in->body) + strlen(path) + 1;
+    char *whole = memory_take(n);
+    snprintf(whole, n, "%s%s", in->body, path);
+    return whole;
+}
+
+static void rows_take(struct taken *t, const char *place);
+
+static void row_take(struct taken *t, const struct key *row, const struct params *in)
+{
+    struct key *k = t->keys;
+    if (!row->meaning) {
+        rows_take(t, row->path);
+        return;
+    }
+    t->keys++;
+    *k = *row;
+    k->in = in;
+    k->path = path_in(in, k->path);
+    k->applies = k->applies ? path_in(in, k->applies) : in->when;
+    k->offset += in->size ? params_at(in) : in->base;
+}
+
+/* What stands at that place. */
+static void rows_take(struct taken *t, const char *place)
 {
     const struct params *p;
-    for (; row && row->path; row++)
-        if (row->meaning) {
-            *t->keys = *row;
-            if (in && in->size) {
-                t->keys->in = in;
-                t->keys->offset += params_at(in);
-            }
-            t->keys++;
-        } else
-            for (int i = 0; (p = stages_params(i)); i++) {
-                const char *place = place_of(p->section);
-                if (!place || strcmp(place, row->path) != 0) continue;
-                if (p->meaning)
-                    *t->sections++ = (struct key_section){KEY_CONTACT, params_at(p), p->section, p->meaning, p};
-                for (const struct key_section *s = p->sections; s && s->path; s++)
-                    *t->sections++ = *s;
-                rows_take(t, p->keys, p);
-            }
+    for (int i = 0; (p = stages_params(i)); i++) {
+        if (!is_here(p, place)) continue;
+        if (p->meaning)
+            *t->sections++ = (struct key_section){p->keys->of, p->size ? params_at(p) : p->base + p->flag, p->section,
+                                                  p->meaning, p};
+        for (const struct key *row = p->keys; row && row->path; row++)
+            row_take(t, row, p);
+    }
 }
 
 static void tables_make(void)
 {
     enum { MOST = 400, RIVALS = 20 };
     struct key *table = memory_take(MOST * sizeof *table);
-    struct key_section *maps = memory_take(MOST * sizeof *maps);
+    struct key_section *sections = memory_take(MOST * sizeof *sections);
     struct key_alternative *rivals = memory_take(RIVALS * sizeof *rivals), *r = rivals;
-    struct taken t = {table, maps};
+    struct taken t = {table, sections};
     const struct params *p;
-    rows_take(&t, rows, NULL);
-    for (const struct key_section *k = sections; k->path; k++)
-        if (k->meaning) *t.sections++ = *k;
-    for (const struct key_alternative *a = alternatives; a->paths[0]; a++) {
-        *r = *a;
-        rivals_add(r++);
-    }
+    for (const struct key *row = scene_own; row->path; row++)
+        *t.keys++ = *row;
+    for (int i = 0; i < MAPS; i++)
+        rows_take(&t, maps[i]);
     for (int i = 0; (p = stages_params(i)); i++)
-        for (const struct key_alternative *a = p->alternatives; a && a->paths[0]; a++) {
-            *r = *a;
-            rivals_add(r++);
-        }
-    assert(t.keys - table < MOST && t.sections - maps < MOST && r - rivals < RIVALS);
+        if (p->alternative.paths[0]) rivals_add(r++, &p->alternative);
+    assert(t.keys - table < MOST && t.sections - sections < MOST && r - rivals < RIVALS);
     t.keys->path = t.sections->path = r->paths[0] = NULL;
-    all = (struct keys){table, maps, rivals};
+    all = (struct keys){table, sections, rivals};
 }
 
 const struct keys *keys_all(void)
@@ -167,12 +148,12 @@ const struct keys *keys_all(void)
 
 void *keys_field(const struct key *k, const void *owner)
 {
-    return (k->in ? (char *)params_block(owner) : (char *)owner) + k->offset;
+    return (k->in && k->in->size ? (char *)params_block(owner) : (char *)owner) + k->offset;
 }
 
 bool *keys_given(const struct key_section *s, const void *owner)
 {
-    return (bool *)((s->in ? (char *)params_block(owner) : (char *)owner) + s->offset);
+    return (bool *)((s->in->size ? (char *)params_block(owner) : (char *)owner) + s->offset);
 }
 
 #define KNOB(knob, lowest, highest, integer, counts, falls, draft, standard, best, reference, text)                    \

@@ -1,5 +1,5 @@
-/* The rows of keys.def and choices.def as tables, for the reader, the effective scene, `explain`, `new` and the man
- * page. */
+/* The keys of a scene and the words of its choices as tables, for the reader, the effective scene, `explain`, `new`
+   and the man page. */
 #ifndef SCENE_KEYS_H
 #define SCENE_KEYS_H
 #include <stdbool.h>
@@ -58,13 +58,20 @@ struct key {
     const char *path;
     enum key_type type;
     enum key_dimension dimension;
-    double low, high;
-    const char *standard; /* the default; NULL: must be given; "": may be left out */
-    const char *applies;  /* "key=word|word", "key", "!key" or NULL, see keys.def */
-    const char *meaning;
+    double low, high;     /* inclusive, SI */
+    const char *standard; /* the default, as one would write it; NULL: must be given; "": may be left out */
+    /* NULL, or "key=word|word": it may only be given, and has its default only, where that key has one of these words;
+       or "key" (of type KEY_FILE or KEY_NUMBER): where that key is given; or "!key": where it is not. A key whose
+       deciding key does not itself apply does not apply either. */
+    const char *applies;
+    const char
+        *meaning; /* a sentence, with what the default means when it is not a value; NULL: other rows stand here */
     const struct choice *choices;
-    const char *example; /* where there is no default: a value that shows what is meant; NULL: scene_values.c has it */
-    const struct params *in; /* whose row it is (scene/params.h); NULL: of keys.def */
+    const char
+        *example; /* where there is no default: a value that shows what is meant; NULL: made of its type and unit */
+    const char *shown;       /* where there is no default: the reference scene's value, if it is not `example` */
+    bool on;                 /* may be left out, but is on in the reference scene */
+    const struct params *in; /* whose row it is (scene/params.h); NULL: the scene's own */
 };
 
 struct key_section {
@@ -78,8 +85,8 @@ enum { KEYS_RIVALS = 15 };
 
 struct key_alternative {
     const char *applies;                /* as of a key; NULL: always */
-    int least, most;                    /* how many of them may be given */
-    const char *paths[KEYS_RIVALS + 1]; /* ends with NULL */
+    int least, most;                    /* how many of them may be given; most: 1, or more: all */
+    const char *paths[KEYS_RIVALS + 1]; /* ends with NULL; "*": all parts of the surface that have a section */
 };
 
 /* What a knob counts, and so how its error is expected to follow it. */
@@ -106,7 +113,7 @@ struct keys {
     const struct key_alternative *alternatives; /* ends with paths[0] NULL */
 };
 
-/* The rows of keys.def and, where it has STAGES, those of the effects' own files; put together once. */
+/* The scene's own rows, and those of all files that have some (scene/params.h); put together once. */
 const struct keys *keys_all(void);
 #define keys_table (keys_all()->table)
 #define keys_sections (keys_all()->sections)

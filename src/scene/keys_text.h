@@ -7,7 +7,7 @@
 #include "base/arena.h"
 #include "scene/keys.h"
 
-/* Keys of a scene that are not rows of keys.def: they give the others their place. Ends with path NULL. */
+/* Keys of a scene that are in no table: they give the others their place. Ends with path NULL. */
 struct keys_text_frame {
     const char *path, *type, *meaning;
 };

@@ -117,106 +117,9 @@ const char *keys_yaml_number(double x, struct arena *a)
 
 /* ------------------------------------------------------------------ the reference scene */
 
-/* From the tables come keys, defaults, ranges, meanings; only what has no default is shown by an
-   example from here. A key is commented out when it stands for something else than the scene shows: a rival of a key
-   that is given, a section that is not, or a key that does not apply. */
-
-/* A path that begins with a dot stands for those of the surface, the scraper and the ball. */
-static const struct {
-    const char *path, *value;
-    bool off;
-} examples[] = {
-    {"rasp", "1", false},
-    {"title", "\"a tool scraped back and forth on a rough plank\"", false},
-    {"surface.recipe", "plank.yaml", true},
-    {"surface.height_map", "plank.npy", true},
-    {"surface.pitch", "5 um", true},
-    {"surface.height_range", "100 um", true},
-    {"surface.continuation.exponent", "-2.4", true},
-    {"surface.continuation.from", "50 um", true},
-    {"surface.roughness.like", "plank.gsf", true},
-    {"surface.roughness.like_pitch", "5 um", true},
-    {"surface.response", "plank.csv", true},
-    {"ablation.place", "[5 cm, 2 cm]", true},
-    {"output.duration", "3 s", true},
-    {".object.shape", "plate", true},
-    {".object.length", "30 cm", true},
-    {".object.width", "20 cm", true},
-    {".object.diameter", "10 cm", true},
-    {".object.thickness", "5 mm", true},
-    {".object.tension", "80 N", true},
-    {".object.surface_tension", "2 kN/m", true},
-    {".object.youngs_modulus", "12 GPa", true},
-    {".object.youngs_modulus_across", "0.8 GPa", true},
-    {".object.shear_modulus", "0.9 GPa", true},
-    {".object.poisson", "0.35", true},
-    {".object.density", "650 kg/m^3", true},
-    {".object.alpha", "10 1/s", true},
-    {".object.beta", "0.1 us", true},
-    {".object.loss", "0.01", true},
-    {"surface.space.to", "[-0.5, 0.86]", true},
-    {"surface.space.dimension_to", "3", true},
-    {"scraper.mass", "20 g", false},
-    {"scraper.radius", "1 mm", true},
-    {"scraper.response", "tool.csv", true},
-    {"ball.radius", "1 cm", true},
-    {"ball.mass", "11 g", true},
-    {"ball.wall", "2 mm", true},
-    {"ball.response", "ball.csv", true},
-    {"motion.path", "back_and_forth", false},
-    {"motion.to", "[4.5 cm, 0 cm]", false},
-    {"motion.radius", "2 cm", true},
-    {"motion.points", "[[0 cm, 0 cm], [3 cm, 1 cm], [6 cm, 0 cm]]", true},
-    {"motion.file", "recording.csv", true},
-    {"motion.rate", "2 Hz", false},
-    {"motion.speed", "10 cm/s", true},
-    {"motion.duration", "2 s", false},
-    {"motion.profile", "speed.csv", true},
-    {"load.constant", "1.5 N", true},
-    {"load.recorded", "force.csv", true},
-    {"contact.strike.speed", "1 m/s", true},
-    {"contact.strike.stiffness", "1e8 N/m^1.5", true},
-    {"contact.strike.interval", "0.5 s", true},
-    {"contact.strike.restitution", "0.7", true},
-    {"contact.given.file", "force.wav", true},
-    {"contact.given.scale", "10 N", true},
-    {"contact.given.rate", "48 kHz", true},
-    {"contact.roll.stiffness", "2e9 N/m^1.5", true},
-    {"contact.roll.kappa", "5e9 N/(m^1.5 kg)", true},
-    {"contact.roll.static_penetration", "8 um", true},
-    {"contact.impacts.prototype", "roll", true},
-    {"contact.impacts.amplitude.mean", "0.35", true},
-    {"contact.impacts.amplitude.deviation", "0.04", true},
-    {"contact.impacts.amplitude.a1", "-0.95", true},
-    {"contact.impacts.amplitude.b1", "0.2", true},
-    {"contact.impacts.amplitude.table", "amplitudes.csv", true},
-    {"contact.impacts.interval.mean", "5 ms", true},
-    {"contact.impacts.interval.deviation", "0.5 ms", true},
-    {"contact.impacts.interval.a1", "-0.95", true},
-    {"contact.impacts.interval.b1", "0", true},
-    {"contact.impacts.interval.table", "intervals.csv", true},
-    {"contact.impacts.duration.zeta", "0.4 ms", true},
-    {"contact.impacts.duration.theta", "0.29", true},
-    {"contact.impacts.modulation.depth", "0.3", true},
-    {"contact.impacts.modulation.rate", "3 Hz", true},
-    {"contact.impacts.floor.amplitude", "0.01", true},
-    {"contact.impacts.space.angle_to", "-120 deg", true},
-    {"contact.impacts.space.radius_to", "0.5", true},
-    {"contact.impacts.space.walk", "walk.csv", true},
-    {"contact.limiter.force_range", "[0.2 N, 5 N]", true},
-    {"output.listen.places", "[[0 m, 0 m, 1 m], [20 cm, 0 m, 1 m]]", true},
-    {"output.stems", "[force, surface, scraper]", true},
-    {"output.level.full_scale", "0.01", true},
-    {"output.level.peak", "-3 dB", true},
-    {"output.level.rms", "-20 dB", true},
-    {"output.level.lufs", "-23 LUFS", true},
-    {"output.level.dbfs_at_1_pa", "-20 dB", true},
-    {"output.diagnostics.columns", "[time_s, speed_m_per_s, normal_force_n]", true},
-    {NULL, NULL, false},
-};
-
-static const char *const sections_off[] = {
-    "surface.object", "surface.space", "scraper.object", "ball.object", "grip", "output.listen", NULL};
+/* From the tables come keys, defaults, ranges, meanings; what has no default is shown by an example. A key is commented
+   out when it stands for something else than the scene shows: a rival of a key that is given, a section that is not, or
+   a key that does not apply. */
 
 static const char head[] =
     "# Every key of a scene, with its default. It is a scene: rasp check takes it as it stands.\n"
@@ -242,19 +145,10 @@ static const char tail[] =
     "# Scene files to build on: maps merge, lists are replaced, this file wins. Names are as seen from this file.\n"
     "#include: [plank.yaml, hand.yaml]\n";
 
-static int example(const char *path)
-{
-    const char *rest = path + strcspn(path, ".");
-    for (int i = 0; examples[i].path; i++)
-        if (!strcmp(examples[i].path, examples[i].path[0] == '.' ? rest : path)) return i;
-    return -1;
-}
-
 const char *keys_yaml_example(const char *path)
 {
-    int i = example(path);
-    const struct key *k = i < 0 ? keys_find(path) : NULL;
-    return i >= 0 ? examples[i].value : k ? k->example : NULL;
+    const struct key *k = keys_find(path);
+    return !k ? NULL : k->shown ? k->shown : k->example;
 }
 
 static const char *shown(const struct key *k)
@@ -275,11 +169,10 @@ static bool applies(const struct key *k)
 
 static bool is_off(const struct key *k)
 {
-    int i = example(k->path);
-    for (const char *const *s = sections_off; *s; s++)
-        if (!strncmp(k->path, *s, strlen(*s)) && k->path[strlen(*s)] == '.') return true;
-    if (k->in && k->in->meaning && !k->in->shown) return true;
-    return (i >= 0 && examples[i].off) || (i < 0 && k->standard && !*k->standard) || !applies(k);
+    for (const struct key_section *s = keys_sections; s->path; s++)
+        if (!s->in->shown && !strncmp(k->path, s->path, strlen(s->path)) && k->path[strlen(s->path)] == '.')
+            return true;
+    return (k->standard && !*k->standard && !k->on) || !applies(k);
 }
 
 static const char *comment(const struct key *k, struct arena *a)

@@ -7,7 +7,7 @@
 #include "base/arena.h"
 
 struct keys_line {
-    const char *path;    /* dotted, as in keys.def; lines of one map stand together          */
+    const char *path;    /* dotted, as of a key; lines of one map stand together          */
     const char *value;   /* YAML text of the value                                           */
     const char *comment; /* written above, wrapped; NULL: none                               */
     bool off;            /* written as a comment that becomes the line when its # is removed */

@@ -42,7 +42,7 @@ const void *params_of(const struct contact *c, const struct params *p)
 
 bool params_given(const struct contact *c, const struct params *p)
 {
-    return p->given ? p->given(c) : !p->meaning || *(const bool *)params_of(c, p);
+    return p->given ? p->given(c) : !p->meaning || !p->size || *(const bool *)params_of(c, p);
 }
 
 void *params_edit(struct contact *c, const struct params *p, struct arena *a)

@@ -1,13 +1,16 @@
-/* Parameters of an effect: what its own file says of its section of the scene, so that nothing else has to name it.
+/* Parameters of an effect, or of a map: what its own file says of its section of the scene, so that nothing else has
+   to name it.
 
    The file holds the struct, whose first member is `bool given`, rows of keys with offsets within it (scene/rows.h),
-   rules between them, columns of diagnostics, and one `const struct params` that its stage points to. The rows stand in
-   keys_table where keys.def has STAGES(map), in the order of pipeline/stages.def. The structs of a contact lie in one
-   block, contact->params; a contact that is copied shares it, and nobody writes into it but params_edit.
+   rules between them, columns of diagnostics, and one `const struct params` that its stage points to, or that has a
+   PARAMS line. In keys_table the maps stand in the order of keys.c, and within a map all that have a section in it in
+   the order of pipeline/stages.def; a row that is a place (ROW_PLACE) draws a part of the map to where it stands. The
+   structs of a contact lie in one block, contact->params; a contact that is copied shares it, and nobody writes into it
+   but params_edit. What many files read (the motion, the response, the output) stands in struct contact or struct scene
+   itself, and its params have size 0.
 
    Keys that no section holds alone have no such bool: those of a height map, of an impact. `given` says then whether
-   they count (NULL: always), `section` is the path they have in common, and `meaning` is NULL. STAGES(path) in keys.def
-   gives them a place of their own, where that of the whole map is not theirs. */
+   they count (NULL: always), `section` is the path they have in common, and `meaning` is NULL. */
 #ifndef SCENE_PARAMS_H
 #define SCENE_PARAMS_H
 #include "base/arena.h"
@@ -43,13 +46,17 @@ struct params_ground {
 };
 
 struct params {
-    const char *section, *meaning;      /* "surface.ridges" */
-    size_t size;                        /* of its struct; 0: the keys are fields of struct contact or scene */
-    const struct key *keys;             /* ends with path NULL; NULL: none */
-    const struct key_section *sections; /* as keys of struct contact or scene; ends with path NULL; NULL: none */
-    const struct key_alternative *alternatives; /* among its keys; ends with paths[0] NULL; NULL: none */
-    const struct params_rule *rules;            /* ends with path NULL; NULL: none */
-    const struct params_column *columns;        /* of a contact that has the section; ends with name NULL; NULL: none */
+    const char *section, *meaning; /* "surface.ridges" */
+    size_t size;                   /* of its struct; 0: the keys are fields of struct contact or scene */
+    size_t flag;                   /* of a section of size 0: where its bool is, as its fields */
+    const struct key *keys;        /* ends with path NULL; NULL: none */
+    /* Of what several bodies have: paths and conditions that begin with a dot follow `body`, fields lie in a struct at
+       `base` of struct contact, and what has no condition applies where `when` says. NULL: of one alone. */
+    const char *body, *when;
+    size_t base;
+    struct key_alternative alternative;  /* of its keys; paths[0] NULL: none */
+    const struct params_rule *rules;     /* ends with path NULL; NULL: none */
+    const struct params_column *columns; /* of a contact that has the section; ends with name NULL; NULL: none */
     /* What a contact lacks for one of its columns, "": nothing; NULL: the section, unless it is given. */
     const char *(*lacks)(const struct contact *, const struct params_column *);
     void (*check)(const struct scene_part *, const struct contact *,

@@ -5,11 +5,13 @@
 #define SCENE_ROWS_H
 #include "scene/params.h"
 
-#define ROW_OF(owner) .of = _Generic((struct owner *)NULL, struct scene * : KEY_SCENE, default : KEY_CONTACT)
 #define ROW(owner, member, where, kind, c_type)                                                                        \
-    ROW_OF(owner), .offset = offsetof(struct owner, member), .path = where,                                            \
-                   .type = _Generic(((struct owner *)NULL)->member, c_type                                             \
-                                    : kind)
+    .of = _Generic((struct owner *)NULL, struct scene *                                                                \
+                   : KEY_SCENE, default                                                                                \
+                   : KEY_CONTACT),                                                                                     \
+    .offset = offsetof(struct owner, member), .path = where,                                                           \
+    .type = _Generic(((struct owner *)NULL)->member, c_type                                                            \
+                     : kind)
 #define ROW_NUMBER(owner, member, where) ROW(owner, member, where, KEY_NUMBER, double)
 #define ROW_WHOLE(owner, member, where) ROW(owner, member, where, KEY_WHOLE, double)
 #define ROW_TIME_OR_AUTO(owner, member, where) ROW(owner, member, where, KEY_TIME_OR_AUTO, double)
@@ -23,10 +25,6 @@
 #define ROW_RANGE(owner, member, where) ROW(owner, member, where, KEY_RANGE, double *)
 #define ROW_POINTS(owner, member, where) ROW(owner, member, where, KEY_POINTS, const double *)
 #define ROW_PLACES(owner, member, where) ROW(owner, member, where, KEY_PLACES, const double *)
-
-/* Of params.sections. */
-#define ROW_SECTION(owner, member, where, text)                                                                        \
-    ROW_OF(owner), .offset = offsetof(struct owner, member.given), .path = where, .meaning = text
 
 /* Here stand the rows of all whose section begins so, and with no longer place, in the order of pipeline/stages.def. */
 #define ROW_PLACE(map) .path = map, .meaning = NULL

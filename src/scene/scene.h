@@ -1,7 +1,7 @@
 /* What is asked for: a scene as plain structs. Read this first.
 
    All quantities are SI (angles in radians). Every field a user can set is a row (key path, unit, range, default,
-   meaning) of scene/keys.def, of its stage's own file (scene/params.h) or, of knobs, of scene/accuracy.def. From these
+   meaning) of the file that reads it (scene/params.h) or, of knobs, of scene/accuracy.def. From these
    come the reader, the effective scene, `rasp explain`, `rasp new` and man rasp-scene(5).
 
    "Not given": a text is NULL, a number is NAN, a section's `given` is false. */
@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* ------------------------------------------------------------------ choices: same order as the words in keys.def */
+/* ------------------------------------------------------------------ choices */
 
 enum motion_path {
     PATH_BACK_AND_FORTH,

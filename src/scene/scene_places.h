@@ -10,7 +10,7 @@
  * The part's fields have been read. */
 void scene_places_note(const struct scene_part *p, const char *contact, struct scene *s);
 
-/* Adds a key of the scene that is no row of keys.def. */
+/* Adds a key of the scene that is in no table of keys. */
 void scene_places_key(struct yaml *y, const char *key, const struct diag_place *at, struct scene *s);
 
 /* What is laid over the scene stands there: the key, and all that is under it, are as messages call it by label. */

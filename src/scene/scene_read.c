@@ -213,7 +213,7 @@ static void tree_read(struct yaml *y, struct yaml_node *root, struct scene *s)
     check_scene(&top, false);
     scene_materials_read(y, yaml_get(root, "materials"), s);
     contacts_read(y, root, s);
-    const struct yaml_node *accuracy = yaml_get(root, "accuracy"), /* its knobs are no rows of keys.def */
+    const struct yaml_node *accuracy = yaml_get(root, "accuracy"), /* its knobs are in no table of keys */
         *map = accuracy && accuracy->kind == YAML_MAP ? accuracy : NULL, *at = map ? map->key : accuracy;
     accuracy_read(y, accuracy, &s->accuracy);
     if (at && at->at.source) scene_places_key(y, "accuracy", &at->at, s);

@@ -12,23 +12,6 @@
 
 /* ------------------------------------------------------------------ examples */
 
-/* Of files and lists. */
-static const char *file_example(const char *path)
-{
-    static const char *const examples[][2] = {{"surface.recipe", "rough.yaml"},
-                                              {"surface.height_map", "profile.npy"},
-                                              {"surface.roughness.like", "map.gsf"},
-                                              {"motion.file", "recording.csv"},
-                                              {"motion.profile", "speed.csv"},
-                                              {"load.recorded", "force.csv"},
-                                              {"contact.given.file", "force.wav"},
-                                              {"output.stems", "[force, surface]"},
-                                              {"output.diagnostics.columns", "[speed_m_per_s, normal_force_n]"}};
-    for (size_t i = 0; i < sizeof examples / sizeof examples[0]; i++)
-        if (strcmp(examples[i][0], path) == 0) return examples[i][1];
-    return "modes.csv";
-}
-
 const char *scene_values_example(struct yaml *y, const struct key *k)
 {
     const char *one = units_example(k->dimension);
@@ -47,7 +30,7 @@ const char *scene_values_example(struct yaml *y, const struct key *k)
         return "some words";
     case KEY_FILE:
     case KEY_LIST:
-        return file_example(k->path);
+        return "modes.csv";
     case KEY_POINT:
         return arena_format(y->arena, "[%s, 0]", one);
     case KEY_POINTS:

@@ -1,4 +1,4 @@
-/* The effective scene, from the rows of keys.def and accuracy.def: SI bare numbers that read back to the last bit,
+/* The effective scene, from the tables of keys and of knobs: SI bare numbers that read back to the last bit,
    strings quoted. A key is left out when it does not apply, or when it may be left out, is not given, and nothing is
    done instead. One contact is written at the top level, several as a list. */
 #include "scene/scene_write.h"

@@ -25,9 +25,9 @@
 
 static const struct key keys[] = {
     {ROW_NUMBER(continuation, exponent, "surface.continuation.exponent"), KEY_NONE, -8, 0, "", NULL,
-     "exponent of its spectrum; left out: fitted to the map's two octaves before its band limit"},
+     "exponent of its spectrum; left out: fitted to the map's two octaves before its band limit", .shown = "-2.4"},
     {ROW_NUMBER(continuation, from, "surface.continuation.from"), KEY_LENGTH, 1e-7, 1e-1, "", NULL,
-     "wavelength below which it takes over; left out: the map's band limit, measured"},
+     "wavelength below which it takes over; left out: the map's band limit, measured", .shown = "50 um"},
     {ROW_NUMBER(continuation, shortest, "surface.continuation.shortest"), KEY_LENGTH, 1e-7, 1e-2, "5 um", NULL,
      "wavelength below which there is no roughness"},
     {.path = NULL}};

@@ -33,13 +33,15 @@ static const struct choice levellings[] = {
 
 static const struct key keys[] = {
     {ROW_FILE(height_map_file, path, MAP), KEY_NONE, 0, 0, "", NULL,
-     "measured height map or profile: GSF, SDF, GWY, NPY, 16-bit PNG, or CSV grid; told apart by content"},
+     "measured height map or profile: GSF, SDF, GWY, NPY, 16-bit PNG, or CSV grid; told apart by content",
+     .example = "profile.npy", .shown = "plank.npy"},
     {ROW_NUMBER(height_map_file, read.pitch, "surface.pitch"), KEY_LENGTH, 1e-8, 1e-3, "", MAP,
-     "distance between two samples of the height map; must be given for NPY, PNG and CSV, which do not hold it"},
+     "distance between two samples of the height map; must be given for NPY, PNG and CSV, which do not hold it",
+     .shown = "5 um"},
     {ROW_NUMBER(height_map_file, read.height_scale, "surface.height_scale"), KEY_LENGTH, 1e-12, 1e3, "1 m", MAP,
      "factor on the heights: what one stored unit of NPY or CSV stands for (GSF, SDF and GWY hold metres already)"},
     {ROW_NUMBER(height_map_file, read.height_range, "surface.height_range"), KEY_LENGTH, 1e-9, 1e-1, "", MAP,
-     "height that white, 65535, of a PNG stands for; must be given for PNG"},
+     "height that white, 65535, of a PNG stands for; must be given for PNG", .shown = "100 um"},
     {ROW_CHOICE(height_map_file, off_map, "surface.off_map"), KEY_NONE, 0, 0, "mirror", MAP,
      "what lies beyond the ends of a height map", off_maps},
     {ROW_CHOICE(height_map_file, read.holes, "surface.holes"), KEY_NONE, 0, 0, "refuse", MAP,

@@ -16,6 +16,7 @@
 #include "scene/rows.h"
 #include "scene/scene_part.h"
 #include "stage.h"
+#include "trajectory/contact.h"
 #include "trajectory/load.h"
 
 struct limiter_law limiter_make(const struct limiter *given, double least, double most)
@@ -314,11 +315,6 @@ void limiter_cells(const struct limiter_cells *p, bool limiter)
 
 /* ------------------------------------------------------------------ the stage */
 
-static bool limits(const struct contact *c)
-{
-    return c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL;
-}
-
 static void alpha_check(const struct scene_part *p, const struct limiter *l)
 {
     if (l->alpha_min > l->alpha_max)
@@ -363,7 +359,8 @@ static const struct key keys[] = {
     {ROW_RANGE(limiter, force_range, "contact.limiter.force_range"), KEY_FORCE, 0, 1e5, "", LIMITED,
      "[N_min, N_max] of equation 7, so that scenes compare; forces outside count as its ends, with a warning; left "
      "out: "
-     "the scene's own smallest and largest normal force"},
+     "the scene's own smallest and largest normal force",
+     .shown = "[0.2 N, 5 N]"},
     {.path = NULL}};
 
 /* Left out it is as with curve: none, under which the other keys do not apply. */
@@ -386,7 +383,7 @@ static const struct params limiter_params = {
     .keys = keys,
     .derive = limiter_derive,
     .check = limiter_check,
-    .given = limits,
+    .given = contact_pressed,
 };
 
 const struct limiter *limiter_of(const struct contact *c) { return params_of(c, &limiter_params); }

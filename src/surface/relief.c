@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/rows.h"
 #include "stage.h"
 
 void relief_add(struct relief *r, struct relief_part *part)
@@ -99,6 +100,35 @@ double relief_kinks(const struct relief *r)
     return kinks;
 }
 
+/* ------------------------------------------------------------------ keys */
+
+static const struct choice alongs[] = {
+    [ALONG_AUTO] = {"auto", "plane for a map of several rows, for roughness or ridges with a direction, and under a "
+                            "curved motion; else path"},
+    [ALONG_PATH] = {"path", "the signed distance along the motion, 0 where it starts"},
+    [ALONG_X] = {"x", "the x coordinate; the profile is extruded along y"},
+    [ALONG_PLANE] = {"plane", "the surface has two dimensions: what lies at the contact's x and y"},
+    {NULL, NULL}};
+
+static const struct key keys[] = {{ROW_FILE(contact, surface.recipe, "surface.recipe"), KEY_NONE, 0, 0, "", NULL,
+                                   "YAML file of surface keys (roughness, ridges, grit, ...), such as those in "
+                                   "surfaces/; keys of the scene itself win over it",
+                                   .example = "rough.yaml", .shown = "plank.yaml"},
+                                  {ROW_CHOICE(contact, surface.along, "surface.along"), KEY_NONE, 0, 0, "auto", NULL,
+                                   "which coordinates the surface follows", alongs},
+                                  {ROW_POINT(contact, surface.origin, "surface.origin"), KEY_LENGTH, -100, 100,
+                                   "[0 m, 0 m]", "surface.along=auto|x|plane",
+                                   "where the surface begins in the scene's coordinates: the first sample of a height "
+                                   "map, x = y = 0 of what is procedural"},
+                                  {.path = NULL}};
+
+static const struct params relief_params = {.section = "surface",
+                                            .keys = keys,
+                                            .alternative = {.applies = "contact.model=scrape|roll|playback",
+                                                            .least = 1,
+                                                            .most = 5,
+                                                            .paths = {"surface.roughness", "surface.height_map", "*"}}};
+
 /* The surface under the contact: an empty relief to which the stages behind this one add their parts. */
 
 static bool surface_wanted(const struct contact *c, const struct scene *s)
@@ -119,6 +149,7 @@ static bool surface_open(struct stage_run *r, struct err *e)
 
 const struct stage relief_stage = {
     .name = "surface",
+    .params = &relief_params,
     .does = "the surface, as the sum of what follows",
     .paper = "000 sec. 2.2",
     .idle = "",

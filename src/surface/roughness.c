@@ -52,9 +52,10 @@ static const struct key keys[] = {
     {ROW_NUMBER(roughness, grain_direction, "surface.roughness.grain_direction"), KEY_ANGLE, -6.2832, 6.2832, "0 deg",
      NULL, "direction of the grain, 0 is +x"},
     {ROW_FILE(roughness, like, "surface.roughness.like"), KEY_NONE, 0, 0, "", NULL,
-     "height map whose statistics (spectrum, rms, skewness, kurtosis) the roughness takes, in place of those above"},
+     "height map whose statistics (spectrum, rms, skewness, kurtosis) the roughness takes, in place of those above",
+     .example = "map.gsf", .shown = "plank.gsf"},
     {ROW_NUMBER(roughness, like_pitch, "surface.roughness.like_pitch"), KEY_LENGTH, 1e-8, 1e-3, "",
-     "surface.roughness.like", "distance between two of its samples, where the file does not hold it"},
+     "surface.roughness.like", "distance between two of its samples, where the file does not hold it", .shown = "5 um"},
     {.path = NULL}};
 
 static void band_check(const struct scene_part *p, const struct roughness *r)

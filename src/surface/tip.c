@@ -280,7 +280,8 @@ static bool scrapes(const struct contact *c) { return c->contact.model == CONTAC
 static const struct key keys[] = {
     {ROW_NUMBER(contact, scraper.radius, "scraper.radius"), KEY_LENGTH, 1e-6, 1, "", SCRAPES,
      "radius of the tip: a scraper's follows the upper envelope of a sphere on the surface, and an impact's stiffness "
-     "may follow from it; left out: a point"},
+     "may follow from it; left out: a point",
+     .shown = "1 mm"},
     {ROW_NUMBER(contact, scraper.patch, "scraper.patch"), KEY_LENGTH, 1e-7, 1e-3, "20 um", "scraper.radius",
      "radius of the contact patch: the envelope, which has kinks, is smoothed by a Gaussian of this standard "
      "deviation"},

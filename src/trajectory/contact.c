@@ -216,7 +216,7 @@ const struct params contact_params = {
 
 static const struct key scraper_keys[] = {
     {ROW_NUMBER(contact, scraper.mass, "scraper.mass"), KEY_MASS, 1e-9, 1000, NULL, "contact.model=scrape|strike",
-     "mass of the scraper (m_p of equation 1), or of what strikes"},
+     "mass of the scraper (m_p of equation 1), or of what strikes", .shown = "20 g"},
     {ROW_NUMBER(contact, scraper.weight, "scraper.weight"), KEY_NONE, 0, 1000, "1", SCRAPES,
      "eta, the weight of the scraper's response in the total: where at 1 a light scraper drowns the surface, 0.1 makes "
      "it 20 dB quieter; 0: the scraper is damped and none is computed"},
@@ -232,14 +232,16 @@ static const struct choice bodies[] = {
     {NULL, NULL}};
 
 static const struct key ball_keys[] = {
-    {ROW_NUMBER(contact, ball.radius, "ball.radius"), KEY_LENGTH, 1e-4, 10, NULL, ROLLS, "radius R of the ball"},
+    {ROW_NUMBER(contact, ball.radius, "ball.radius"), KEY_LENGTH, 1e-4, 10, NULL, ROLLS, "radius R of the ball",
+     .shown = "1 cm"},
     {ROW_NUMBER(contact, ball.mass, "ball.mass"), KEY_MASS, 1e-9, 1e5, "", ROLLS,
      "mass of the ball; left out: from radius and material (of what is hollow, wall too; of a hoop or wheel it must be "
-     "given)"},
+     "given)",
+     .shown = "11 g"},
     {ROW_CHOICE(contact, ball.body, "ball.body"), KEY_NONE, 0, 0, "solid", ROLLS,
      "what kind of body rolls: its moment of inertia, for motions of path incline", bodies},
     {ROW_NUMBER(contact, ball.wall, "ball.wall"), KEY_LENGTH, 1e-6, 10, "", "ball.body=hollow",
-     "thickness of the hollow ball's wall; left out: thin"},
+     "thickness of the hollow ball's wall; left out: thin", .shown = "2 mm"},
     {ROW_NUMBER(contact, ball.offset, "ball.offset"), KEY_LENGTH, 0, 10, "0 m", ROLLS,
      "r, distance of the centre of mass from the geometric centre"},
     {ROW_NUMBER(contact, ball.start_angle, "ball.start_angle"), KEY_ANGLE, -6.2832, 6.2832, "0 deg", ROLLS,
@@ -296,18 +298,17 @@ static const struct key ablation_keys[] = {
     {ROW_CHOICE(contact, ablation.response, "ablation.response"), KEY_NONE, 0, 0, "by_place", NULL,
      "whether the surface's response depends on where it is touched", responses},
     {ROW_POINT(contact, ablation.place, "ablation.place"), KEY_LENGTH, -100, 100, "", "ablation.response=constant",
-     "the place whose response it is everywhere; left out: where the motion starts"},
+     "the place whose response it is everywhere; left out: where the motion starts", .shown = "[5 cm, 2 cm]"},
     {ROW_CHOICE(contact, ablation.sound, "ablation.sound"), KEY_NONE, 0, 0, "both", NULL,
      "which of the two bodies is heard; the other's response is not computed, and not read unless the force depends on "
      "it",
      sounds},
     {.path = NULL}};
 
-static const struct key_section ablation_sections[] = {
-    {ROW_SECTION(contact, ablation, "ablation",
-                 "what is left out of the model, to hear what it is for: the ablated models of papers/000, experiments "
-                 "1 to 3; all else stays as the scene has it, bit for bit")},
-    {.path = NULL}};
-
 const struct params contact_ablation_params = {
-    .section = "ablation", .keys = ablation_keys, .sections = ablation_sections};
+    .section = "ablation",
+    .shown = true,
+    .keys = ablation_keys,
+    .meaning = "what is left out of the model, to hear what it is for: the ablated models of papers/000, experiments "
+               "1 to 3; all else stays as the scene has it, bit for bit",
+    .flag = offsetof(struct contact, ablation.given)};

@@ -43,6 +43,12 @@ static inline bool contact_driven(const struct contact *c)
     return c->contact.model == CONTACT_IMPACTS || c->contact.model == CONTACT_PLAYBACK;
 }
 
+/* Is it pressed on the surface, which it follows as far as its curvature is limited? */
+static inline bool contact_pressed(const struct contact *c)
+{
+    return c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL;
+}
+
 /* The frame of the scene at which the contact begins: `start` to the nearest one, at a rate in Hz. */
 static inline long contact_first_frame(const struct contact *c, double rate) { return (long)rint(c->start * rate); }
 

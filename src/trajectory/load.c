@@ -109,22 +109,33 @@ static double load_instead(const struct key *k, const void *owner)
 }
 
 #define SCRAPES "contact.model=scrape"
+static const struct key grip_keys[] = {{ROW_NUMBER(contact, grip.angle, "grip.angle"), KEY_ANGLE, 0, 1.5707, "30 deg",
+                                        SCRAPES, "theta, the tool's angle above the horizontal"},
+                                       {ROW_NUMBER(contact, grip.azimuth, "grip.azimuth"), KEY_ANGLE, -6.2832, 6.2832,
+                                        "0 deg", SCRAPES, "horizontal direction from the torso outwards; 0 is +x"},
+                                       {ROW_NUMBER(contact, grip.friction, "grip.friction"), KEY_NONE, 0, 10, "0.3",
+                                        SCRAPES, "mu, the coefficient of friction"},
+                                       {.path = NULL}};
+
+const struct params load_grip_params = {
+    .section = "grip",
+    .meaning = "the hand that holds the scraper: the normal force then follows the motion (equations 8 and 9)",
+    .flag = offsetof(struct contact, grip.given),
+    .keys = grip_keys,
+};
+
 #define LOWERED "contact.model=scrape|roll|roll_coupled|impacts|playback"
 
 /* The hand's keys stand first. */
 static const struct key keys[] = {
-    {ROW_NUMBER(contact, grip.angle, "grip.angle"), KEY_ANGLE, 0, 1.5707, "30 deg", SCRAPES,
-     "theta, the tool's angle above the horizontal"},
-    {ROW_NUMBER(contact, grip.azimuth, "grip.azimuth"), KEY_ANGLE, -6.2832, 6.2832, "0 deg", SCRAPES,
-     "horizontal direction from the torso outwards; 0 is +x"},
-    {ROW_NUMBER(contact, grip.friction, "grip.friction"), KEY_NONE, 0, 10, "0.3", SCRAPES,
-     "mu, the coefficient of friction"},
     {ROW_NUMBER(contact, load.constant, "load.constant"), KEY_FORCE, 0, 1e5, "", SCRAPES,
      "constant normal force, which sets alpha when limiter.force_range is given, and nothing else; left out: the "
-     "scraper's weight m g"},
+     "scraper's weight m g",
+     .shown = "1.5 N"},
     {ROW_FILE(contact, load.recorded, "load.recorded"), KEY_NONE, 0, 0, "", SCRAPES,
      "normal force over time: CSV with the columns time_s, normal_force_n, in the time of a recorded motion's file, "
-     "else from the contact's start; values below 0 lift the scraper off"},
+     "else from the contact's start; values below 0 lift the scraper off",
+     .example = "force.csv"},
     {ROW_TIME_OR_AUTO(contact, load.approach, "load.approach"), KEY_TIME, 0, 10, "auto", LOWERED,
      "time over which the force rises at the start, by 10 u^3 - 15 u^4 + 6 u^5 at the share u of it, as the scraper "
      "(or ball) is lowered; auto: 5 ms where the motion starts at speed, and where there is a force at rest too: of a "
@@ -137,19 +148,10 @@ static const struct key keys[] = {
      "beside load.approach"},
     {.path = NULL}};
 
-static const struct key_section sections[] = {
-    {ROW_SECTION(contact, grip, "grip",
-                 "the hand that holds the scraper: the normal force then follows the motion (equations 8 and 9)")},
-    {.path = NULL}};
-
-static const struct key_alternative alternatives[] = {{NULL, 0, 1, {"grip", "load.constant", "load.recorded"}},
-                                                      {.paths = {NULL}}};
-
 static const struct params load_params = {
     .section = "load",
     .keys = keys,
-    .sections = sections,
-    .alternatives = alternatives,
+    .alternative = {.most = 1, .paths = {"grip", "load.constant", "load.recorded"}},
     .check = load_check,
     .instead = load_instead,
 };

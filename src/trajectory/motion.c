@@ -379,19 +379,20 @@ static const struct choice laws[] = {
 #define ENDS "motion.path=back_and_forth|line|four_in_line|incline"
 
 static const struct key keys[] = {
-    {ROW_CHOICE(contact, motion.path, "motion.path"), KEY_NONE, 0, 0, NULL, NULL, "shape of the motion", paths},
+    {ROW_CHOICE(contact, motion.path, "motion.path"), KEY_NONE, 0, 0, NULL, NULL, "shape of the motion", paths,
+     .shown = "back_and_forth"},
     {ROW_POINT(contact, motion.at, "motion.at"), KEY_LENGTH, -100, 100, "[0 m, 0 m]", "motion.path=still",
      "where the contact stays"},
     {ROW_POINT(contact, motion.from, "motion.from"), KEY_LENGTH, -100, 100, "[0 m, 0 m]", ENDS,
      "where the motion starts"},
     {ROW_POINT(contact, motion.to, "motion.to"), KEY_LENGTH, -100, 100, NULL, ENDS,
-     "the stroke's other end; of four_in_line the last stroke's"},
+     "the stroke's other end; of four_in_line the last stroke's", .shown = "[4.5 cm, 0 cm]"},
     {ROW_COUNT(contact, motion.strokes, "motion.strokes"), KEY_NONE, 1, 1000, "4", "motion.path=four_in_line",
      "how many strokes"},
     {ROW_POINT(contact, motion.center, "motion.center"), KEY_LENGTH, -100, 100, "[0 m, 0 m]",
      "motion.path=circle|scribble", "centre of the motion"},
     {ROW_NUMBER(contact, motion.radius, "motion.radius"), KEY_LENGTH, 1e-4, 100, NULL, "motion.path=circle",
-     "radius of the circle"},
+     "radius of the circle", .shown = "2 cm"},
     {ROW_NUMBER(contact, motion.start_angle, "motion.start_angle"), KEY_ANGLE, -6.2832, 6.2832, "0 deg",
      "motion.path=circle", "where on the circle the motion starts, 0 is the +x side"},
     {ROW_NUMBER(contact, motion.turns, "motion.turns"), KEY_NONE, -10000, 10000, "1", "motion.path=circle",
@@ -399,26 +400,30 @@ static const struct key keys[] = {
     {ROW_POINT(contact, motion.size, "motion.size"), KEY_LENGTH, 1e-4, 100, "[8 cm, 5 cm]", "motion.path=scribble",
      "width and height of the box"},
     {ROW_POINTS(contact, motion.points, "motion.points"), KEY_LENGTH, -100, 100, NULL, "motion.path=polyline|spline",
-     "points of the path, in order: [[0, 0], [3 cm, 1 cm], ...]"},
+     "points of the path, in order: [[0, 0], [3 cm, 1 cm], ...]",
+     .shown = "[[0 cm, 0 cm], [3 cm, 1 cm], [6 cm, 0 cm]]"},
     {ROW_NUMBER(contact, motion.corner, "motion.corner"), KEY_LENGTH, 0, 1, "0 m", "motion.path=polyline",
      "radius to which corners are rounded; 0: the motion rests at each corner"},
     {ROW_FILE(contact, motion.file, "motion.file"), KEY_NONE, 0, 0, NULL, "motion.path=recorded",
-     "recorded positions: CSV with the columns time_s, x_m, y_m"},
+     "recorded positions: CSV with the columns time_s, x_m, y_m", .example = "recording.csv"},
     {ROW_NUMBER(contact, motion.cutoff, "motion.cutoff"), KEY_FREQUENCY, 0, 1e4, "12 Hz", "motion.path=recorded",
      "frequency above which a recording is smoothed away (a smoothing spline's half-power point); 0: it is "
      "interpolated"},
     {ROW_NUMBER(contact, motion.rate, "motion.rate"), KEY_FREQUENCY, 1e-3, 100, "",
      "motion.path=back_and_forth|scribble",
      "full cycles (there and back) per second; of a scribble, about as many loops per second; must be given, unless "
-     "back_and_forth follows a given speed"},
+     "back_and_forth follows a given speed",
+     .shown = "2 Hz", .on = true},
     {ROW_NUMBER(contact, motion.speed, "motion.speed"), KEY_SPEED, 1e-4, 100, "",
-     "motion.path=line|four_in_line|circle|polyline|spline", "mean speed along the path; gives the duration"},
+     "motion.path=line|four_in_line|circle|polyline|spline", "mean speed along the path; gives the duration",
+     .shown = "10 cm/s"},
     {ROW_NUMBER(contact, motion.duration, "motion.duration"), KEY_TIME, 1e-3, 36000, "", NULL,
-     "how long the motion lasts"},
+     "how long the motion lasts", .shown = "2 s", .on = true},
     {ROW_CHOICE(contact, motion.law, "motion.law"), KEY_NONE, 0, 0, "auto", NULL, "how speed varies along the path",
      laws},
     {ROW_FILE(contact, motion.profile, "motion.profile"), KEY_NONE, 0, 0, NULL, "motion.law=given",
-     "speed over time, which says how long the motion lasts: CSV with the columns time_s, speed_m_per_s"},
+     "speed over time, which says how long the motion lasts: CSV with the columns time_s, speed_m_per_s",
+     .example = "speed.csv"},
     {ROW_NUMBER(contact, motion.incline, "motion.incline"), KEY_ANGLE, -1.4, 1.4, "0 deg", "motion.path=incline",
      "slope of the way from `from` to `to`: above 0 it leads upwards"},
     {ROW_NUMBER(contact, motion.start_speed, "motion.start_speed"), KEY_SPEED, 0, 100, "0 m/s", "motion.path=incline",
@@ -432,8 +437,7 @@ static const struct key keys[] = {
      "1/straight^2)^(-1/6)"},
     {.path = NULL}};
 
-static const struct key_alternative alternatives[] = {{NULL, 0, 1, {"motion.speed", "motion.duration"}},
-                                                      {.paths = {NULL}}};
-
-const struct params motion_params = {
-    .section = "motion", .keys = keys, .alternatives = alternatives, .check = motion_check};
+const struct params motion_params = {.section = "motion",
+                                     .keys = keys,
+                                     .alternative = {.most = 1, .paths = {"motion.speed", "motion.duration"}},
+                                     .check = motion_check};

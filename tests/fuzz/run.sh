@@ -15,7 +15,7 @@ mkdir -p "$folder/found" "$folder/corpus"
 
 # Words that are put into what is YAML: the scene's keys and choices, and a design's.
 {
-    sed -nE 's/^(KEY|CHOICE)\([^"]*"([a-z_.]+)".*/\2/p' ../../src/scene/keys.def ../../src/scene/choices.def | tr '.' '\n'
+    sed -nE 's/.*ROW_[A-Z_]+\([^"]*"\.?([a-z_.]+)".*/\1/p' ../../src/*/*.c | tr '.' '\n'
     grep -hoE '"[a-z_]+(\.[a-z_]+)+"' ../../src/*/*.c | tr -d '"' | tr '.' '\n' # keys and choices of the stages' own tables
     sed -nE 's/.*\{"([a-z_]+)",( *".*|$)/\1/p' ../../src/*/*.c
     tr -cs 'a-z_-' '\n' < corpus/design/all.yaml

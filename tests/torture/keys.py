@@ -1,5 +1,5 @@
 """What a scene may say, as the program itself tells it (rasp explain --json and --schema=scene), and values drawn for
-it. A key that is new in src/scene/keys.def is drawn without an edit here."""
+it. A key that is new in src is drawn without an edit here."""
 import json
 import math
 import re

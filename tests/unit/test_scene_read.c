@@ -101,7 +101,7 @@ static void applies_check(const struct key *k)
     ck_assert_msg(words == bars + 1, "%s: %s", k->path, k->applies);
 }
 
-/* Every default of keys.def can be read and every preset lies within its knob's range. */
+/* Every default can be read and every preset lies within its knob's range. */
 START_TEST(test_tables)
 {
     struct result r = read_good(MIN "grip: {}\nsurface2: null\noutput: {diagnostics: {}}\n", NULL);
