@@ -506,3 +506,20 @@ bool modal_find(const struct modal_data *d, const struct modal_options *o, struc
     arena_close(inner);
     return true;
 }
+
+void modal_gains(const struct modal_data *d, const struct modal_options *o, int n, const cplx *pole, cplx *gain)
+{
+    struct modal_fit f;
+    struct arena *a = arena_open();
+    modal_fit_open(&f, d, o, a);
+    f.found = true;
+    for (int i = 0; i < n; i++)
+        modal_fit_add(&f, pole[i], NULL);
+    for (int round = 0; round < 2; round++) { /* noise of what is left of the first */
+        modal_fit_noise(&f, 0.0);
+        fit_gains(&f);
+    }
+    for (int i = 0; i < n * d->stretches; i++)
+        gain[i] = (cplx){-f.part[i].gain.im, f.part[i].gain.re};
+    arena_close(a);
+}

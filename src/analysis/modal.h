@@ -66,6 +66,9 @@ struct modal_result {
 /* Longest stretch of at most n samples that the fit takes; 0: too short. */
 long modal_length(long n);
 
+/* Gains of n poles that are given, strike by strike: gain[n][stretches], A as in modal_gain. */
+void modal_gains(const struct modal_data *d, const struct modal_options *o, int n, const cplx *pole, cplx *gain);
+
 bool modal_find(const struct modal_data *d, const struct modal_options *o, struct arena *a, struct modal_result *r,
                 struct err *e);
 

@@ -570,6 +570,13 @@ static const struct action actions[] = {
      {"output", "force", "name",    "density", "mass",   "poisson", "gamma",       "material",   "modes", "order",
       "unit",   "clamp", "support", "face",    "origin", "listen",  "model-error", "size-error", "json",  "quiet"},
      modes_elsewhere_run},
+    {"residual",
+     "RECORDING and TABLE",
+     2,
+     2,
+     {"output", "force", "channel", "force-channel", "scale", "force-scale", "quantity", "delay", "impulse", "low",
+      "high", "strike-threshold", "strikes", "estimated", "residual-domain", "keep-noise", "json", "quiet"},
+     modes_residual_run},
     {"list",
      "one FILE: a mode table (.csv), RECIPE or SCENE",
      1,
@@ -595,8 +602,10 @@ int modes_solids_only(struct cmd_call *c, struct err *e, int (*const run[2])(str
 
 static const struct args_option options[] = {
     {"output", 'o', "FILE.csv", false,
-     "object, compute, extract: the mode table to write, material: the file of the material; must be given"},
-    {"force", 'f', NULL, false, "object, compute, extract, material: replaces files that exist"},
+     "object, compute, extract: the mode table to write, material: the file of the material, residual: the folder; "
+     "must "
+     "be given"},
+    {"force", 'f', NULL, false, "object, compute, extract, material, residual: replaces what exists"},
     {"shape", 0, "SHAPE", false, "compute: a solid by its sizes, such as plate:length=30cm,width=20cm,thickness=5mm"},
     {"order", 0, "N", false,
      "compute, material: of the polynomials that an element moves by, 2 to 4 (default 3, of a bowl and a mug 4, of a "
@@ -683,7 +692,13 @@ static const struct args_option options[] = {
      "extract: writes what the modes make of the recording, one channel for each place"},
     {"residual", 0, "FILE.wav", false, "extract: writes what they leave of it"},
     {"plot", 0, "FILE", false, "extract: draws spectrum, modes, levels and decays of the first place, as .png or .svg"},
-    {"json", 0, NULL, false, "extract, material: the report as JSON"},
+    {"estimated", 0, "TABLE", false,
+     "residual: the modes of the object as it was fitted, such as by compute; what they do not match stays in the "
+     "residual"},
+    {"residual-domain", 0, "time|power", false,
+     "residual: modes are subtracted as they sound, or (power) from the spectrogram; default: time"},
+    {"keep-noise", 0, NULL, false, "residual: what is heard before the strike is not taken off"},
+    {"json", 0, NULL, false, "extract, material, residual: the report as JSON"},
     {"top", 0, "FREQUENCY", false, "modes of an object above are left out (default 20 kHz)"},
     {"quantity", 0, "displacement|velocity|acceleration|pressure", false,
      "object, compute: the first three, per N s (default velocity); extract: what the sound's channel holds (default "
@@ -742,6 +757,13 @@ const struct command modes_command = {
         "modes of a mode table, recipe or scene: frequency, time of decay by 60 dB, largest gain (in a table over its "
         "places, of an object over a grid of places, or at one place with --at).",
     .also =
+        "rasp modes residual RECORDING TABLE -o FOLDER: what the loudest strike of a recording sounds besides the "
+        "modes "
+        "of TABLE, which extract made of it: for surface.residual of a scene. RECORDING, channels, scales, --quantity, "
+        "--impulse and --strikes are as for extract. With --estimated a mode is taken off only as far as a mode of "
+        "that "
+        "table matches it (0.1 Bark, a factor of 1.28 in damping): the rest stays. Noise that is heard before the "
+        "strike is taken off.\n"
         "rasp modes material OBJECT STRIKE... -o FILE.yaml: what an object is made of. OBJECT is a mesh, or a shape as "
         "of "
         "--shape; each STRIKE a table of rasp modes extract, FILE.csv@X,Y where the place that was struck is known; "
@@ -776,5 +798,6 @@ const struct command modes_command = {
                 "my_steel.yaml\n"
                 "rasp render scenes/strike.yaml -o struck.wav\n"
                 "rasp modes extract struck.wav --modes 20 --method spectrogram --resynthesis again.wav --residual "
-                "rest.wav -o struck.csv\n",
+                "rest.wav -o struck.csv\n"
+                "rasp modes residual struck.wav struck.csv -o struck.residual\n",
 };

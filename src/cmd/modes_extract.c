@@ -92,12 +92,12 @@ static bool outputs(struct modes_extract *x, struct err *e)
     return g->file[MODES_EXTRACT_TABLE] || err_set(e, ERR_USAGE, "-o FILE.csv is needed: the mode table to write");
 }
 
-static bool options(struct modes_extract *x, struct err *e)
+bool modes_extract_options(struct modes_extract *x, struct err *e)
 {
     static const char *const quantities[] = {"displacement", "velocity", "acceleration", "pressure", NULL},
                              *const methods[] = {"esprit", "spectrogram", NULL};
     static const double scales[2] = {1e-300, 1e300}, rise[2] = {1, 120};
-    static const long channels[2] = {1, 1024}, modes[2] = {1, 100000};
+    static const long channels[2] = {1, 1024};
     const struct args *a = &x->c->args;
     struct modes_extract_given *g = &x->given;
     int method = 0;
@@ -117,7 +117,7 @@ static bool options(struct modes_extract *x, struct err *e)
     g->spectrogram = method == 1;
     if (isnan(g->delay) && g->quantity != MODES_PRESSURE && !g->impulse)
         g->delay = 0.0; /* what touches the object has no way to go */
-    return together(x, e) && outputs(x, e) && args_whole(a, "modes", modes, &g->modes, e);
+    return together(x, e);
 }
 
 /* ------------------------------------------------------------------ places */
@@ -253,16 +253,16 @@ static bool recording(struct modes_extract *x, struct modes_extract_place *p, st
                    w.rate, x->place[0].shown, x->rate);
 }
 
-static bool recordings(struct modes_extract *x, struct err *e)
+bool modes_extract_recordings(struct modes_extract *x, int operands, struct err *e)
 {
     const struct args *a = &x->c->args;
     struct stat s;
     bool ok = true;
-    if (a->n_operands == 1 && stat(a->operands[0], &s) == 0 && S_ISDIR(s.st_mode))
+    if (operands == 1 && stat(a->operands[0], &s) == 0 && S_ISDIR(s.st_mode))
         ok = folder(x, a->operands[0], e);
     else
-        x->place = ARENA_TAKE(x->arena, struct modes_extract_place, a->n_operands);
-    while (ok && !x->index && x->n < a->n_operands)
+        x->place = ARENA_TAKE(x->arena, struct modes_extract_place, operands);
+    while (ok && !x->index && x->n < operands)
         ok = operand(x, a->operands[x->n], e);
     ok = ok && distinct(x, e);
     for (int k = 0; k < x->n && ok; k++) {
@@ -330,11 +330,14 @@ static bool write_outputs(struct modes_extract *x, struct err *e)
 
 int modes_extract_run(struct cmd_call *c, struct err *e)
 {
+    static const long modes[2] = {1, 100000};
     struct modes_extract *x = ARENA_TAKE(c->arena, struct modes_extract, 1);
     bool json = args_given(&c->args, "json"), text = !args_given(&c->args, "quiet");
     x->c = c;
     x->arena = c->arena;
-    if (!options(x, e) || !recordings(x, e)) return (int)e->kind;
+    if (!modes_extract_options(x, e) || !outputs(x, e) || !args_whole(&c->args, "modes", modes, &x->given.modes, e) ||
+        !modes_extract_recordings(x, c->args.n_operands, e))
+        return (int)e->kind;
     for (int k = 0; k < MODES_EXTRACT_FILES; k++) /* before the work */
         if (x->given.file[k] && !modes_output_possible(x->given.file[k], e)) return (int)e->kind;
     if (modes_extract_find(x, e) && write_outputs(x, e) && (json || text)) modes_extract_write_report(x, json, e);

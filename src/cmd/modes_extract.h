@@ -72,6 +72,14 @@ struct modes_extract {
     double median_by_energy; /* 1/s, that half of the energy of all components is slower than */
 };
 
+/* What the options say of recordings, and the recordings that the first `operands` operands name. ERR_USAGE, ERR_INPUT,
+   ERR_SCENE */
+bool modes_extract_options(struct modes_extract *x, struct err *e);
+bool modes_extract_recordings(struct modes_extract *x, int operands, struct err *e);
+
+/* Strikes, and the stretches that are fitted: x->data, and the band x->low to x->high. */
+bool modes_extract_find_strikes(struct modes_extract *x, struct modal_options *o, struct err *e);
+
 /* Strikes, responses, modes, gains, what they explain. */
 bool modes_extract_find(struct modes_extract *x, struct err *e);
 /* |X|^2 of y[n], padded with 0: [size/2 + 1]. */

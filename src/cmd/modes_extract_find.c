@@ -441,18 +441,25 @@ static void medians(struct modes_extract *x)
 
 /* ------------------------------------------------------------------ all */
 
-bool modes_extract_find(struct modes_extract *x, struct err *e)
+bool modes_extract_find_strikes(struct modes_extract *x, struct modal_options *o, struct err *e)
 {
     const struct modes_extract_given *g = &x->given;
     for (int k = 0; k < x->n; k++)
         if (!strikes(x, &x->place[k], e)) return false;
     if (g->force_channel) same_delay(x);
     if (!stretches(x, e)) return false;
-    struct modal_options o = {.most = (int)g->modes,
-                              .low = x->low,
-                              .high = x->high,
-                              .fastest = isnan(g->fastest) ? fmin(fastest[0], fastest[1] * x->rate) : g->fastest,
-                              .spectrogram = g->spectrogram};
+    *o = (struct modal_options){.most = (int)g->modes,
+                                .low = x->low,
+                                .high = x->high,
+                                .fastest = isnan(g->fastest) ? fmin(fastest[0], fastest[1] * x->rate) : g->fastest,
+                                .spectrogram = g->spectrogram};
+    return true;
+}
+
+bool modes_extract_find(struct modes_extract *x, struct err *e)
+{
+    struct modal_options o;
+    if (!modes_extract_find_strikes(x, &o, e)) return false;
     if (!modal_find(&x->data, &o, x->arena, &x->found, e)) return err_at(e, "%s", x->place[0].shown);
     if (x->found.n == 0)
         return err_set(e, ERR_SCENE, "%s: no mode stands out of the noise between %.6g and %.6g Hz", x->place[0].shown,

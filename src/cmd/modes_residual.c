@@ -1,0 +1,536 @@
+/* rasp modes residual RECORDING TABLE -o FOLDER: what a recorded strike holds besides the modes of the table
+   (papers/003 D.1), as a folder that scenes name as surface.residual.
+
+   Each mode of the table is fitted to the strike anew, pole as it is, gain and phase its own (analysis/modal.h): so the
+   table may be of several strikes, or of another place. It is represented as far as modes of the fitted object
+   (--estimated) match it in frequency and damping: amplitude times R_i (analysis/feature_match.h), all of it without
+   --estimated.
+
+   By time, the represented sound is subtracted as it is, for its phases are known; then noise is taken off, as the lead
+   before the strike shows it: each pixel of the spectrogram (num/stft.h) times sqrt(1 - P_noise/P), P the mean of 3 x
+   3, and what is not 3 dB above the noise is 0. By power, as printed: P_recording - P_represented, where the paper does
+   not say that it falls below 0, as it does wherever phases differ; here it stops there, and has the recording's
+   phases. */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "analysis/feature_match.h"
+#include "base/interrupt.h"
+#include "base/outfile.h"
+#include "base/relpath.h"
+#include "base/text.h"
+#include "cmd/modes_extract.h"
+#include "cmd/report.h"
+#include "file/wav.h"
+#include "num/scaled.h"
+#include "num/stft.h"
+#include "response/mode_table.h"
+#include "response/residual.h"
+#include "scene/keys_yaml.h"
+
+enum { BY_TIME, BY_POWER };
+enum { LEAD_FRAMES = 4 }; /* that show the noise */
+
+static const double fade = 0.005;   /* s at the end */
+static const double nothing = 1e-8; /* of the energy: a tail of less is cut */
+
+struct table { /* features of a mode table */
+    const char *file, *name;
+    char hash[HASH_TEXT];
+    int n;
+    struct feature *feature;
+};
+
+struct job {
+    struct cmd_call *c;
+    struct arena *arena;
+    struct modes_extract x;
+    struct modes_extract_place *place;
+    const char *folder;
+    int domain;
+    bool keeps_noise;
+    struct table table, estimated;
+    int outside; /* modes of the table that lie outside the band that the strike holds */
+    struct feature_match match;
+    double *ratio;                                    /* [table.n] R_i; 0 of one outside */
+    cplx *gain;                                       /* [table.n][stretches] */
+    int stretch;                                      /* of the strike */
+    long start, length;                               /* samples of the recording, of the strike's sound */
+    double *recorded, *represented, *left, *residual; /* [length] */
+    double *noise;                                    /* [bins] power; NULL: no lead shows it, or it is kept */
+    double variance;                                  /* of the lead; NAN: there is none */
+    double sounds, gains;                             /* factors of the sounds and gains, for the unit */
+    char hashes[4][HASH_TEXT];
+    const char *temporary;
+};
+
+static const struct modal_stretch *stretch_of(const struct job *j) { return &j->x.data.stretch[j->stretch]; }
+
+static const struct strikes_one *strike_of(const struct job *j)
+{
+    return &j->place->strikes.strike[stretch_of(j)->strike];
+}
+
+/* ------------------------------------------------------------------ tables */
+
+/* Each slope of a mode is a feature: with its pole where it is strongest, and the energy of all places together. */
+static bool table_read(struct job *j, const char *file, struct table *to, struct err *e)
+{
+    struct mode_table t;
+    int most = 0;
+    to->file = file;
+    to->name = strrchr(file, '/') ? strrchr(file, '/') + 1 : file;
+    if (!mode_table_read(file, j->arena, &t, e) || !hash_file(file, to->hash, e)) return false;
+    for (const struct mode_entry *v = t.entry; v < t.entry + t.first[t.places]; v++)
+        most = v->n > most ? v->n : most;
+    struct feature *all = ARENA_TAKE(j->arena, struct feature, t.modes * (size_t)most);
+    double *strongest = ARENA_TAKE(j->arena, double, t.modes *(size_t)most);
+    for (const struct mode_entry *v = t.entry; v < t.entry + t.first[t.places]; v++)
+        for (int i = 0; i < v->n; i++) {
+            size_t k = v->mode * (size_t)most + (size_t)i;
+            double energy = v->slope[i].gain * v->slope[i].gain / (4.0 * v->slope[i].decay);
+            if (!(v->slope[i].decay > 0.0 && isfinite(energy)))
+                return err_set(e, ERR_SCENE, "%s: a mode at %.6g Hz does not decay, and leaves no residual", file,
+                               v->frequency);
+            if (all[k].decay == 0.0 || energy > strongest[k]) {
+                all[k].frequency = v->frequency;
+                all[k].decay = v->slope[i].decay;
+                strongest[k] = energy;
+            }
+            all[k].energy += energy;
+        }
+    for (size_t k = 0; k < t.modes * (size_t)most; k++)
+        if (all[k].decay > 0.0) all[to->n++] = all[k];
+    to->feature = all;
+    return true;
+}
+
+/* ------------------------------------------------------------------ the strike */
+
+/* The loudest that is neither doubled nor clipped; of none such, of those that are used. */
+static void choose(struct job *j)
+{
+    double most = -1.0;
+    j->stretch = -1;
+    for (int s = 0; s < j->x.data.stretches; s++) {
+        const struct modal_stretch *st = &j->x.data.stretch[s];
+        if (st->strike < 0 || !st->fitted) continue;
+        const struct strikes_one *v = &j->place->strikes.strike[st->strike];
+        double worth = v->peak * (v->doubled || v->clipped ? 1e-6 : 1.0);
+        if (worth <= most) continue;
+        most = worth;
+        j->stretch = s;
+    }
+    const struct modal_stretch *st = stretch_of(j);
+    const struct strikes_one *v = strike_of(j);
+    bool force = j->x.given.force_channel, response = j->x.given.impulse;
+    j->start = v->onset + (force ? (long)rint(j->place->delay * j->x.rate) : 0);
+    j->length = st->first + st->n - j->start;
+    j->sounds = response ? 1.0 : 1.0 / (force ? v->momentum : v->peak);
+    j->gains = response ? 1.0 : force ? j->x.rate : 1.0 / v->peak;
+}
+
+/* What strike s makes of a mode, times `factor`, is added to y[n], whose first sample is j->start. */
+static void ring(const struct job *j, int s, cplx pole, cplx gain, double *y)
+{
+    const struct modal_stretch *st = &j->x.data.stretch[s];
+    cplx p = cplx_exp(pole, 1.0 / j->x.rate), x = {0};
+    long from = st->pulse.at, end = j->start + j->length;
+    if (!j->x.given.impulse && !j->x.given.force_channel) { /* back to the strike */
+        from = j->place->strikes.strike[st->strike].onset;
+        gain = cplx_mul(gain, cplx_exp(pole, -(double)(st->pulse.at - from) / j->x.rate));
+    }
+    for (long n = from; n < end; n++) {
+        long k = n - from;
+        x = cplx_mul(p, x);
+        if (k < st->pulse.n) x.re += st->pulse.f[k];
+        if (n >= j->start) y[n - j->start] += gain.re * x.im + gain.im * x.re;
+    }
+}
+
+/* Gains of the table's modes, the represented sound, and what it leaves; what earlier strikes left ringing is no
+   residual, and is taken off whole. */
+static bool subtract(struct job *j, struct modal_options *o, struct err *e)
+{
+    int n = j->table.n, stretches = j->x.data.stretches, inside = 0, *of = ARENA_TAKE(j->arena, int, n);
+    cplx *pole = ARENA_TAKE(j->arena, cplx, n), *gain = ARENA_TAKE(j->arena, cplx, n * stretches);
+    for (int i = 0; i < n; i++) {
+        const struct feature *f = &j->table.feature[i];
+        if (f->frequency < j->x.low || f->frequency > j->x.high) continue;
+        of[inside] = i;
+        pole[inside++] = (cplx){-f->decay, 2.0 * REAL_PI * f->frequency};
+    }
+    j->outside = n - inside;
+    if (!inside)
+        return err_set(e, ERR_SCENE,
+                       "%s: no mode of %s lies between %.6g and %.6g Hz, where the strike holds something",
+                       j->place->shown, j->table.file, j->x.low, j->x.high);
+    o->most = inside;
+    o->fastest = 1e9; /* of a table any decay is a mode's */
+    modal_gains(&j->x.data, o, inside, pole, gain);
+    j->gain = ARENA_TAKE(j->arena, cplx, n * stretches);
+    j->recorded = ARENA_TAKE(j->arena, double, j->length);
+    j->represented = ARENA_TAKE(j->arena, double, j->length);
+    j->left = ARENA_TAKE(j->arena, double, j->length);
+    memcpy(j->recorded, j->place->recording.sound.x + j->start, (size_t)j->length * sizeof *j->recorded);
+    for (int i = 0; i < inside; i++) {
+        struct feature *f = &j->table.feature[of[i]];
+        memcpy(j->gain + of[i] * stretches, gain + i * stretches, (size_t)stretches * sizeof *gain);
+        f->energy = cplx_square(gain[i * stretches + j->stretch]) / (4.0 * f->decay);
+        double *earlier = ARENA_TAKE(j->arena, double, j->length);
+        for (int s = 0; s < j->stretch; s++)
+            if (j->x.data.stretch[s].strike >= 0) ring(j, s, pole[i], gain[i * stretches + s], earlier);
+        scaled_add(j->recorded, -1.0, earlier, j->length);
+    }
+    j->ratio = ARENA_TAKE(j->arena, double, n);
+    for (int i = 0; i < n; i++)
+        j->ratio[i] = 1.0;
+    if (j->estimated.file) {
+        feature_match(j->table.feature, n, j->estimated.feature, j->estimated.n, NULL, j->arena, &j->match);
+        memcpy(j->ratio, j->match.reference, (size_t)n * sizeof *j->ratio);
+    }
+    for (int i = 0; i < inside; i++)
+        ring(j, j->stretch, pole[i], cplx_scale(j->ratio[of[i]], gain[i * stretches + j->stretch]), j->represented);
+    for (long i = 0; i < j->length; i++)
+        j->left[i] = j->recorded[i] - j->represented[i];
+    return true;
+}
+
+/* ------------------------------------------------------------------ noise, and power */
+
+/* Mean power of the frames that lie within the lead. */
+static void listen(struct job *j)
+{
+    const struct modal_stretch *lead = &j->x.data.stretch[j->place->first];
+    j->variance = NAN;
+    if (lead->strike >= 0) return;
+    j->variance = scaled_squares(lead->y, lead->n) / (double)lead->n;
+    struct arena *a = arena_open();
+    struct stft *s = stft_open(lead->n, j->x.rate, 1, a);
+    int frames = s->frames - 2 * STFT_ONSET;
+    if (frames >= LEAD_FRAMES && !j->keeps_noise) {
+        long count = (long)s->frames * s->bins;
+        double *re = ARENA_TAKE(a, double, count), *im = ARENA_TAKE(a, double, count);
+        stft_forward(s, lead->y, re, im);
+        stft_power(re, im, count, re);
+        j->noise = ARENA_TAKE(j->arena, double, s->bins);
+        for (int m = STFT_ONSET; m < STFT_ONSET + frames; m++)
+            scaled_add(j->noise, 1.0 / frames, re + (long)m * s->bins, s->bins);
+    }
+    stft_close(s);
+    arena_close(a);
+}
+
+static double mean_of_nine(const double *power, const struct stft *s, int m, int k)
+{
+    double sum = 0.0;
+    int terms = 0;
+    for (int i = m > 0 ? m - 1 : 0; i <= m + 1 && i < s->frames; i++)
+        for (int l = k > 0 ? k - 1 : 0; l <= k + 1 && l < s->bins; l++, terms++)
+            sum += power[(long)i * s->bins + l];
+    return sum / terms;
+}
+
+static void compensate(struct job *j)
+{
+    struct arena *a = arena_open();
+    struct stft *s = stft_open(j->length, j->x.rate, 1, a);
+    long count = (long)s->frames * s->bins;
+    double *re = ARENA_TAKE(a, double, count), *im = ARENA_TAKE(a, double, count),
+           *power = ARENA_TAKE(a, double, count), *whole = ARENA_TAKE(a, double, count);
+    j->residual = ARENA_TAKE(j->arena, double, j->length);
+    if (j->domain == BY_POWER) {
+        stft_forward(s, j->represented, re, im);
+        stft_power(re, im, count, power);
+    }
+    stft_forward(s, j->domain == BY_POWER ? j->recorded : j->left, re, im);
+    stft_power(re, im, count, whole);
+    for (long i = 0; i < count; i++)
+        power[i] = fmax(whole[i] - power[i], 0.0);
+    for (int m = 0; m < s->frames; m++)
+        for (int k = 0; k < s->bins; k++) {
+            long i = (long)m * s->bins + k;
+            double mean = mean_of_nine(power, s, m, k), noise = j->noise ? j->noise[k] : 0.0,
+                   gain = mean > 2.0 * noise && whole[i] > 0.0 ? sqrt((1.0 - noise / mean) * power[i] / whole[i]) : 0.0;
+            re[i] *= gain;
+            im[i] *= gain;
+        }
+    stft_inverse(s, re, im, j->residual);
+    stft_close(s);
+    arena_close(a);
+    long last = j->length, end = (long)(fade * j->x.rate);
+    double tail = 0.0, all = scaled_squares(j->residual, j->length);
+    while (last > 2 * end && tail + j->residual[last - 1] * j->residual[last - 1] <= nothing * all)
+        tail += j->residual[last - 1] * j->residual[last - 1], last--;
+    for (long i = 0; i < end && i < last; i++)
+        j->residual[last - 1 - i] *= real_sinpi(0.5 * (double)i / (double)end);
+    j->length = last;
+}
+
+/* ------------------------------------------------------------------ the folder */
+
+static const char *per(const struct job *j)
+{
+    return j->x.given.impulse          ? "N s, an impulse response"
+           : !j->x.given.force_channel ? "strike whose sound has the peak 1"
+           : isnan(j->x.given.scale)   ? "full scale of the force times second"
+                                       : "N s";
+}
+
+/* What its level lacks to be one per N s; NULL: nothing. */
+static const char *why_not(const struct job *j)
+{
+    if (!j->x.given.impulse && !j->x.given.force_channel) return "no channel holds the force";
+    return isnan(j->x.given.scale) ? "--scale, and with a force --force-scale, are not given" : NULL;
+}
+
+static const char *at(const struct job *j, const char *name)
+{
+    return arena_format(j->arena, "%s/%s", j->temporary, name);
+}
+
+static bool write_sound(struct job *j, const char *name, const double *x, struct err *e)
+{
+    struct wav_format f = {.rate = j->x.rate, .channels = 1, .bits = -32, .comment = "rasp: by rasp modes residual"};
+    double *scaled = ARENA_TAKE(j->arena, double, j->length);
+    struct wav_out *w = wav_create(at(j, name), &f, e);
+    scaled_copy(scaled, j->sounds, x, j->length);
+    if (!w) return false;
+    if (wav_write(w, scaled, (size_t)j->length, e)) return wav_commit(w, e);
+    wav_drop(w);
+    return false;
+}
+
+static void modes_write(FILE *f, const struct job *j)
+{
+    fprintf(f, "# quantity: %s per %s\n# source: %s, sha256 %s\n", modes_quantity_name(j->x.given.quantity), per(j),
+            text_shown(j->arena, j->table.name), j->table.hash);
+    fputs("frequency_hz,decay_per_s,gain,phase_rad,match_ratio\n", f);
+    for (int i = 0; i < j->table.n; i++) {
+        const struct feature *m = &j->table.feature[i];
+        cplx a = cplx_scale(j->gains, j->gain[i * j->x.data.stretches + j->stretch]);
+        fprintf(f, "%.9g,%.9g,%.9g,%.9g,%.9g\n", m->frequency, m->decay, cplx_abs(a),
+                cplx_abs(a) > 0.0 ? real_atan2(a.im, a.re) : 0.0, j->ratio[i]);
+    }
+}
+
+static double decibel(double power, double reference)
+{
+    return power > 0.0 && reference > 0.0 ? 10.0 * real_log10(power / reference) : NAN;
+}
+
+struct figures { /* of the strike's sound, dB relative to the recording's energy; NAN: not known, or nothing */
+    double represented, left, noise, residual, least, mean;
+};
+
+static struct figures figures(const struct job *j, long length)
+{
+    double all = scaled_squares(j->recorded, length), sum = 0.0;
+    struct figures f = {decibel(scaled_squares(j->represented, length), all),
+                        decibel(scaled_squares(j->left, length), all),
+                        decibel(j->variance * (double)length, all),
+                        decibel(scaled_squares(j->residual, j->length), all),
+                        1.0,
+                        0.0};
+    for (int i = 0; i < j->table.n; i++) {
+        f.least = fmin(f.least, j->ratio[i]);
+        sum += j->ratio[i];
+    }
+    f.mean = sum / j->table.n;
+    return f;
+}
+
+static void yaml_number(FILE *f, const char *key, double x)
+{
+    if (!isnan(x)) fprintf(f, "%s: %.6g\n", key, x);
+}
+
+static void yaml_file(FILE *f, const struct job *j, const char *name, const char *hash)
+{
+    fprintf(f, "  - {file: %s, sha256: \"%s\"}\n", keys_yaml_quoted(name, j->arena), hash);
+}
+
+static void yaml_write(FILE *f, const struct job *j, const struct figures *g)
+{
+    static const char *const names[] = {RESIDUAL_WAV, RESIDUAL_MODES, RESIDUAL_REPRESENTED};
+    const struct strikes_one *v = strike_of(j);
+    const char *lacks = why_not(j);
+    fprintf(
+        f,
+        "# What a strike sounds besides its modes, by rasp modes residual: for surface.residual of a scene.\n%s: %s\n",
+        RESIDUAL_FORMAT, RESIDUAL_VERSION);
+    fprintf(f, "sample_rate: %.9g\nquantity: %s\nper: %s\nphysical: %s\n", j->x.rate,
+            modes_quantity_name(j->x.given.quantity), per(j), lacks ? "false" : "true");
+    if (lacks) fprintf(f, "why_not: %s\n", lacks);
+    fprintf(f, "strike: %d\n", stretch_of(j)->strike + 1);
+    yaml_number(f, "onset_s", (double)v->onset / j->x.rate);
+    yaml_number(f, j->x.given.force_channel ? "momentum" : "peak", j->x.given.force_channel ? v->momentum : v->peak);
+    if (j->place->placed) fprintf(f, "place_m: [%.9g, %.9g]\n", j->place->x, j->place->y);
+    fprintf(f, "domain: %s\nnoise: %s\n", j->domain == BY_POWER ? "power" : "time", j->noise ? "taken off" : "kept");
+    fprintf(f, "modes: %d\n", j->table.n);
+    yaml_number(f, "match_ratio_mean", g->mean);
+    yaml_number(f, "match_ratio_least", g->least);
+    if (j->estimated.file) yaml_number(f, "match_ratio_by_energy", j->match.represented);
+    if (j->estimated.file) yaml_number(f, "match_score", j->match.score);
+    yaml_number(f, "represented_db", g->represented);
+    yaml_number(f, "left_db", g->left);
+    yaml_number(f, "noise_db", g->noise);
+    yaml_number(f, "residual_db", g->residual);
+    fputs("inputs:\n", f);
+    yaml_file(f, j, j->place->name, j->place->hash);
+    yaml_file(f, j, j->table.name, j->table.hash);
+    if (j->estimated.file) yaml_file(f, j, j->estimated.name, j->estimated.hash);
+    fputs("files:\n", f);
+    for (int k = 0; k < 3; k++)
+        yaml_file(f, j, names[k], j->hashes[k]);
+}
+
+static bool write_files(struct job *j, const struct figures *g, struct err *e)
+{
+    static const char *const names[] = {RESIDUAL_WAV, RESIDUAL_MODES, RESIDUAL_REPRESENTED};
+    struct outfile *o = ARENA_TAKE(j->arena, struct outfile, 1);
+    if (!write_sound(j, RESIDUAL_WAV, j->residual, e) || !write_sound(j, RESIDUAL_REPRESENTED, j->represented, e) ||
+        !outfile_open(o, at(j, RESIDUAL_MODES), e))
+        return false;
+    modes_write(o->stream, j);
+    if (!outfile_commit(o, e)) return false;
+    for (int k = 0; k < 3; k++)
+        if (!hash_file(at(j, names[k]), j->hashes[k], e)) return false;
+    if (!outfile_open(o, at(j, RESIDUAL_YAML), e)) return false;
+    yaml_write(o->stream, j, g);
+    return outfile_commit(o, e);
+}
+
+static void remove_folder(const struct job *j, const char *folder)
+{
+    static const char *const names[] = {RESIDUAL_WAV, RESIDUAL_MODES, RESIDUAL_REPRESENTED, RESIDUAL_YAML};
+    for (int k = 0; k < 4; k++)
+        unlink(arena_format(j->arena, "%s/%s", folder, names[k]));
+    rmdir(folder);
+}
+
+/* Whole, and in the place of one that is there, or not at all. */
+static bool write_folder(struct job *j, const struct figures *g, struct err *e)
+{
+    const char *beside = arena_format(j->arena, "%s/.rasp-%d", relpath_folder(j->folder, j->arena), (int)getpid()),
+               *old = arena_format(j->arena, "%s.old", beside);
+    j->temporary = arena_format(j->arena, "%s.part", beside);
+    interrupt_hold();
+    bool made = mkdir(j->temporary, 0777) == 0;
+    if (made) interrupt_temporary(j->temporary);
+    interrupt_go();
+    if (!made) return err_set(e, ERR_CREATE, "%s: cannot be created: %s", j->folder, strerror(errno));
+    bool ok = write_files(j, g, e);
+    interrupt_hold();
+    bool moved = ok && access(j->folder, F_OK) == 0 && rename(j->folder, old) == 0;
+    if (ok && rename(j->temporary, j->folder) != 0) {
+        ok = err_set(e, ERR_CREATE, "%s: cannot be created: %s", j->folder, strerror(errno));
+        if (moved) rename(old, j->folder);
+        moved = false;
+    }
+    if (moved) remove_folder(j, old);
+    if (!ok) remove_folder(j, j->temporary);
+    interrupt_forget(j->temporary);
+    interrupt_go();
+    return ok;
+}
+
+/* ------------------------------------------------------------------ the report */
+
+static const char *shown(const struct job *j, double x, const char *otherwise)
+{
+    return isnan(x) ? otherwise : arena_format(j->arena, "%.2f dB", x);
+}
+
+static void report(const struct job *j, const struct figures *g, bool json, struct err *e)
+{
+    const struct strikes_one *v = strike_of(j);
+    const char *lacks = why_not(j), *strike = "";
+    struct report r = report_open(stdout, json);
+    double seconds = (double)j->length / j->x.rate, onset = (double)v->onset / j->x.rate;
+    report_set(&r,
+               "folder:s recording:s table:s estimated:s strike:i onset_s:n momentum:n peak:n quantity:s per:s "
+               "physical:b seconds:n modes:i outside:i",
+               j->folder, j->place->shown, j->table.file, j->estimated.file, stretch_of(j)->strike + 1, onset,
+               v->momentum, v->peak, modes_quantity_name(j->x.given.quantity), per(j), !lacks, seconds, j->table.n,
+               j->outside);
+    report_set(&r, "noise_removed:b match_ratio_mean:n match_ratio_least:n match_ratio_by_energy:n match_score:n",
+               j->noise != NULL, g->mean, g->least, j->estimated.file ? j->match.represented : 1.0,
+               j->estimated.file ? j->match.score : 1.0);
+    report_set(&r, "represented_db:n left_db:n noise_db:n residual_db:n", g->represented, g->left, g->noise,
+               g->residual);
+    report_list(&r, "match_ratios");
+    for (int i = 0; i < j->table.n; i++)
+        report_set(&r, ":n", j->ratio[i]);
+    report_end(&r);
+    if (!j->x.given.impulse) strike = arena_format(j->arena, ", strike %d at %.4f s", stretch_of(j)->strike + 1, onset);
+    report_text(&r, "%s%s: %d modes of %s\n", j->place->shown, strike, j->table.n, j->table.file);
+    if (j->outside)
+        report_text(&r, "%d of them outside of what the strike holds, %.5g to %.5g Hz, and in the residual\n",
+                    j->outside, j->x.low, j->x.high);
+    if (j->estimated.file)
+        report_text(&r, "matched by %s: ratio %.3f by energy, %.3f in the mean, %.3f at least; score %.3f\n",
+                    j->estimated.file, j->match.represented, g->mean, g->least, j->match.score);
+    report_text(&r, "energy beside the recording's: represented %s, left over %s, noise %s, residual %s%s\n",
+                shown(j, g->represented, "nothing"), shown(j, g->left, "nothing"), shown(j, g->noise, "not known"),
+                shown(j, g->residual, "nothing"),
+                j->noise         ? ""
+                : j->keeps_noise ? " with its noise"
+                                 : " with its noise: there is no silence before the strike that shows it");
+    report_text(&r, "%s: %.3g s of %s, per %s%s%s\n", j->folder, seconds, modes_quantity_name(j->x.given.quantity),
+                per(j), lacks ? "; relative: " : "", lacks ? lacks : "");
+    report_close(&r, 12, e);
+}
+
+/* ------------------------------------------------------------------ all */
+
+/* The folder is not there, or is one of these and --force is given. */
+static bool folder_free(const struct job *j, struct err *e)
+{
+    struct stat s;
+    if (!j->folder) return err_set(e, ERR_USAGE, "-o FOLDER is needed: the folder to write");
+    if (lstat(j->folder, &s) != 0) return true;
+    const char *wrong = residual_is_folder(j->folder, j->arena);
+    if (S_ISLNK(s.st_mode)) wrong = "is a symbolic link";
+    if (wrong) return err_set(e, ERR_CREATE, "%s: %s; it is left as it is: choose another name", j->folder, wrong);
+    return args_given(&j->c->args, "force") ||
+           err_set(e, ERR_CREATE, "%s is there already; --force replaces it", j->folder);
+}
+
+int modes_residual_run(struct cmd_call *c, struct err *e)
+{
+    static const char *const domains[] = {"time", "power", NULL};
+    struct job *j = ARENA_TAKE(c->arena, struct job, 1);
+    struct modal_options o;
+    *j = (struct job){.c = c, .arena = c->arena, .keeps_noise = args_given(&c->args, "keep-noise")};
+    j->x.c = c;
+    j->x.arena = c->arena;
+    const char *folder = args_value(&c->args, "output"), *estimated = args_value(&c->args, "estimated");
+    size_t n = folder ? strlen(folder) : 0; /* a folder may be named with a / at its end */
+    while (n > 1 && folder[n - 1] == '/')
+        n--;
+    j->folder = folder ? arena_format(c->arena, "%.*s", (int)n, folder) : NULL;
+    if (!modes_extract_options(&j->x, e) || !args_word(&c->args, "residual-domain", domains, &j->domain, e) ||
+        !folder_free(j, e) || !modes_extract_recordings(&j->x, 1, e))
+        return (int)e->kind;
+    if (j->x.n != 1)
+        return err_set(e, ERR_USAGE, "%s: a residual is of one recording, not of a folder", c->args.operands[0]),
+               (int)e->kind;
+    j->place = &j->x.place[0];
+    if (!table_read(j, c->args.operands[1], &j->table, e) ||
+        (estimated && !table_read(j, estimated, &j->estimated, e)) || !modes_extract_find_strikes(&j->x, &o, e))
+        return (int)e->kind;
+    choose(j);
+    if (!subtract(j, &o, e)) return (int)e->kind;
+    listen(j);
+    long length = j->length;
+    compensate(j);
+    struct figures g = figures(j, length);
+    if (write_folder(j, &g, e) && (args_given(&c->args, "json") || !args_given(&c->args, "quiet")))
+        report(j, &g, args_given(&c->args, "json"), e);
+    return (int)e->kind;
+}
