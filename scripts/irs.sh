@@ -1,5 +1,5 @@
 #!/bin/sh
-# Writes the mode tables and the impulse response of irs/ (or of the folder given) from the recipes there. Same bytes every time.
+# Writes the mode tables, the impulse response and the residual of irs/ (or of the folder given) from the recipes there. Same bytes every time.
 #     scripts/irs.sh [FOLDER]       rasp from $BUILD (default: build/ of this tree)
 set -eu
 export LC_ALL=C
@@ -31,6 +31,11 @@ table pvc_bar_loaded --load 5g --line 0,1.5cm,40cm,1.5cm --listen 3cm,1.5cm
 
 # A tap on the tile at x = 0.15 m: 0.25 s at 48 kHz.
 printf '%b' "$(awk -v place=13 -v rate=48000 -v samples=12000 -f "$here/scripts/ir_wav.awk" "$to/ceramic_tile.csv")" > "$to/ceramic_tile_tap.wav"
+
+# What such a tap sounds besides its modes, for scenes/residual_strike.yaml: a burst of noise comes with it, and is what the residual finds.
+printf '%b' "$(awk -v place=13 -v rate=48000 -v samples=9600 -v burst=3 -f "$here/scripts/ir_wav.awk" "$to/ceramic_tile.csv")" > "$to/tap.wav"
+(cd "$to" && "$rasp" modes residual tap.wav@15cm,3.7cm ceramic_tile.csv --impulse --quantity velocity --scale 1 --force --quiet -o ceramic_tile_residual)
+rm "$to/tap.wav"
 
 # solid NAME TITLE SHAPE OPTION...: NAME.csv by finite elements. A table that is current is left as it is.
 solid() {

@@ -96,6 +96,7 @@ struct relief;
 struct height_map;
 struct table_sink;
 struct impact_sink;
+struct ring;
 
 struct smoothing { /* of constant width, by a kernel of sub-samples */
     struct filter kernel;
@@ -127,10 +128,11 @@ struct board {
     struct relief *relief;
     const struct height_map *height_map; /* NULL: none */
     struct table_sink *table;
-    struct impact_sink *listing; /* where the series of impacts is written; NULL: it is not */
-    int quantity;                /* enum modes_quantity of the sound; -1: not stated (recorded responses) */
-    double ring;                 /* s, until the slowest response has decayed by 80 dB */
-    double lifted;               /* s during which the scraper was lifted off         */
+    struct impact_sink *listing;     /* where the series of impacts is written; NULL: it is not */
+    const struct ring *surface_ring; /* of the stage that makes the surface ring; NULL: none */
+    int quantity;                    /* enum modes_quantity of the sound; -1: not stated (recorded responses) */
+    double ring;                     /* s, until the slowest response has decayed by 80 dB */
+    double lifted;                   /* s during which the scraper was lifted off         */
     struct roll_report roll;
     bool rolls;       /* the report holds something                        */
     bool unstated;    /* a recorded response, whose quantity is not stated, rings */

@@ -758,23 +758,18 @@ const struct command modes_command = {
         "places, of an object over a grid of places, or at one place with --at).",
     .also =
         "rasp modes residual RECORDING TABLE -o FOLDER: what the loudest strike of a recording sounds besides the "
-        "modes "
-        "of TABLE, which extract made of it: for surface.residual of a scene. RECORDING, channels, scales, --quantity, "
-        "--impulse and --strikes are as for extract. With --estimated a mode is taken off only as far as a mode of "
-        "that "
-        "table matches it (0.1 Bark, a factor of 1.28 in damping): the rest stays. Noise that is heard before the "
-        "strike is taken off.\n"
+        "modes of TABLE, which extract made of it: for surface.residual of a scene. RECORDING, channels, scales, "
+        "--quantity, --impulse and --strikes are as for extract. With --estimated a mode is taken off only as far as a "
+        "mode of that table matches it (0.1 Bark, a factor of 1.28 in damping): the rest stays. Noise that is heard "
+        "before the strike is taken off.\n"
         "rasp modes material OBJECT STRIKE... -o FILE.yaml: what an object is made of. OBJECT is a mesh, or a shape as "
-        "of "
-        "--shape; each STRIKE a table of rasp modes extract, FILE.csv@X,Y where the place that was struck is known; "
+        "of --shape; each STRIKE a table of rasp modes extract, FILE.csv@X,Y where the place that was struck is known; "
         "several objects of one material stand one after the other, each with its strikes. Found are E/density, "
-        "Poisson's "
-        "ratio and damping: all values of E/density are looked through for every ratio, modes are paired with computed "
-        "ones, and laws of damping are compared by their BIC. The mass, or the density, makes E of that. Intervals "
-        "hold "
-        "95 %; where pairs are few, or another material fits nearly as well, a warning says so and there are none. "
-        "E/density is that at the sizes given: 1 % of length is 2 % of it. The file is an entry of materials, which a "
-        "scene includes and surface.material names.",
+        "Poisson's ratio and damping: all values of E/density are looked through for every ratio, modes are paired "
+        "with computed ones, and laws of damping are compared by their BIC. The mass, or the density, makes E of that. "
+        "Intervals hold 95 %; where pairs are few, or another material fits nearly as well, a warning says so and "
+        "there are none. E/density is that at the sizes given: 1 % of length is 2 % of it. The file is an entry of "
+        "materials, which a scene includes and surface.material names.",
     .operands = "ACTION FILE",
     .least = 1,
     .most = -1,

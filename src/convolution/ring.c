@@ -353,6 +353,7 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
                        .ramp = (int)r->scene->accuracy.gain_ramp,
                        .stays = given->choice->reading == MOVING_GLIDE || given->choice->reading == MOVING_READOUT,
                        .channels = r->board->channels};
+    if (surface) r->board->surface_ring = g;
     g->outputs = ARENA_TAKE(r->arena, struct ring_output, g->channels);
     g->y = ARENA_TAKE(r->arena, double, STAGE_BLOCK);
     if (g->choice->recorded) return true;

@@ -29,6 +29,7 @@ for file in made/* "$ROOT"/irs/*; do
         README.md) ;;
         *.yaml) [ -f "made/${name%.yaml}.csv" ] || fail "scripts/irs.sh makes no table of irs/$name" ;;
         steel_ring.csv) near "made/$name" "$ROOT/irs/$name" || fail "irs/$name is out of date: run make irs" ;;
+        *_residual) diff -r "made/$name" "$ROOT/irs/$name" || fail "irs/$name is out of date: run make irs" ;;
         *) cmp "made/$name" "$ROOT/irs/$name" || fail "irs/$name is out of date: run make irs" ;;
     esac
 done

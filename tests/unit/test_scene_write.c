@@ -69,7 +69,8 @@ static const char SCRIBBLE[] =
     "{mass: 1}\n"
     "motion: {path: scribble, size: [3 cm, 1 cm], rate: 1.1, duration: 3, law: minimum_jerk}\n";
 static const char GIVEN[] =
-    "rasp: 1\nsurface: {ridges: {shape: round}, response: files/plank.csv}\nscraper: {mass: 1}\n"
+    "rasp: 1\nsurface: {ridges: {shape: round}, response: files/plank.csv, residual: files/plank.csv}\nscraper: {mass: "
+    "1}\n"
     "motion: {path: four_in_line, to: [0.1, 0.3], strokes: 3, law: given, profile: files/speed.csv}\n";
 static const char RECORDED[] = "rasp: 1\nsurface: {ridges: {}, response: files/plank.csv}\nscraper: {mass: 1}\n"
                                "motion: {path: recorded, file: files/path.csv, cutoff: 7}\n";
