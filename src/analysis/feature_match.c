@@ -42,7 +42,8 @@ static double *serve(const struct pair *pair, int pairs, int n, int m, bool exch
     double *r = ARENA_TAKE(a, double, n), *left = ARENA_TAKE(a, double, m);
     for (int j = 0; j < m; j++)
         left[j] = 1.0;
-    for (const struct pair *p = pair; p < pair + pairs; p++) {
+    for (int k = 0; k < pairs; k++) {
+        const struct pair *p = &pair[k];
         int i = exchanged ? p->j : p->i, j = exchanged ? p->i : p->j;
         double u = fmin(left[j], (1.0 - r[i]) / p->k);
         left[j] -= u;
