@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "analysis/material_fit.h"
+#include "analysis/material_metric.h"
+#include "analysis/material_set.h"
 #include "base/outfile.h"
 #include "base/text.h"
 #include "cmd/message.h"
@@ -16,6 +17,7 @@
 #include "cmd/report.h"
 #include "fem/shapes.h"
 #include "fem/topology.h"
+#include "num/noise.h"
 #include "num/real.h"
 #include "output/mark.h"
 #include "response/mode_table.h"
@@ -55,6 +57,14 @@ struct job {
     double range[2], poisson, model_error, size_error;
     long modes;
     struct material_fit fit;
+    bool paper, polish; /* --method paper, --polish perceptual */
+    long starts;
+    struct ending {
+        double x[MATERIAL_UNKNOWNS];
+        struct material_metric metric;
+    } * ending;                    /* [starts] of --method paper */
+    struct material_metric metric; /* of the result; NAN: where was it struck? */
+    int evaluations;
 };
 
 /* ------------------------------------------------------------------ operands */
@@ -204,6 +214,21 @@ static bool read_options(struct job *j, struct err *e)
         !args_whole(g, "modes", counts, &j->modes, e) || !share(j, "model-error", &j->model_error, e) ||
         !share(j, "size-error", &j->size_error, e))
         return false;
+    static const char *const methods[] = {"scan", "paper", NULL}, *const polishes[] = {"perceptual", NULL};
+    static const long some[2] = {1, 1000};
+    int method = 0, polish;
+    j->starts = 10;
+    j->polish = args_given(g, "polish");
+    if (!args_word(g, "method", methods, &method, e) || !args_word(g, "polish", polishes, &polish, e) ||
+        !args_whole(g, "starts", some, &j->starts, e))
+        return false;
+    j->paper = method == 1;
+    if (j->paper && j->polish) return err_set(e, ERR_USAGE, "--polish is for --method scan");
+    if (!j->paper && args_given(g, "starts")) return err_set(e, ERR_USAGE, "--starts is for --method paper");
+    if (j->paper && !args_given(g, "gamma")) {
+        j->range[0] = 1e6;
+        j->range[1] = 1e8;
+    }
     return j->model_error > 0.0 || err_set(e, ERR_USAGE, "--model-error must be above 0");
 }
 
@@ -233,7 +258,7 @@ static bool read_object(struct job *j, struct thing *t, struct err *e)
     if (!modes_compute_solid_mesh(k, shape ? NULL : t->text, shape ? t->text : NULL, e) ||
         !modes_compute_solid_fixed(k, e))
         return false;
-    k->order = shape ? shapes_order(t->text) : 2;
+    k->order = shape ? shapes_order(t->text) : 3;
     static const long orders[2] = {SOLID_LATTICE_LEAST, SOLID_LATTICE_MOST};
     return args_whole(&j->c->args, "order", orders, &k->order, e);
 }
@@ -311,6 +336,12 @@ static bool compute_family(struct job *j, int o, struct err *e)
         ask.coarse = &coarse.mesh;
         ask.coarse_boundary = &coarse.boundary;
         ask.coarse_fixed = coarse.fixed;
+        ask.coarse_order = (int)t->solid.order;
+    } else if (t->solid.order > SOLID_LATTICE_LEAST) {
+        ask.coarse = ask.mesh;
+        ask.coarse_boundary = ask.boundary;
+        ask.coarse_fixed = ask.fixed;
+        ask.coarse_order = (int)t->solid.order - 1;
     }
     return solid_family_make(&ask, j->c->arena, &j->family[o], e);
 }
@@ -325,97 +356,120 @@ static void find_density(struct job *j)
     if (!isnan(mass)) j->density = mass / volume;
 }
 
-/* ------------------------------------------------------------------ measured modes */
+/* ------------------------------------------------------------------ strength */
 
-struct measured {
-    double frequency, error, decay, decay_error;
-};
+/* ------------------------------------------------------------------ metrics and the search of papers/003 */
 
-static int by_frequency(const void *x, const void *y)
-{
-    const struct measured *p = x, *q = y;
-    return (p->frequency > q->frequency) - (p->frequency < q->frequency);
-}
-
-/* Standard errors as `rasp modes extract` writes them: of the noise, and from strike to strike, which many strikes make
-   less. Without them: 0.02 % and 5 %, what it states of one strike. */
-static void read_errors(const struct strike *s, const char *mode, int slope, double strikes, struct arena *a,
-                        struct measured *m)
-{
-    static const char *const words[] = {"frequency_hz se ", "se_between ", "decay_per_s se ", "se_between "};
-    const char *text = csv_comment(&s->table.csv, arena_format(a, "error %s.%d", mode, slope));
-    double x[4];
-    m->error = 2e-4;
-    m->decay_error = 0.05;
-    for (int k = 0; k < 4; k++) {
-        text = text ? strstr(text, words[k]) : NULL;
-        if (!text) return;
-        x[k] = strtod(text + strlen(words[k]), NULL);
-        text += strlen(words[k]);
-    }
-    m->error = sqrt(x[0] * x[0] + x[1] * x[1] / strikes) / m->frequency;
-    m->decay_error = sqrt(x[2] * x[2] + x[3] * x[3] / strikes) / m->decay;
-}
-
-static void read_modes(const struct job *j, const struct strike *s, struct material_set *set)
+/* The first strike whose place is known, as a reference; NULL: there is none. Without --listen a vibration is heard where
+   it is struck, and of a pressure all modes alike. */
+static struct material_search *open_metric(const struct job *j, double nu)
 {
     struct arena *a = j->c->arena;
-    const struct mode_table *t = &s->table;
-    const struct csv *csv = &t->csv;
-    const int column = csv_column(csv, "mode"), n = (int)(t->first[1] - t->first[0]);
-    struct measured *m = ARENA_TAKE(a, struct measured, n);
-    double strikes = 0.0;
-    for (size_t i = 0; i < csv->n_comments; i++)
-        if (!strncmp(csv->comments[i].key, "strikes ", 8)) strikes += strtod(csv->comments[i].value, NULL);
-    for (int i = 0; i < n; i++) {
-        const struct mode_entry *entry = &t->entry[t->first[0] + (size_t)i];
-        int best = 0;
-        for (int k = 1; k < entry->n; k++) { /* of several slopes the one of the greatest energy */
-            const struct mode_slope *p = &entry->slope[k], *q = &entry->slope[best];
-            if (p->gain * p->gain * q->decay > q->gain * q->gain * p->decay) best = k;
+    int i = 0;
+    while (i < j->strikes && j->strike[i].places == 0)
+        i++;
+    if (i == j->strikes) return NULL;
+    const struct strike *s = &j->strike[i];
+    const struct mode_table *table = &s->table;
+    const struct thing *t = &j->thing[j->set[i].object];
+    const struct solid_family *f = &j->family[j->set[i].object];
+    int node = f->nodes == 1 ? 0 : (int)rint(nu / (f->nu[1] - f->nu[0])), room = 0;
+    node = node < 0 ? 0 : node > f->nodes - 1 ? f->nodes - 1 : node;
+    const double *phi = f->phi + (size_t)node * t->points * f->n;
+    for (size_t k = table->first[0]; k < table->first[1]; k++)
+        room += table->entry[k].n;
+    struct feature *feature = ARENA_TAKE(a, struct feature, room);
+    double *gain = ARENA_TAKE(a, double, room), *phase = ARENA_TAKE(a, double, room);
+    struct material_voice v = {.family = f,
+                               .nu = nu,
+                               .in = phi + (size_t)s->first * f->n,
+                               .power = table->quantity - MODES_VELOCITY,
+                               .feature = feature,
+                               .gain = gain,
+                               .phase = phase};
+    if (t->ear >= 0)
+        v.out = phi + (size_t)t->ear * f->n;
+    else if (table->quantity != MODES_ACCELERATION)
+        v.out = v.in;
+    for (size_t k = table->first[0]; k < table->first[1]; k++)
+        for (int m = 0; m < table->entry[k].n; m++) {
+            const struct mode_slope *one = &table->entry[k].slope[m];
+            if (!(one->decay > 0.0)) continue;
+            feature[v.n] =
+                (struct feature){table->entry[k].frequency, one->decay, one->gain * one->gain / (4.0 * one->decay)};
+            gain[v.n] = one->gain;
+            phase[v.n++] = one->phase;
         }
-        m[i].frequency = entry->frequency;
-        m[i].decay = entry->slope[best].decay;
-        read_errors(s, csv->cells[entry->row * csv->columns + (size_t)column], best + 1, fmax(strikes, 1.0), a, &m[i]);
-    }
-    qsort(m, (size_t)n, sizeof *m, by_frequency);
-    set->log_lambda = ARENA_TAKE(a, double, n);
-    set->frequency = ARENA_TAKE(a, double, n);
-    set->error = ARENA_TAKE(a, double, n);
-    set->decay = ARENA_TAKE(a, double, n);
-    set->decay_error = ARENA_TAKE(a, double, n);
-    set->match = ARENA_TAKE(a, int, n);
-    for (int i = 0; i < n; i++) {
-        double w = 2.0 * REAL_PI * m[i].frequency;
-        if (!(m[i].decay > 0.0)) continue;
-        set->log_lambda[set->n] = real_log(w * w + m[i].decay * m[i].decay);
-        set->frequency[set->n] = m[i].frequency;
-        set->error[set->n] = m[i].error;
-        set->decay[set->n] = m[i].decay;
-        set->decay_error[set->n++] = m[i].decay_error;
-    }
+    return material_metric_open(&v, a);
 }
 
-/* How well places show a mode: of its shape there (and where it is heard) beside that of all modes, at most 1. */
-static void see(const struct job *j, const struct strike *s, struct material_set *set)
+/* Both metrics of the result, after --polish perceptual of a result that it moves. */
+static bool measure(struct job *j, struct err *e)
 {
-    const struct solid_family *f = &j->family[set->object];
-    const struct thing *t = &j->thing[set->object];
-    int node = f->nodes / 2, used = 0;
-    const double *phi = f->phi + (size_t)node * t->points * f->n;
-    double rms = 0.0;
-    if (s->places == 0) return;
-    set->visible = ARENA_TAKE(j->c->arena, double, f->n);
-    for (int k = 0; k < f->n; k++) {
-        for (int p = s->first; p < s->first + s->places; p++)
-            set->visible[k] = fmax(set->visible[k], fabs(phi[(size_t)p * f->n + k]));
-        if (t->ear >= 0) set->visible[k] *= fabs(phi[(size_t)t->ear * f->n + k]);
-        rms += set->visible[k] * set->visible[k];
-        used++;
+    struct material_search *s = open_metric(j, j->fit.nu.value);
+    double damping[3], x[MATERIAL_UNKNOWNS];
+    j->metric = (struct material_metric){NAN, NAN};
+    if (!s)
+        return !j->polish ||
+               err_set(e, ERR_USAGE, "--polish: no strike says which place was struck: write FILE.csv@X,Y");
+    material_fit_rayleigh(&j->fit, j->fit.best, damping);
+    x[MATERIAL_GAMMA] = real_log(j->fit.gamma.value);
+    x[MATERIAL_ALPHA_OF] = real_log(fmax(damping[0], 1e-30));
+    x[MATERIAL_BETA_OF] = real_log(fmax(damping[1], 1e-30));
+    x[MATERIAL_SIGMA] = material_metric_strength(s, x, damping[2]);
+    if (j->polish) {
+        const double step[MATERIAL_UNKNOWNS] = {0.002, 0.1, 0.1, 0.1};
+        struct material_damping *d = &j->fit.damping[j->fit.best];
+        j->evaluations = material_metric_descend(s, x, step, damping[2]);
+        j->fit.gamma = (struct material_figure){real_exp(x[MATERIAL_GAMMA]), NAN, NAN};
+        for (int k = 0; k < d->n; k++)
+            for (int of = 0; of < 2; of++)
+                if (!strcmp(d->parameter[k], of ? "beta" : "alpha"))
+                    d->figure[k] =
+                        (struct material_figure){real_exp(x[of ? MATERIAL_BETA_OF : MATERIAL_ALPHA_OF]), NAN, NAN};
     }
-    rms = sqrt(rms / used);
-    for (int k = 0; k < f->n; k++)
-        set->visible[k] = fmin(set->visible[k] / (0.5 * rms), 1.0);
+    j->metric = material_metric_at(s, x, damping[2]);
+    material_metric_close(s);
+    return true;
+}
+
+/* --method paper: Nelder and Mead on the metrics, at the Poisson's ratio that is given, from starts that are drawn. */
+static bool search(struct job *j, struct err *e)
+{
+    struct material_fit *f = &j->fit;
+    struct arena *a = j->c->arena;
+    double nu = isnan(j->poisson) ? 0.3 : j->poisson;
+    const double step[MATERIAL_UNKNOWNS] = {0.1, 0.5, 0.5, 0.5}, low[2] = {0.5, 1e-9}, high[2] = {50.0, 1e-6};
+    const struct ending *best = NULL;
+    struct material_search *s = open_metric(j, nu);
+    if (!s) return err_set(e, ERR_USAGE, "--method paper: no strike says which place was struck: write FILE.csv@X,Y");
+    j->ending = ARENA_TAKE(a, struct ending, j->starts);
+    for (long k = 0; k < j->starts; k++) {
+        struct noise noise = noise_make(0, "starts");
+        struct ending *end = &j->ending[k];
+        for (int i = 0; i < 3; i++) {
+            double from = i ? low[i - 1] : j->range[0], to = i ? high[i - 1] : j->range[1];
+            end->x[i] = real_log(from) + real_log(to / from) * noise_uniform(noise, (uint64_t)k, (uint64_t)i);
+        }
+        end->x[MATERIAL_SIGMA] = material_metric_strength(s, end->x, 0.0);
+        j->evaluations += material_metric_descend(s, end->x, step, 0.0);
+        end->metric = material_metric_at(s, end->x, 0.0);
+        if (!best || end->metric.image + end->metric.feature < best->metric.image + best->metric.feature) best = end;
+    }
+    material_metric_close(s);
+    j->metric = best->metric;
+    f->gamma = (struct material_figure){real_exp(best->x[MATERIAL_GAMMA]), NAN, NAN};
+    f->nu = (struct material_figure){nu, NAN, NAN};
+    f->best = MATERIAL_RAYLEIGH;
+    f->damping[MATERIAL_RAYLEIGH] = (struct material_damping){
+        .name = "rayleigh",
+        .n = 2,
+        .parameter = {"alpha", "beta"},
+        .unit = {"1/s", "s"},
+        .figure = {{real_exp(best->x[MATERIAL_ALPHA_OF]), NAN, NAN}, {real_exp(best->x[MATERIAL_BETA_OF]), NAN, NAN}},
+        .bic = NAN,
+        .scatter = NAN};
+    return true;
 }
 
 /* papers/003 eq. 8, a_j = sigma a_j^0, with a_j^0 of the shapes: by logarithms, over matched modes and places. Heard is
@@ -485,8 +539,13 @@ static void write_material(FILE *f, const struct job *j)
         fprintf(f, "# strike %d: of object %d, %s, sha256 %s\n", i + 1, j->set[i].object + 1,
                 text_shown(a, slash ? slash + 1 : j->strike[i].file), j->strike[i].hash);
     }
-    fprintf(f, "# matched: %d of %d modes, %.3g %% beside computed ones (rms); %d that should show are missing\n",
-            t->matched, t->modes, 100.0 * t->scatter, t->missing);
+    if (j->paper)
+        fprintf(f, "# method: the search of papers/003, the best of %ld starts\n", j->starts);
+    else
+        fprintf(f, "# matched: %d of %d modes, %.3g %% beside computed ones (rms); %d that should show are missing\n",
+                t->matched, t->modes, 100.0 * t->scatter, t->missing);
+    if (!isnan(j->metric.image))
+        fprintf(f, "# metrics: image %.4g, feature %.4g (0: alike)\n", j->metric.image, j->metric.feature);
     for (char *rest = t->warning ? arena_text(a, t->warning) : NULL, *line; (line = strsep(&rest, "\n"));)
         fprintf(f, "# warning: %s\n", line);
     fprintf(f, "materials:\n  %s:\n", j->name);
@@ -509,8 +568,11 @@ static void write_material(FILE *f, const struct job *j)
             if (!strcmp(d->parameter[i], names[k])) x = d->figure[i];
         put(f, names[k], &x, units[k]);
     }
-    fprintf(f, "    source: fitted to %d modes of %d strike%s; damping by the law %s\n", t->matched, j->strikes,
-            j->strikes == 1 ? "" : "s", t->damping[t->best].name);
+    if (j->paper)
+        fputs("    source: fitted to the sound of a strike by the search of papers/003\n", f);
+    else
+        fprintf(f, "    source: fitted to %d modes of %d strike%s; damping by the law %s%s\n", t->matched, j->strikes,
+                j->strikes == 1 ? "" : "s", t->damping[t->best].name, j->polish ? ", polished on the sound" : "");
 }
 
 static void report_figure_of(struct report *r, const char *key, const char *label, const struct material_figure *x,
@@ -594,29 +656,62 @@ static void report_matches(struct report *r, const struct job *j)
     report_end(r);
 }
 
+/* Where each start of --method paper ended. */
+static void report_endings(struct report *r, const struct job *j)
+{
+    report_text(r, "  %14s %12s %12s %10s %10s\n", "E/density", "alpha 1/s", "beta s", "image", "feature");
+    report_list(r, "endings");
+    for (const struct ending *end = j->ending; end < j->ending + j->starts; end++) {
+        double gamma = real_exp(end->x[MATERIAL_GAMMA]), alpha = real_exp(end->x[MATERIAL_ALPHA_OF]),
+               beta = real_exp(end->x[MATERIAL_BETA_OF]);
+        report_object(r, NULL);
+        report_set(r, "youngs_modulus_per_density:n alpha:n beta:n metric_image:n metric_feature:n", gamma, alpha, beta,
+                   end->metric.image, end->metric.feature);
+        report_end(r);
+        report_text(r, "  %14.6g %12.4g %12.4g %10.4g %10.4g\n", gamma, alpha, beta, end->metric.image,
+                    end->metric.feature);
+    }
+    report_end(r);
+}
+
 static bool print(const struct job *j, struct err *e)
 {
     struct report r = report_open(stdout, args_given(&j->c->args, "json"));
     const struct material_fit *f = &j->fit;
     struct material_figure modulus = times(&f->gamma, j->density);
-    report_text(&r,
-                "%s: %d of %d modes match computed ones, %.3g %% beside them (rms); %d that should show are missing\n",
-                j->name, f->matched, f->modes, 100.0 * f->scatter, f->missing);
-    report_set(&r, "material:s name:s modes:i matched:i missing:i scatter:n birge:n cost:n sure:b unique:b", j->file,
-               j->name, f->modes, f->matched, f->missing, f->scatter, f->birge, f->cost, f->sure, f->unique);
+    report_set(&r, "material:s name:s method:s", j->file, j->name, j->paper ? "paper" : "scan");
+    report_text(&r, "%s: ", j->name);
+    if (j->paper) {
+        report_text(&r, "the best of %ld starts\n", j->starts);
+    } else {
+        report_text(&r,
+                    "%d of %d modes match computed ones, %.3g %% beside them (rms); %d that should show are missing\n",
+                    f->matched, f->modes, 100.0 * f->scatter, f->missing);
+        report_set(&r, "modes:i matched:i missing:i scatter:n birge:n cost:n sure:b unique:b", f->modes, f->matched,
+                   f->missing, f->scatter, f->birge, f->cost, f->sure, f->unique);
+    }
     report_figure_of(&r, "youngs_modulus_per_density", "E/density at these sizes", &f->gamma, "m^2/s^2");
     if (!isnan(j->density)) {
         report_figure_of(&r, "youngs_modulus", "Young's modulus", &modulus, "Pa");
         report_figure(&r, "density", j->density, "density", "%.6g kg/m^3", j->density);
     }
     if (!j->wood) report_figure_of(&r, "poisson", "Poisson's ratio", &f->nu, "");
-    report_set(&r, "correlation:n", f->correlation);
-    report_object(&r, "next");
-    report_set(&r, "youngs_modulus_per_density:n poisson:n cost:n", isnan(f->next.cost) ? NAN : f->next.gamma,
-               isnan(f->next.cost) ? NAN : f->next.nu, f->next.cost);
-    report_end(&r);
-    report_damping(&r, j);
-    report_matches(&r, j);
+    report_set(&r, "metric_image:n metric_feature:n evaluations:i", j->metric.image, j->metric.feature, j->evaluations);
+    if (isnan(j->metric.image))
+        report_row(&r, "metrics", "not known without the place that was struck (FILE.csv@X,Y)");
+    else
+        report_row(&r, "metrics (0: alike)", "image %.4g, feature %.4g", j->metric.image, j->metric.feature);
+    if (j->paper)
+        report_endings(&r, j);
+    else {
+        report_set(&r, "correlation:n", f->correlation);
+        report_object(&r, "next");
+        report_set(&r, "youngs_modulus_per_density:n poisson:n cost:n", isnan(f->next.cost) ? NAN : f->next.gamma,
+                   isnan(f->next.cost) ? NAN : f->next.nu, f->next.cost);
+        report_end(&r);
+        report_damping(&r, j);
+        report_matches(&r, j);
+    }
     report_list(&r, "warnings");
     for (char *rest = f->warning ? arena_text(j->c->arena, f->warning) : NULL, *line; (line = strsep(&rest, "\n"));) {
         report_set(&r, ":s", line);
@@ -643,10 +738,13 @@ int modes_material_run(struct cmd_call *c, struct err *e)
         if (!compute_family(&j, i, e)) return (int)e->kind;
     find_density(&j);
     for (int i = 0; i < j.strikes; i++) {
-        read_modes(&j, &j.strike[i], &j.set[i]);
+        const struct strike *one = &j.strike[i];
+        const struct thing *t = &j.thing[j.set[i].object];
+        j.set[i] = material_set_make(&one->table, j.set[i].object, c->arena);
         if (j.set[i].n == 0)
             return err_set(e, ERR_SCENE, "%s: has no mode that decays", j.strike[i].file), (int)e->kind;
-        see(&j, &j.strike[i], &j.set[i]);
+        j.set[i].visible =
+            material_set_visible(&j.family[j.set[i].object], t->points, one->first, one->places, t->ear, c->arena);
     }
     struct material_problem p = {.object = j.family,
                                  .sets = j.strikes,
@@ -655,9 +753,9 @@ int modes_material_run(struct cmd_call *c, struct err *e)
                                  .poisson = j.poisson,
                                  .model_error = j.model_error,
                                  .size_error = j.size_error};
-    if (!material_fit(&p, c->arena, &j.fit, e)) return (int)e->kind;
+    if (!(j.paper ? search(&j, e) : material_fit(&p, c->arena, &j.fit, e) && measure(&j, e))) return (int)e->kind;
     for (int i = 0; i < j.strikes; i++)
-        strength(&j, &j.strike[i], &j.set[i]);
+        if (!j.paper) strength(&j, &j.strike[i], &j.set[i]);
     if (!outfile_open(&o, j.file, e)) return (int)e->kind;
     write_material(o.stream, &j);
     if (!outfile_commit(&o, e)) return (int)e->kind;

@@ -12,6 +12,8 @@
 enum { SAMPLES = 3, NODES = 39, BEYOND = 12 }; /* BEYOND: modes that others may come from or go to */
 
 static const double samples[SAMPLES] = {0.05, 0.25, 0.44};
+static const double order_gains =
+    0.15;                          /* error of an order to that of the order below, about (evidence/materials.md) */
 static const double step = 0.0125; /* of nodes, from 0 on */
 static const double modulus = 1e10, density = 1000.0;
 static const double least = 1e-9; /* of the greatest eigenvalue of V^T M V: what is less is no direction of its own */
@@ -260,7 +262,7 @@ static bool mesh_error(const struct solid_family_ask *ask, const struct elastic 
     struct solid_ask one = {.material = material,
                             .fixed = ask->coarse_fixed,
                             .n_fixed = ask->n_fixed,
-                            .order = ask->order,
+                            .order = ask->coarse_order,
                             .most = fine->n + BEYOND,
                             .top = INFINITY};
     if (!solid_modes(ask->coarse, ask->coarse_boundary, &one, a, &coarse, e)) return false;
@@ -268,7 +270,8 @@ static bool mesh_error(const struct solid_family_ask *ask, const struct elastic 
                             there = {ask->coarse, ask->coarse_boundary, &coarse};
     solid_estimate(&here, &there, a, &estimate);
     for (int j = 0; j < f->n; j++)
-        f->error[j] = isnan(estimate.error[j]) ? estimate.median : estimate.error[j];
+        f->error[j] = (isnan(estimate.error[j]) ? estimate.median : estimate.error[j]) *
+                      (ask->coarse == ask->mesh ? order_gains : 1.0);
     return true;
 }
 

@@ -7,10 +7,11 @@
 #include "fem/solid.h"
 
 struct solid_family_ask {
-    const struct mesh *mesh, *coarse; /* coarse: the same solid of longer cells, for the mesh's error; NULL: none */
+    const struct mesh *mesh, *coarse; /* coarse: the same solid of longer cells, or the same mesh again for the order
+                                         below, for the mesh's error; NULL: none */
     const struct boundary *boundary, *coarse_boundary;
     const struct solid_fixed *fixed, *coarse_fixed;
-    int n_fixed, order, most;       /* most: modes wanted */
+    int n_fixed, order, coarse_order, most; /* most: modes wanted */
     const struct elastic *material; /* of a given material: its moduli keep their ratios, nodes is 1; NULL: isotropic */
     double youngs_modulus;          /* Pa, of that material, the one that gamma is made of */
     const struct boundary_point *point; /* where shapes are wanted */

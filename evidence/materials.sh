@@ -1,0 +1,94 @@
+#!/bin/bash
+# Makes evidence/materials.md: materials fitted to recordings of solids whose material is known, what goes wrong when sizes, matches or recordings
+# do, the search of papers/003 beside it, and transfers. The solids are solved on finer meshes than those of the fits.
+#
+#   KEEP=FOLDER   keeps tables, recordings and fits there, and takes those that it finds (truths take an hour of one processor)
+#   STEPS="truths recordings extract fit report"   default: all
+set -euo pipefail
+ROOT=$(realpath "$(dirname "$0")/..")
+BUILD=$(realpath -m "${BUILD:-$ROOT/build}")
+export PATH=$BUILD:$PATH LC_ALL=C
+REPORT=$(realpath -m "${REPORT:-$ROOT/evidence/materials.md}")
+STEPS=${STEPS:-truths recordings extract fit report}
+WORK=$(mktemp -d)
+trap 'rm -rf "$WORK"' EXIT
+KEEP=$(realpath -m "${KEEP:-$WORK/files}")
+mkdir -p "$KEEP"
+cd "$KEEP"
+[ -f "$BUILD/librasp.a" ] || make -s -C "$ROOT" BUILD="$BUILD" "$BUILD/librasp.a"
+gcc -std=c11 -D_GNU_SOURCE -O2 -I"$ROOT/src" -I"$ROOT/evidence" -o "$WORK/judge" "$ROOT/evidence/material_judge.c" "$BUILD/librasp.a" \
+    $(pkg-config --libs sndfile yaml-0.1 fftw3 gsl jansson libebur128 libcrypto libpng soxr) -lz -lsleef -lcholmod -llapacke -lopenblas -lm
+[ -f fit.msh ] || "$ROOT/evidence/material_body.py" 3 fit.msh
+[ -f fine.msh ] || "$ROOT/evidence/material_body.py" 4 fine.msh
+
+# name, fit's solid, its order, truth's solid, its order, side, two places
+OBJECTS='plate plate:length=24cm,width=16cm,thickness=6mm 3 plate:length=24cm,width=16cm,thickness=6mm,fineness=3 3 top 0.03,0.025;0.09,0.065
+bar bar:length=30cm,width=3cm,thickness=12mm 3 bar:length=30cm,width=3cm,thickness=12mm,fineness=3 4 top 0.02,0.008;0.11,0.022
+ring ring:diameter=14cm,width=2cm,thickness=12mm 3 ring:diameter=14cm,width=2cm,thickness=12mm,fineness=3 4 top 0.062,0.01;-0.02,0.056
+bowl bowl:diameter=20cm,height=8cm,thickness=4mm 4 bowl:diameter=20cm,height=8cm,thickness=4mm,fineness=3 4 top 0.06,0.01;0.03,-0.07
+mug mug:diameter=9cm,height=10cm,wall=5mm 4 mug:diameter=9cm,height=10cm,wall=5mm,fineness=3 4 around 0.02,0.08;-0.05,0.04
+bracket fit.msh 3 fine.msh 4 top 0.14,0.025;0.048,0.122'
+# name, Pa, nu, kg/m^3, 1/s, s
+MATERIALS='steel 2.1e11 0.29 7850 5 3e-8
+glass 7.2e10 0.22 2500 1 1e-7
+porcelain 6e10 0.19 2350 6 1e-7
+pvc 3e9 0.38 1400 20 4e-7
+beech 1.2e10 0.33 700 60 2e-6'
+
+wanted() { [[ " $STEPS " == *" $1 "* ]]; }
+both() { # both FUNCTION: calls it with the words of each object and material
+    while read -r -a o; do
+        while read -r -a m; do
+            "$1" "${o[@]}" "${m[@]}" < /dev/null
+        done <<< "$MATERIALS"
+    done <<< "$OBJECTS"
+}
+
+truth() { # the same solid on a finer mesh: modes at both places
+    local table=$1-$8.truth.csv line=${7//;/,} solid
+    [ -f "$table" ] && return
+    solid=(--shape "$4")
+    [[ $4 == *:* ]] || solid=("$4")
+    rasp modes compute "${solid[@]}" --order "$5" --face "$6" --line "$line" --places 2 --modes 80 --top 16kHz \
+        --youngs-modulus "$9" --poisson "${10}" --density "${11}" --alpha "${12}" --beta "${13}" -q -o "$table"
+}
+
+recording() {
+    local snr place name
+    for snr in 60 30; do
+        for place in 1 2; do
+            name=$1-$8-$snr-$place
+            [ -f "$name.wav" ] || "$WORK/judge" make "$1-$8.truth.csv" $place $snr "$(printf '%s' "$name" | cksum | cut -d ' ' -f 1)" "$name.wav"
+        done
+    done
+}
+
+extracted() {
+    local snr place name code
+    for snr in 60 30; do
+        for place in 1 2; do
+            name=$1-$8-$snr-$place
+            [ -f "$name.code" ] && continue
+            code=0
+            rasp modes extract "$name.wav" --force-channel 2 --quantity velocity -q -f -o "$name.csv" 2> "$name.err" || code=$?
+            echo $code > "$name.code"
+        done
+    done
+}
+
+if wanted truths; then both truth; fi
+if wanted recordings; then both recording; fi
+if wanted extract; then both extracted; fi
+if wanted fit; then
+    while read -r -a o; do
+        while read -r -a m; do
+            for snr in 60 30; do
+                for place in 1 2; do
+                    name=${o[0]}-${m[0]}-$snr-$place
+                    echo "$name $name.csv $place $(awk "BEGIN { printf \"%.10g\", ${m[1]} / ${m[3]} }") ${m[2]} ${m[4]} ${m[5]}"
+                done
+            done
+        done <<< "$MATERIALS" > "$WORK/lines"
+        OPENBLAS_NUM_THREADS=1 "$WORK/judge" fit "${o[1]}" "${o[2]}" "${o[5]}" "${o[6]}" < "$WORK/lines" > "${o[0]}.fits"
+    done <<< "$OBJECTS"
+fi
