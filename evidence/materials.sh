@@ -16,8 +16,9 @@ KEEP=$(realpath -m "${KEEP:-$WORK/files}")
 mkdir -p "$KEEP"
 cd "$KEEP"
 [ -f "$BUILD/librasp.a" ] || make -s -C "$ROOT" BUILD="$BUILD" "$BUILD/librasp.a"
+read -r -a libraries <<< "$(pkg-config --libs sndfile yaml-0.1 fftw3 gsl jansson libebur128 libcrypto libpng soxr)"
 gcc -std=c11 -D_GNU_SOURCE -O2 -I"$ROOT/src" -I"$ROOT/evidence" -o "$WORK/judge" "$ROOT/evidence/material_judge.c" "$BUILD/librasp.a" \
-    $(pkg-config --libs sndfile yaml-0.1 fftw3 gsl jansson libebur128 libcrypto libpng soxr) -lz -lsleef -lcholmod -llapacke -lopenblas -lm
+    "${libraries[@]}" -lz -lsleef -lcholmod -llapacke -lopenblas -lm
 [ -f fit.msh ] || "$ROOT/evidence/material_body.py" 3 fit.msh
 [ -f fine.msh ] || "$ROOT/evidence/material_body.py" 4 fine.msh
 

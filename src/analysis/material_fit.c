@@ -26,12 +26,12 @@ enum { STEPS = 2400, PLACES = 16, ROUNDS = 12, DRAWS = 200, LEAST_MODES = 3, SUR
 
 static const double near = 0.006;     /* of frequency: a neighbour farther off than that is none */
 static const double tolerance = 0.01; /* of frequency: two farther apart are no pair */
-static const double apart = 0.01;     /* of gamma: another place */
+static const double distinct = 0.01;  /* of gamma: another place */
 static const double unlike = 1.2;     /* times the cost: less is not unique */
 static const double highest_nu = 0.45, prior_nu[2] = {0.3, 0.5};
 static const double unseen = 0.01; /* of a decay: a term that nowhere makes more is none */
 static const double rough = 0.15;  /* of decays: less than that they do not follow any law */
-static const double spare = 0.25;  /* cost of a mode that should show and is not there, to that of a pair's leaving */
+static const double absent = 0.25; /* cost of a mode that should show and is not there, to that of a pair's leaving */
 
 /* ------------------------------------------------------------------ computed modes */
 
@@ -147,8 +147,8 @@ static int scan(struct work *w, struct place *best)
     for (int i = 0; i < n && many < PLACES; i++) {
         bool new = true;
         for (int k = 0; k < many; k++)
-            new =
-                new && (fabs(found[i].log_gamma - best[k].log_gamma) > apart || fabs(found[i].nu - best[k].nu) > 0.06);
+            new = new &&
+                  (fabs(found[i].log_gamma - best[k].log_gamma) > distinct || fabs(found[i].nu - best[k].nu) > 0.06);
         if (new) best[many++] = found[i];
     }
     arena_close(room);
@@ -158,7 +158,7 @@ static int scan(struct work *w, struct place *best)
 /* ------------------------------------------------------------------ 2: pairs, gamma and nu */
 
 /* Pairs in order of frequency, of least cost: of a pair (difference/tolerance)^2 and what its mode lacks in
-   visibility, of a measured mode without one 1, of a computed one in the band without one `spare`. */
+   visibility, of a measured mode without one 1, of a computed one in the band without one `absent`. */
 static void pair(const struct work *w, double log_gamma, struct material_set *s)
 {
     const struct spectrum *c = &w->now[s->object];
@@ -166,7 +166,7 @@ static void pair(const struct work *w, double log_gamma, struct material_set *s)
     int m = s->n, n = c->n;
     double *cost = ARENA_TAKE(room, double, (m + 1) * (n + 1)), top = s->log_lambda[m - 1],
            bottom = s->log_lambda[0] - 0.5;
-    unsigned char *way = ARENA_TAKE(room, unsigned char, (m + 1) * (n + 1));
+    unsigned char *from_where = ARENA_TAKE(room, unsigned char, (m + 1) * (n + 1));
     for (int i = 0; i <= m; i++)
         for (int j = 0; j <= n; j++) {
             double *here = &cost[i * (n + 1) + j], least = HUGE_VAL;
@@ -174,7 +174,7 @@ static void pair(const struct work *w, double log_gamma, struct material_set *s)
             if (i > 0) least = here[-(n + 1)] + 1.0;
             if (j > 0) {
                 double at = c->branch[j - 1].log_ratio + log_gamma,
-                       skip = at < top && at > bottom ? spare * visible(s, c->branch[j - 1].of) : 0.0;
+                       skip = at < top && at > bottom ? absent * visible(s, c->branch[j - 1].of) : 0.0;
                 if (here[-1] + skip < least) {
                     least = here[-1] + skip;
                     from = 1;
@@ -189,10 +189,10 @@ static void pair(const struct work *w, double log_gamma, struct material_set *s)
                 }
             }
             *here = i || j ? least : 0.0;
-            way[i * (n + 1) + j] = (unsigned char)from;
+            from_where[i * (n + 1) + j] = (unsigned char)from;
         }
     for (int i = m, j = n; i > 0;) {
-        int from = way[i * (n + 1) + j];
+        int from = from_where[i * (n + 1) + j];
         if (from == 2) {
             s->match[--i] = c->branch[--j].of;
         } else if (from == 1) {
@@ -291,7 +291,7 @@ static double cost_of(struct work *w, const struct row *r, int n, const struct s
             bool found = at > s->log_lambda[s->n - 1] || at < s->log_lambda[0] - 0.5;
             for (int i = 0; !found && i < s->n; i++)
                 found = s->match[i] == c->branch[j].of;
-            all += found ? 0.0 : spare * alone * visible(s, c->branch[j].of);
+            all += found ? 0.0 : absent * alone * visible(s, c->branch[j].of);
         }
     }
     return all;
@@ -671,7 +671,7 @@ static void warn(struct material_fit *f, struct arena *a, const char *text)
     f->warning = arena_line(a, f->warning, text);
 }
 
-static void doubt(const struct work *w, struct arena *a, struct material_fit *f)
+static void certainty(const struct work *w, struct arena *a, struct material_fit *f)
 {
     double edge[2] = {real_log(w->p->gamma[0]), real_log(w->p->gamma[1])}, at = real_log(f->gamma.value);
     f->sure = f->matched >= SURE_MODES && f->unique && !f->nu_at_bound;
@@ -770,7 +770,7 @@ bool material_fit(const struct material_problem *p, struct arena *a, struct mate
             all, LEAST_MODES, p->gamma[0], p->gamma[1]);
     }
     for (int k = 0; k < places; k++)
-        if (fabs(at[k].log_gamma - at[best_at].log_gamma) > apart && !(place[k].cost >= f->next.cost)) {
+        if (fabs(at[k].log_gamma - at[best_at].log_gamma) > distinct && !(place[k].cost >= f->next.cost)) {
             f->next.cost = place[k].cost;
             f->next.gamma = real_exp(at[k].log_gamma);
             f->next.nu = at[k].nu;
@@ -782,7 +782,7 @@ bool material_fit(const struct material_problem *p, struct arena *a, struct mate
     figures(&w, r, n, &best, f);
     count_missing(&w, &best, f);
     damping(p, room, f);
-    doubt(&w, a, f);
+    certainty(&w, a, f);
     arena_close(room);
     return true;
 }

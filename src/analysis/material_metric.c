@@ -35,8 +35,7 @@ static double forty(int row)
     return 10.0 / c[1] * real_log10(a) - c[2] + 94.0;
 }
 
-/* The same at any frequency: linear over its logarithm, beyond the table its ends. */
-static double forty_at(double f)
+double material_metric_contour(double f)
 {
     int k = 0;
     if (f <= contour[0][0]) return forty(0);
@@ -80,7 +79,7 @@ static void lay_bands(struct material_search *s)
     }
     for (int b = 0; b < BANDS; b++) { /* Traunmueller's formula turned round, at the band's middle */
         double z = b + 0.5 + 0.53;
-        s->level[b] = forty_at(1960.0 * z / (26.81 - z));
+        s->level[b] = material_metric_contour(1960.0 * z / (26.81 - z));
     }
 }
 

@@ -27,6 +27,10 @@ struct material_metric {
     double image, feature; /* 0: alike */
 };
 
+/* dB SPL of a tone of that frequency (Hz) that is 40 phon loud: ISO 226:2003, between its rows linear over the
+   logarithm. */
+double material_metric_contour(double frequency);
+
 struct material_search; /* a voice with its reference's loudness; not to be shared by threads */
 
 struct material_search *material_metric_open(const struct material_voice *v, struct arena *a);

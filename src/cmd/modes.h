@@ -50,6 +50,8 @@ int modes_solids_only(struct cmd_call *c, struct err *e, int (*const run[2])(str
 int modes_compute_run(struct cmd_call *c, struct err *e);
 int modes_material_run(struct cmd_call *c, struct err *e);
 int modes_extract_run(struct cmd_call *c, struct err *e);
+int modes_object_run(struct cmd_call *c, struct err *e);
+int modes_object_list_run(struct cmd_call *c, struct err *e);
 int modes_residual_run(struct cmd_call *c, struct err *e);
 
 /* Gains and poles of the object as a table would hold them, at any place in its own coordinates; how far off (m) that

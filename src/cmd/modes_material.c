@@ -177,7 +177,8 @@ static bool read_masses(struct job *j, struct err *e)
     if (n > 0 && args_given(&j->c->args, "density"))
         return err_set(e, ERR_USAGE, "--mass and --density exclude each other");
     if (n != 0 && n != j->n)
-        return err_set(e, ERR_USAGE, "--mass is given %d times for %d objects: once for each, in their order", n, j->n);
+        return err_set(e, ERR_USAGE, "--mass is given %d times for %d object%s: once for each, in their order", n, j->n,
+                       j->n == 1 ? "" : "s");
     for (int i = 0; i < n; i++)
         if (!units_read(text[i], KEY_MASS, &j->thing[i].mass, j->c->arena, &fault) || !(j->thing[i].mass > 0.0))
             return err_set(e, ERR_USAGE, "--mass: '%s' %s", text[i], fault.text ? fault.text : "is not above 0");
@@ -356,12 +357,10 @@ static void find_density(struct job *j)
     if (!isnan(mass)) j->density = mass / volume;
 }
 
-/* ------------------------------------------------------------------ strength */
-
 /* ------------------------------------------------------------------ metrics and the search of papers/003 */
 
-/* The first strike whose place is known, as a reference; NULL: there is none. Without --listen a vibration is heard where
-   it is struck, and of a pressure all modes alike. */
+/* The first strike whose place is known, as a reference; NULL: there is none. Without --listen a vibration is heard
+   where it is struck, and of a pressure all modes alike. */
 static struct material_search *open_metric(const struct job *j, double nu)
 {
     struct arena *a = j->c->arena;
@@ -540,7 +539,7 @@ static void write_material(FILE *f, const struct job *j)
                 text_shown(a, slash ? slash + 1 : j->strike[i].file), j->strike[i].hash);
     }
     if (j->paper)
-        fprintf(f, "# method: the search of papers/003, the best of %ld starts\n", j->starts);
+        fprintf(f, "# method: the search of Ren et al. (2013), the best of %ld starts\n", j->starts);
     else
         fprintf(f, "# matched: %d of %d modes, %.3g %% beside computed ones (rms); %d that should show are missing\n",
                 t->matched, t->modes, 100.0 * t->scatter, t->missing);
@@ -569,7 +568,7 @@ static void write_material(FILE *f, const struct job *j)
         put(f, names[k], &x, units[k]);
     }
     if (j->paper)
-        fputs("    source: fitted to the sound of a strike by the search of papers/003\n", f);
+        fputs("    source: fitted to the sound of a strike by the search of Ren et al. (2013)\n", f);
     else
         fprintf(f, "    source: fitted to %d modes of %d strike%s; damping by the law %s%s\n", t->matched, j->strikes,
                 j->strikes == 1 ? "" : "s", t->damping[t->best].name, j->polish ? ", polished on the sound" : "");

@@ -233,15 +233,15 @@ static bool nodes(const struct span *s, int points, struct solid_family *f)
         f->nu[i] = step * i;
         ok = node_solve(s, f->nu[i], m, room, &node[i]);
     }
-    for (int way = -1; ok && way <= 1; way += 2) {
+    for (int step_of = -1; ok && step_of <= 1; step_of += 2) {
         for (int j = 0; j < m; j++) {
             place[j] = j;
             sign[j] = 1.0;
         }
-        for (int i = middle; i >= 0 && i < NODES; i += way) {
+        for (int i = middle; i >= 0 && i < NODES; i += step_of) {
             node_write(s, &node[i], points, place, sign, i, f, room);
-            if (i + way < 0 || i + way >= NODES) break;
-            follow(s, &node[i], &node[i + way], m, room, next, flip);
+            if (i + step_of < 0 || i + step_of >= NODES) break;
+            follow(s, &node[i], &node[i + step_of], m, room, next, flip);
             for (int j = 0; j < m; j++) {
                 sign[j] *= flip[place[j]];
                 place[j] = next[place[j]];

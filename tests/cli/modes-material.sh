@@ -1,0 +1,67 @@
+# Materials fitted to modes whose material is known, from the command line: one object, two of one material, a wood, a size that is not sure,
+# Long: see tests/run.sh.
+# the search of papers/003, and what is refused. That fits are right on recordings is shown by evidence/materials.md, and by unit tests.
+try() { local code=0; "$@" || code=$?; echo "exit code $code"; }
+bar=bar:length=20cm,width=2cm,thickness=5mm plate=plate:length=12cm,width=9cm,thickness=6mm
+for object in $bar $plate; do
+    rasp modes compute --shape $object --order 2 --modes 16 --youngs-modulus 70GPa --poisson 0.23 --density 2500 --alpha 5 --beta 3e-8 --at 1cm,5mm \
+        -q -o ${object%%:*}.csv
+done
+# value FILE KEY: to three digits
+value() { awk -v key="$2:" '$1 == key { printf "%s %.3g\n", $1, $2 }' "$1"; }
+rasp modes material $bar bar.csv $plate plate.csv --order 2 --mass 50g --mass 0.162kg --name pane --json -o two.yaml > two.json
+for key in youngs_modulus density poisson alpha beta loss; do value two.yaml $key; done
+grep -E '^# (object|strike)' two.yaml | sed 's/sha256.*/sha256/'
+python3 - << 'END'
+import json
+r = json.load(open("two.json"))
+within = lambda f, x: f["low"] < x < f["high"]
+print("intervals hold:", within(r["youngs_modulus_per_density"], 2.8e7), within(r["poisson"], 0.23))
+print("matched %d of %d, chosen %s" % (r["matched"], r["modes"], [d["law"] for d in r["damping"] if d["chosen"]][0]))
+print("alike:", r["metric_image"] < 0.05, r["metric_feature"] < 0.2)
+END
+cat > scene.yaml << 'END'
+rasp: 1
+include: [two.yaml]
+surface: {material: pane, object: {shape: bar, length: 30 cm, width: 2 cm, thickness: 4 mm}}
+scraper: {mass: 3 g}
+motion: {path: still, duration: 0.1 s}
+contact: {model: strike, strike: {pulse: half_sine, speed: 1 m/s, stiffness: 1e5}}
+output: {level: {peak: -3 dB}, tail: 0.1 s}
+END
+rasp render scene.yaml -q -o struck.wav && echo 'the file is a material of a scene'
+
+rasp modes material $bar bar.csv --order 2 --poisson 0.23 --size-error 1% -o size.yaml > /dev/null
+awk '$1 == "wave_speed:" { printf "speed of waves %.3g, interval +- %.1f %%\n", $2, 50 * ($9 - $7) / $2 }' size.yaml
+rasp modes compute --shape $plate --order 2 --modes 16 --material oak --at 1cm,5mm -q -o oak.csv
+rasp modes material $plate oak.csv --order 2 --material oak --density 675 -q -o wood.yaml
+value wood.yaml youngs_modulus
+grep -E 'like|poisson' wood.yaml
+rasp modes material $bar bar.csv --order 2 --modes 16 --method paper --starts 1 --gamma 2.5e7,3.1e7 --poisson 0.23 -o paper.yaml > paper.txt
+value paper.yaml wave_speed
+grep -c '^# method: the search' paper.yaml
+
+# What is doubtful has a warning and no interval.
+awk -F, '/^#/ || /^place/ || $4 <= 4' bar.csv > four.csv
+rasp modes material $bar four.csv --order 2 --poisson 0.23 -o four.yaml | grep -A1 warning:
+grep -c '95 %' four.yaml || true
+rasp modes material bar:length=20cm,width=4cm,thickness=7mm plate.csv --order 2 -o other.yaml | grep -c warning: || true
+
+try rasp modes material bar.csv -o x.yaml
+try rasp modes material bar.csv $bar -o x.yaml
+try rasp modes material $bar $plate plate.csv -o x.yaml
+try rasp modes material $bar bar.csv
+try rasp modes material $bar bar.csv -o two.yaml
+try rasp modes material $bar bar.csv --name steel -o x.yaml
+try rasp modes material $bar bar.csv --name '2 panes' -o x.yaml
+try rasp modes material $bar bar.csv --mass 1kg --density 2500 -o x.yaml
+try rasp modes material $bar bar.csv --mass 1kg --mass 2kg -o x.yaml
+try rasp modes material $bar bar.csv --gamma 1e8,1e6 -o x.yaml
+try rasp modes material $bar bar.csv --material glass -o x.yaml
+try rasp modes material $bar bar.csv --polish perceptual --method paper -o x.yaml
+try rasp modes material $bar bar.csv@90cm,1cm -o x.yaml
+try rasp modes material $bar bar.wav -o x.yaml
+try rasp modes material $bar nothing.csv -o x.yaml
+try rasp modes material $bar two.yaml -o x.yaml
+try rasp modes material plate:length=1cm bar.csv -o x.yaml
+[ ! -e x.yaml ]
