@@ -1,5 +1,5 @@
 #!/bin/sh
-# A tour: renders nine scenes, and one scrape on ten solids, into out/, says what to listen for, and draws one of them.
+# A tour: renders ten scenes, and one scrape on ten solids, into out/, says what to listen for, and draws one of them.
 #     scripts/demo.sh        rasp from $BUILD (default: build/ of this tree)
 # One scene takes a measured profile from ../shared/data/surfaces/ when it is there, else the one that ships.
 set -eu
@@ -33,6 +33,8 @@ tour roll "a glass marble rolls along a plank: darker and steadier than a scrape
 tour marble_drop "the marble let fall: clear bounces, sooner and sooner, a rattle, then quiet rolling"
 tour rolling_impacts "rolling drawn from the statistics of its impacts; a slow beat, four or five a second, as of a ball out of round"
 tour action_space "a rub that becomes a roll: smooth hiss at first, then knocks that grow out of it, deeper and louder, until it rolls"
+tour porcelain_scrape_fitted "a plate whose porcelain was fitted to a struck one: tones at 0.6, 1.3 and 3 to 4 kHz, and a little hiss between them, its residual"
+
 # object NAME WHAT: the scrape of scenes/bowl_scrape.yaml on a solid of irs/.
 object() {
     "$rasp" render scenes/bowl_scrape.yaml --set surface.response="$PWD/irs/$1.csv" --set title="$1, scraped back and forth" --quiet -o "out/scraped_$1.wav"
