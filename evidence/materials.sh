@@ -3,7 +3,7 @@
 # do, the search of papers/003 beside it, and transfers. The solids are solved on finer meshes than those of the fits.
 #
 #   KEEP=FOLDER   keeps tables, recordings and fits there, and takes those that it finds (truths take an hour of one processor)
-#   STEPS="truths recordings extract fit report"   default: all
+#   STEPS="truths recordings extract fit report"   default: all      ONLY="plate bar"   of the solids; default: all
 set -euo pipefail
 ROOT=$(realpath "$(dirname "$0")/..")
 BUILD=$(realpath -m "${BUILD:-$ROOT/build}")
@@ -35,6 +35,8 @@ glass 7.2e10 0.22 2500 1 1e-7
 porcelain 6e10 0.19 2350 6 1e-7
 pvc 3e9 0.38 1400 20 4e-7
 beech 1.2e10 0.33 700 60 2e-6'
+
+[ -z "${ONLY:-}" ] || OBJECTS=$(grep -E "^(${ONLY// /|}) " <<< "$OBJECTS")
 
 wanted() { [[ " $STEPS " == *" $1 "* ]]; }
 both() { # both FUNCTION: calls it with the words of each object and material

@@ -22,14 +22,13 @@
 #include "num/noise.h"
 #include "num/real.h"
 
-enum { STEPS = 2400, PLACES = 16, ROUNDS = 12, DRAWS = 200, LEAST_MODES = 3, SURE_MODES = 6 };
+enum { STEPS = 2400, PLACES = 16, ROUNDS = 12, LEAST_MODES = 3, SURE_MODES = 6 };
 
 static const double near = 0.006;     /* of frequency: a neighbour farther off than that is none */
 static const double tolerance = 0.01; /* of frequency: two farther apart are no pair */
 static const double distinct = 0.01;  /* of gamma: another place */
 static const double unlike = 1.2;     /* times the cost: less is not unique */
 static const double highest_nu = 0.45, prior_nu[2] = {0.3, 0.5};
-static const double unseen = 0.01; /* of a decay: a term that nowhere makes more is none */
 static const double rough = 0.15;  /* of decays: less than that they do not follow any law */
 static const double absent = 0.25; /* cost of a mode that should show and is not there, to that of a pair's leaving */
 
@@ -297,18 +296,18 @@ static double cost_of(struct work *w, const struct row *r, int n, const struct s
     return all;
 }
 
-static int count_modes(const struct material_problem *p)
+static int count_modes(const struct material_set *set, int sets)
 {
     int n = 0;
-    for (int k = 0; k < p->sets; k++)
-        n += p->set[k].n;
+    for (int k = 0; k < sets; k++)
+        n += set[k].n;
     return n;
 }
 
 /* From a place to where the pairs stay. */
 static double refine(struct work *w, struct solution *x, struct row *r, int *n)
 {
-    const int all = count_modes(w->p);
+    const int all = count_modes(w->p->set, w->p->sets);
     int *last = ARENA_TAKE(w->arena, int, all);
     for (int round = 0; round < ROUNDS; round++) {
         bool same = round > 0;
@@ -336,282 +335,45 @@ static double refine(struct work *w, struct solution *x, struct row *r, int *n)
 
 /* ------------------------------------------------------------------ 3: damping */
 
-static const struct {
-    const char *name;
-    int n;
-    int term[3]; /* 0: 1, 1: lambda, 2: sqrt(lambda); of the first seven */
-    const char *parameter[3], *unit[3];
-} laws[MATERIAL_LAWS] = {
-    {"alpha", 1, {0}, {"alpha"}, {"1/s"}},
-    {"beta", 1, {1}, {"beta"}, {"s"}},
-    {"loss", 1, {2}, {"loss"}, {""}},
-    {"rayleigh", 2, {0, 1}, {"alpha", "beta"}, {"1/s", "s"}},
-    {"alpha_loss", 2, {0, 2}, {"alpha", "loss"}, {"1/s", ""}},
-    {"beta_loss", 2, {1, 2}, {"beta", "loss"}, {"s", ""}},
-    {"alpha_beta_loss", 3, {0, 1, 2}, {"alpha", "beta", "loss"}, {"1/s", "s", ""}},
-    {"power", 2, {0}, {"decay_at_1khz", "exponent"}, {"1/s", ""}},
-    {"zener", 2, {0}, {"strength", "relaxation_time"}, {"", "s"}},
-};
-
-/* log of the decay and its derivatives to the parameters' logarithms (of an exponent: to itself). */
-static double law_log(int law, const double *x, double lambda, double *slope)
+static void damping(const struct material_set *set, int sets, struct arena *a, struct material_fit *f)
 {
-    double w = sqrt(lambda), sum = 0.0, part[3];
-    if (law == MATERIAL_POWER) {
-        double octave = real_log(w / (2000.0 * REAL_PI));
-        slope[0] = 1.0;
-        slope[1] = octave;
-        return x[0] + x[1] * octave;
-    }
-    if (law == MATERIAL_ZENER) {
-        double t = real_exp(x[1]), wt2 = lambda * t * t;
-        slope[0] = 1.0;
-        slope[1] = (1.0 - wt2) / (1.0 + wt2);
-        return x[0] + x[1] + real_log(0.5 * lambda / (1.0 + wt2));
-    }
-    for (int k = 0; k < laws[law].n; k++) {
-        int term = laws[law].term[k];
-        part[k] = 0.5 * real_exp(x[k]) * (term == 0 ? 1.0 : term == 1 ? lambda : w);
-        sum += part[k];
-    }
-    for (int k = 0; k < laws[law].n; k++)
-        slope[k] = part[k] / sum;
-    return real_log(sum);
-}
-
-double material_fit_decay(int law, const double *parameter, double lambda)
-{
-    double x[3] = {0}, slope[3];
-    for (int k = 0; k < laws[law].n; k++)
-        x[k] = law == MATERIAL_POWER && k == 1 ? parameter[k] : real_log(fmax(parameter[k], 1e-300));
-    return real_exp(law_log(law, x, lambda, slope));
-}
-
-struct decay {
-    double lambda, log_decay, sigma;
-};
-
-/* a x = b by elimination with pivots; n up to 3. */
-static bool solve(int n, double a[3][3], double *b)
-{
-    for (int k = 0; k < n; k++) {
-        int best = k;
-        for (int i = k + 1; i < n; i++)
-            best = fabs(a[i][k]) > fabs(a[best][k]) ? i : best;
-        if (!(fabs(a[best][k]) > 1e-300)) return false;
-        for (int j = 0; j < n; j++) {
-            double t = a[k][j];
-            a[k][j] = a[best][j];
-            a[best][j] = t;
-        }
-        double t = b[k];
-        b[k] = b[best];
-        b[best] = t;
-        for (int i = k + 1; i < n; i++) {
-            double share = a[i][k] / a[k][k];
-            for (int j = k; j < n; j++)
-                a[i][j] -= share * a[k][j];
-            b[i] -= share * b[k];
-        }
-    }
-    for (int k = n - 1; k >= 0; k--) {
-        for (int j = k + 1; j < n; j++)
-            b[k] -= a[k][j] * b[j];
-        b[k] /= a[k][k];
-    }
-    return true;
-}
-
-/* Soft-L1 cost, 2 (sqrt(1 + r^2) - 1) summed, and its normal equations. */
-static double damping_equations(int law, const double *x, const struct decay *d, int n, const double *times,
-                                double a[3][3], double b[3])
-{
-    double cost = 0.0, slope[3];
-    int m = laws[law].n;
-    memset(a, 0, 9 * sizeof(double));
-    memset(b, 0, 3 * sizeof(double));
-    for (int i = 0; i < n; i++) {
-        double t = times ? times[i] : 1.0, rest = (d[i].log_decay - law_log(law, x, d[i].lambda, slope)) / d[i].sigma,
-               root = sqrt(1.0 + rest * rest);
-        cost += t * 2.0 * (root - 1.0);
-        for (int k = 0; k < m; k++) {
-            b[k] += t / root * slope[k] / d[i].sigma * rest;
-            for (int l = 0; l < m; l++)
-                a[k][l] += t / root * slope[k] * slope[l] / (d[i].sigma * d[i].sigma);
-        }
-    }
-    return cost;
-}
-
-/* Levenberg and Marquardt from x; returns the cost. */
-static double damping_descend(int law, double *x, const struct decay *d, int n, const double *times)
-{
-    double a[3][3], b[3], step[3], more[3][3], to[3], unused[3][3], none[3], mu = 1e-3;
-    int m = laws[law].n;
-    double cost = damping_equations(law, x, d, n, times, a, b);
-    for (int pass = 0; pass < 60 && mu < 1e8; pass++) {
-        memcpy(more, a, sizeof more);
-        memcpy(step, b, sizeof step);
-        for (int k = 0; k < m; k++)
-            more[k][k] += mu * (a[k][k] + 1e-9);
-        if (!solve(m, more, step)) break;
-        double size = 0.0;
-        for (int k = 0; k < m; k++) {
-            step[k] = fmin(fmax(step[k], -2.0), 2.0);
-            to[k] = x[k] + step[k];
-            size = fmax(size, fabs(step[k]));
-        }
-        double here = damping_equations(law, to, d, n, times, unused, none);
-        if (here <= cost) {
-            memcpy(x, to, (size_t)m * sizeof *x);
-            cost = damping_equations(law, x, d, n, times, a, b);
-            mu *= 0.2;
-            if (size < 1e-7) break;
-        } else
-            mu *= 5.0;
-    }
-    return cost;
-}
-
-/* The best of several starts: each term alone makes the median decay, or a fiftieth of it. */
-static double damping_search(int law, double *x, const struct decay *d, int n)
-{
-    double best = INFINITY, one[3], middle[2],
-           *sorted[2] = {malloc(sizeof(double) * (size_t)n), malloc(sizeof(double) * (size_t)n)};
-    for (int i = 0; i < n; i++) {
-        sorted[0][i] = real_log(d[i].lambda);
-        sorted[1][i] = d[i].log_decay;
-    }
-    for (int k = 0; k < 2; k++) {
-        gsl_sort(sorted[k], 1, (size_t)n);
-        middle[k] = sorted[k][n / 2];
-        free(sorted[k]);
-    }
-    const int starts = law == MATERIAL_ZENER ? 7 : law == MATERIAL_POWER ? 1 : laws[law].n > 1 ? 1 << laws[law].n : 1;
-    for (int s = 0; s < starts; s++) {
-        for (int k = 0; k < laws[law].n; k++) {
-            int term = laws[law].term[k];
-            one[k] = middle[1] + real_log(2.0) -
-                     (term == 0   ? 0.0
-                      : term == 1 ? middle[0]
-                                  : 0.5 * middle[0]) -
-                     (s >> k & 1 ? real_log(50.0) : 0.0);
-        }
-        if (law == MATERIAL_POWER) {
-            one[0] = middle[1];
-            one[1] = 0.5;
-        } else if (law == MATERIAL_ZENER) {
-            one[1] = -0.5 * middle[0] + s - 3.0; /* w t from e^-3 to e^3 */
-            one[0] = 0.0;
-            double slope[3];
-            one[0] = middle[1] - law_log(law, one, real_exp(middle[0]), slope);
-        }
-        double cost = damping_descend(law, one, d, n, NULL);
-        if (cost < best) {
-            best = cost;
-            memcpy(x, one, sizeof one);
-        }
-    }
-    return best;
-}
-
-static int by_size(const void *x, const void *y)
-{
-    double a = *(const double *)x, b = *(const double *)y;
-    return (a > b) - (a < b);
-}
-
-/* Half widths that hold 95 %: of the covariance, and from draws. */
-static double student(double freedoms) { return gsl_cdf_tdist_Pinv(0.975, fmax(freedoms, 1.0)); }
-
-static double spread_of(double *draw, double value)
-{
-    qsort(draw, DRAWS, sizeof *draw, by_size);
-    return fmax(draw[(int)(0.975 * DRAWS)] - value, value - draw[(int)(0.025 * DRAWS)]);
-}
-
-/* How often each of n is drawn, of n draws. */
-static void resample(int draw, const char *what, int n, double *times)
-{
-    struct noise s = noise_make(1, what);
-    memset(times, 0, (size_t)n * sizeof *times);
-    for (int i = 0; i < n; i++)
-        times[(int)(noise_uniform(s, (uint64_t)draw, (uint64_t)i) * n)] += 1.0;
-}
-
-static void damping_law(int law, const struct decay *d, int n, struct arena *a, struct material_damping *g)
-{
-    struct arena *room = arena_open();
-    const int m = laws[law].n;
-    double x[3] = {0}, most[3] = {0}, square = 0.0, slope[3], matrix[3][3], b[3], *times = ARENA_TAKE(room, double, n),
-           *draws = ARENA_TAKE(room, double, 3 * DRAWS);
-    (void)a;
-    *g = (struct material_damping){.name = laws[law].name, .n = m, .bic = INFINITY};
-    for (int k = 0; k < m; k++) {
-        g->parameter[k] = laws[law].parameter[k];
-        g->unit[k] = laws[law].unit[k];
-        g->figure[k] = (struct material_figure){NAN, NAN, NAN};
-    }
-    if (n > m) {
-        double cost = damping_search(law, x, d, n), birge = sqrt(cost / (n - m));
-        for (int i = 0; i < n; i++) {
-            double rest = d[i].log_decay - law_log(law, x, d[i].lambda, slope);
-            square += rest * rest;
-            for (int k = 0; k < m; k++)
-                most[k] = fmax(most[k], slope[k]); /* of a sum each one's share of the decay */
-        }
-        g->scatter = sqrt(square / n);
-        g->bic = n * real_log(fmax(cost, 1e-300) / n) + m * real_log(n);
-        for (int i = 0; i < DRAWS; i++) {
-            double one[3];
-            memcpy(one, x, sizeof one);
-            resample(i, "damping", n, times);
-            damping_descend(law, one, d, n, times);
-            for (int k = 0; k < m; k++)
-                draws[k * DRAWS + i] = one[k];
-        }
-        for (int k = 0; k < m; k++) {
-            damping_equations(law, x, d, n, NULL, matrix, b);
-            for (int l = 0; l < m; l++) {
-                matrix[l][l] *= 1.0 + 1e-12;
-                b[l] = l == k;
-            }
-            double half = solve(m, matrix, b) ? student(n - m) * birge * sqrt(fmax(b[k], 0.0)) : INFINITY;
-            half = fmax(half, spread_of(draws + k * DRAWS, x[k]));
-            bool log_scale = !(law == MATERIAL_POWER && k == 1);
-            if (law < MATERIAL_POWER && most[k] < unseen) {
-                g->figure[k].value = 0.0; /* and there is no interval: the others do without it */
-                continue;
-            }
-            g->figure[k].value = log_scale ? real_exp(x[k]) : x[k];
-            g->figure[k].low = log_scale ? real_exp(x[k] - half) : x[k] - half;
-            g->figure[k].high = log_scale ? real_exp(fmin(x[k] + half, 700.0)) : x[k] + half;
-        }
-    }
-    arena_close(room);
-}
-
-void material_fit_rayleigh(const struct material_fit *f, int law, double damping[3])
-{
-    damping[0] = damping[1] = damping[2] = 0.0;
-    for (int k = 0; law < MATERIAL_POWER && k < laws[law].n; k++)
-        damping[laws[law].term[k]] = f->damping[law].figure[k].value;
-}
-
-static void damping(const struct material_problem *p, struct arena *a, struct material_fit *f)
-{
-    struct decay *d = ARENA_TAKE(a, struct decay, count_modes(p));
+    struct material_decay *d = ARENA_TAKE(a, struct material_decay, count_modes(set, sets) + 1);
     int n = 0;
-    for (int k = 0; k < p->sets; k++)
-        for (int i = 0; i < p->set[k].n; i++)
-            if (p->set[k].match[i] >= 0)
-                d[n++] = (struct decay){real_exp(p->set[k].log_lambda[i]), real_log(p->set[k].decay[i]),
-                                        fmax(p->set[k].decay_error[i], rough)};
+    for (int k = 0; k < sets; k++)
+        for (int i = 0; i < set[k].n; i++)
+            if (set[k].match[i] >= 0)
+                d[n++] = (struct material_decay){real_exp(set[k].log_lambda[i]), real_log(set[k].decay[i]),
+                                                 fmax(set[k].decay_error[i], rough)};
     f->best = MATERIAL_RAYLEIGH;
     for (int law = 0; law < MATERIAL_LAWS; law++)
-        damping_law(law, d, n, a, &f->damping[law]);
+        material_damping_fit(law, d, n, &f->damping[law]);
     for (int law = 0; law < MATERIAL_POWER; law++)
         if (f->damping[law].bic < f->damping[f->best].bic) f->best = law;
+}
+
+/* No intervals. */
+static void unsure(struct material_fit *f)
+{
+    struct material_figure *all[] = {&f->gamma, &f->nu};
+    for (int k = 0; k < 2; k++)
+        all[k]->low = all[k]->high = NAN;
+    for (int law = 0; law < MATERIAL_LAWS; law++)
+        for (int k = 0; k < 3; k++)
+            f->damping[law].figure[k].low = f->damping[law].figure[k].high = NAN;
+}
+
+void material_fit_damping(const struct material_set *set, int sets, struct arena *a, struct material_fit *f)
+{
+    *f = (struct material_fit){.modes = count_modes(set, sets), .gamma = {NAN, NAN, NAN}, .nu = {NAN, NAN, NAN}};
+    f->matched = f->modes;
+    f->sure = f->modes >= SURE_MODES;
+    for (int k = 0; k < sets; k++)
+        for (int i = 0; i < set[k].n; i++)
+            set[k].match[i] = 0;
+    damping(set, sets, a, f);
+    if (f->sure) return;
+    unsure(f);
+    f->warning = arena_format(a, "%d modes are few, and %d are needed for intervals", f->modes, SURE_MODES);
 }
 
 /* ------------------------------------------------------------------ the whole */
@@ -621,8 +383,9 @@ static void figures(struct work *w, const struct row *r, int n, const struct sol
     const struct material_problem *p = w->p;
     struct arena *room = arena_open();
     const bool free_nu = nu_free(w);
-    double *times = ARENA_TAKE(room, double, n), *gamma = ARENA_TAKE(room, double, DRAWS),
-           *nu = ARENA_TAKE(room, double, DRAWS), square = 0.0, mesh = 0.0, t = student(n - 1 - free_nu);
+    double *times = ARENA_TAKE(room, double, n), *gamma = ARENA_TAKE(room, double, MATERIAL_DRAWS),
+           *nu = ARENA_TAKE(room, double, MATERIAL_DRAWS), square = 0.0, mesh = 0.0,
+           t = material_damping_student(n - 1 - free_nu);
     int with_mesh = 0;
     for (int i = 0; i < n; i++) {
         double rest = r[i].off - 0.5 * x->log_gamma;
@@ -630,9 +393,9 @@ static void figures(struct work *w, const struct row *r, int n, const struct sol
     }
     f->scatter = sqrt(square / n);
     f->birge = sqrt(x->chi2 / fmax(n - 1 - free_nu, 1));
-    for (int i = 0; i < DRAWS; i++) {
+    for (int i = 0; i < MATERIAL_DRAWS; i++) {
         struct solution one = *x;
-        resample(i, "modes", n, times);
+        material_damping_resample(i, "modes", n, times);
         /* rows are linear in nu here: what a draw moves is little */
         for (int pass = 0; pass < 4; pass++) {
             struct row *moved = ARENA_TAKE(room, struct row, n);
@@ -652,8 +415,8 @@ static void figures(struct work *w, const struct row *r, int n, const struct sol
                 with_mesh++;
             }
     mesh = with_mesh ? 0.5 * mesh / with_mesh : 0.0;
-    double half = fmax(t * f->birge * sqrt(x->covariance[0]), spread_of(gamma, x->log_gamma)),
-           half_nu = fmax(t * f->birge * sqrt(x->covariance[2]), spread_of(nu, x->nu)),
+    double half = fmax(t * f->birge * sqrt(x->covariance[0]), material_damping_spread(gamma, x->log_gamma)),
+           half_nu = fmax(t * f->birge * sqrt(x->covariance[2]), material_damping_spread(nu, x->nu)),
            common = 1.96 * 2.0 * sqrt(p->size_error * p->size_error + mesh * mesh);
     half = sqrt(half * half + common * common);
     f->gamma =
@@ -708,14 +471,7 @@ static void certainty(const struct work *w, struct arena *a, struct material_fit
                          "matched modes lie %.2g %% (rms) beside computed ones, more than their errors explain: shape, "
                          "sizes or support differ from the object's",
                          100.0 * f->scatter));
-    if (!f->sure) {
-        struct material_figure *all[] = {&f->gamma, &f->nu};
-        for (int k = 0; k < 2; k++)
-            all[k]->low = all[k]->high = NAN;
-        for (int law = 0; law < MATERIAL_LAWS; law++)
-            for (int k = 0; k < 3; k++)
-                f->damping[law].figure[k].low = f->damping[law].figure[k].high = NAN;
-    }
+    if (!f->sure) unsure(f);
 }
 
 static void count_missing(const struct work *w, const struct solution *x, struct material_fit *f)
@@ -739,7 +495,7 @@ bool material_fit(const struct material_problem *p, struct arena *a, struct mate
     struct work w = {.p = p, .arena = room};
     struct place place[PLACES];
     struct solution best = {0};
-    int n = 0, most = 0, all = count_modes(p), best_at = -1;
+    int n = 0, most = 0, all = count_modes(p->set, p->sets), best_at = -1;
     *f = (struct material_fit){.modes = all, .cost = INFINITY, .next.cost = NAN};
     for (int k = 0; k < p->sets; k++)
         w.objects = p->set[k].object + 1 > w.objects ? p->set[k].object + 1 : w.objects;
@@ -781,7 +537,7 @@ bool material_fit(const struct material_problem *p, struct arena *a, struct mate
     f->unique = !(f->next.cost < unlike * f->cost);
     figures(&w, r, n, &best, f);
     count_missing(&w, &best, f);
-    damping(p, room, f);
+    damping(p->set, p->sets, room, f);
     certainty(&w, a, f);
     arena_close(room);
     return true;

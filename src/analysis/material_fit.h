@@ -7,6 +7,7 @@
 #define ANALYSIS_MATERIAL_FIT_H
 #include <stdbool.h>
 
+#include "analysis/material_damping.h"
 #include "base/arena.h"
 #include "base/err.h"
 #include "fem/solid_family.h"
@@ -32,32 +33,6 @@ struct material_problem {
     double size_error;  /* standard error of the object's lengths, a share: all together too long or too short */
 };
 
-struct material_figure {
-    double value, low, high; /* and its 95 % interval; NAN: there is none */
-};
-
-enum material_law {                 /* of decay over lambda, w = sqrt(lambda) */
-                    MATERIAL_ALPHA, /* alpha/2 */
-                    MATERIAL_BETA,  /* beta w^2/2 */
-                    MATERIAL_LOSS,  /* loss w/2 */
-                    MATERIAL_RAYLEIGH,
-                    MATERIAL_ALPHA_LOSS,
-                    MATERIAL_BETA_LOSS,
-                    MATERIAL_ALL,   /* (alpha + beta w^2 + loss w)/2 */
-                    MATERIAL_POWER, /* c w^m */
-                    MATERIAL_ZENER, /* strength/2 w^2 t/(1 + w^2 t^2), a standard linear solid */
-                    MATERIAL_LAWS
-};
-
-struct material_damping {
-    const char *name;
-    int n;                    /* parameters */
-    const char *parameter[3]; /* their names */
-    const char *unit[3];
-    struct material_figure figure[3];
-    double bic, scatter; /* scatter: rms of log(decay/law) */
-};
-
 struct material_fit {
     int modes, matched, missing; /* of all sets; missing: branches that should show and do not, in the sets' bands */
     struct material_figure gamma, nu;
@@ -77,10 +52,8 @@ struct material_fit {
 /* ERR_SCENE: less than three modes, or no place at which three match. */
 bool material_fit(const struct material_problem *p, struct arena *a, struct material_fit *f, struct err *e);
 
-/* decay of a law at lambda (rad^2/s^2), 1/s, by its parameters. */
-double material_fit_decay(int law, const double *parameter, double lambda);
-
-/* alpha, beta, loss of one of the first seven laws; 0 where it has none. */
-void material_fit_rayleigh(const struct material_fit *f, int law, double damping[3]);
+/* Laws of damping alone, of all modes of the sets; nothing else of f is set but `modes`, `matched`, `sure` and
+   `warning`. */
+void material_fit_damping(const struct material_set *set, int sets, struct arena *a, struct material_fit *f);
 
 #endif

@@ -41,13 +41,17 @@ rasp modes material $bar bar.csv --order 2 --modes 16 --method paper --starts 1 
 value paper.yaml wave_speed
 grep -c '^# method: the search' paper.yaml
 
+# Strikes without an object: their damping alone, as a file for surface.recipe.
+rasp modes material bar.csv plate.csv -q -o damping.yaml
+cat damping.yaml
+
 # What is doubtful has a warning and no interval.
 awk -F, '/^#/ || /^place/ || $4 <= 4' bar.csv > four.csv
 rasp modes material $bar four.csv --order 2 --poisson 0.23 -o four.yaml | grep -A1 warning:
 grep -c '95 %' four.yaml || true
 rasp modes material bar:length=20cm,width=4cm,thickness=7mm plate.csv --order 2 -o other.yaml | grep -c warning: || true
 
-try rasp modes material bar.csv -o x.yaml
+try rasp modes material bar.csv --poisson 0.2 -o x.yaml
 try rasp modes material bar.csv $bar -o x.yaml
 try rasp modes material $bar $plate plate.csv -o x.yaml
 try rasp modes material $bar bar.csv

@@ -181,7 +181,7 @@ START_TEST(test_laws)
     struct material_fit m = fit(&f, &set, NAN, a);
     double damping[3];
     ck_assert_int_eq(m.best, MATERIAL_LOSS);
-    material_fit_rayleigh(&m, m.best, damping);
+    material_damping_terms(m.damping, m.best, damping);
     ck_assert_double_eq_tol(damping[2], 0.003, 1e-4);
     ck_assert(damping[0] == 0.0 && damping[1] == 0.0);
     for (int i = 0; i < set.n; i++) { /* a standard linear solid in place of these */
@@ -191,7 +191,7 @@ START_TEST(test_laws)
     m = fit(&f, &set, NAN, a);
     const struct material_damping *z = &m.damping[MATERIAL_ZENER];
     ck_assert_double_eq_tol(z->figure[1].value, 5e-5, 1e-8);
-    ck_assert_double_eq_tol(material_fit_decay(MATERIAL_ZENER, (double[]){z->figure[0].value, z->figure[1].value}, 1e9),
+    ck_assert_double_eq_tol(material_damping_decay(MATERIAL_ZENER, (double[]){z->figure[0].value, z->figure[1].value}, 1e9),
                             0.5 * 0.004 / 5e-5 * 1e9 * 25e-10 / (1.0 + 1e9 * 25e-10), 1e-4);
     ck_assert(z->bic < m.damping[MATERIAL_RAYLEIGH].bic);
     arena_close(a);
