@@ -334,7 +334,8 @@ const struct command modes_command = {
         "with computed ones, and laws of damping are compared by their BIC. The mass, or the density, makes E of that. "
         "Intervals hold 95 %; where pairs are few, or another material fits nearly as well, a warning says so and "
         "there are none. E/density is that at the sizes given: 1 % of length is 2 % of it. The file is an entry of "
-        "materials, which a scene includes and surface.material names.",
+        "materials, which a scene includes and surface.material names. Strikes without an object give their damping "
+        "alone, as a file for surface.recipe.",
     .operands = "ACTION FILE",
     .least = 1,
     .most = -1,
