@@ -24,10 +24,11 @@
 
 enum { STEPS = 2400, PLACES = 16, ROUNDS = 12, LEAST_MODES = 3, SURE_MODES = 6 };
 
-static const double near = 0.006;     /* of frequency: a neighbour farther off than that is none */
-static const double tolerance = 0.01; /* of frequency: two farther apart are no pair */
-static const double distinct = 0.01;  /* of gamma: another place */
-static const double unlike = 1.2;     /* times the cost: less is not unique */
+static const double near = 0.006;      /* of frequency: a neighbour farther off than that is none */
+static const double tolerance = 0.01;  /* of frequency: two farther apart are no pair */
+static const double distinct = 0.01;   /* of gamma: another place */
+static const double unlike = 1.2;      /* times the cost: less is not unique */
+static const double unsure_mesh = 0.5; /* of the mesh's error */
 static const double highest_nu = 0.45, prior_nu[2] = {0.3, 0.5};
 static const double rough = 0.15;  /* of decays: less than that they do not follow any law */
 static const double absent = 0.25; /* cost of a mode that should show and is not there, to that of a pair's leaving */
@@ -205,6 +206,7 @@ static void pair(const struct work *w, double log_gamma, struct material_set *s)
 
 struct row {                  /* a pair */
     double off, slope, sigma; /* half of log lambda less log ratio; d log f/d nu; standard error of off */
+    double mesh;              /* what the mesh's error was taken to be */
 };
 
 static int rows(struct work *w, struct row *r)
@@ -224,7 +226,8 @@ static int rows(struct work *w, struct row *r)
             if (j < 0) continue;
             double mesh = 0.3 * mesh_error(f, j);
             r[n++] = (struct row){0.5 * (s->log_lambda[i] - w->log_ratio[j]), 0.5 * w->slope[j],
-                                  sqrt(s->error[i] * s->error[i] + p->model_error * p->model_error + mesh * mesh)};
+                                  sqrt(s->error[i] * s->error[i] + p->model_error * p->model_error + mesh * mesh),
+                                  mesh_error(f, j)};
         }
     }
     return n;
@@ -378,15 +381,13 @@ void material_fit_damping(const struct material_set *set, int sets, struct arena
 
 /* ------------------------------------------------------------------ the whole */
 
-static void figures(struct work *w, const struct row *r, int n, const struct solution *x, struct material_fit *f)
+static void figures(struct work *w, struct row *r, int n, const struct solution *x, struct material_fit *f)
 {
     const struct material_problem *p = w->p;
     struct arena *room = arena_open();
     const bool free_nu = nu_free(w);
     double *times = ARENA_TAKE(room, double, n), *gamma = ARENA_TAKE(room, double, MATERIAL_DRAWS),
-           *nu = ARENA_TAKE(room, double, MATERIAL_DRAWS), square = 0.0, mesh = 0.0,
-           t = material_damping_student(n - 1 - free_nu);
-    int with_mesh = 0;
+           *nu = ARENA_TAKE(room, double, MATERIAL_DRAWS), square = 0.0, t = material_damping_student(n - 1 - free_nu);
     for (int i = 0; i < n; i++) {
         double rest = r[i].off - 0.5 * x->log_gamma;
         square += rest * rest;
@@ -408,17 +409,24 @@ static void figures(struct work *w, const struct row *r, int n, const struct sol
         gamma[i] = one.log_gamma;
         nu[i] = one.nu;
     }
-    for (int k = 0; k < p->sets; k++)
-        for (int i = 0; i < p->set[k].n; i++)
-            if (p->set[k].match[i] >= 0 && !isnan(p->object[p->set[k].object].error[p->set[k].match[i]])) {
-                mesh += fabs(p->object[p->set[k].object].error[p->set[k].match[i]]);
-                with_mesh++;
-            }
-    mesh = with_mesh ? 0.5 * mesh / with_mesh : 0.0;
+    /* what the mesh's error is taken to be may be wrong by its half, of all modes alike: what that does to both */
+    struct solution moved = *x;
+    for (int i = 0; i < n; i++)
+        r[i].off += unsure_mesh * r[i].mesh;
+    for (int pass = 0; pass < 4; pass++) {
+        struct row *there = ARENA_TAKE(room, struct row, n);
+        for (int i = 0; i < n; i++) {
+            there[i] = r[i];
+            there[i].off -= r[i].slope * (moved.nu - x->nu);
+        }
+        newton(there, n, NULL, free_nu, &moved);
+    }
     double half = fmax(t * f->birge * sqrt(x->covariance[0]), material_damping_spread(gamma, x->log_gamma)),
            half_nu = fmax(t * f->birge * sqrt(x->covariance[2]), material_damping_spread(nu, x->nu)),
-           common = 1.96 * 2.0 * sqrt(p->size_error * p->size_error + mesh * mesh);
-    half = sqrt(half * half + common * common);
+           size = 1.96 * 2.0 * p->size_error, mesh = 1.96 * (moved.log_gamma - x->log_gamma),
+           mesh_nu = 1.96 * (moved.nu - x->nu);
+    half = sqrt(half * half + size * size + mesh * mesh);
+    half_nu = sqrt(half_nu * half_nu + mesh_nu * mesh_nu);
     f->gamma =
         (struct material_figure){real_exp(x->log_gamma), real_exp(x->log_gamma - half), real_exp(x->log_gamma + half)};
     f->nu = (struct material_figure){x->nu, x->nu - half_nu, x->nu + half_nu};
