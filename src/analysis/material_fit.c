@@ -28,7 +28,7 @@ static const double near = 0.006;      /* of frequency: a neighbour farther off 
 static const double tolerance = 0.01;  /* of frequency: two farther apart are no pair */
 static const double distinct = 0.01;   /* of gamma: another place */
 static const double unlike = 1.2;      /* times the cost: less is not unique */
-static const double unsure_mesh = 0.5; /* of the mesh's error */
+static const double unsure_mesh = 1.0; /* of the mesh's error, as a standard error (evidence/materials.md) */
 static const double highest_nu = 0.45, prior_nu[2] = {0.3, 0.5};
 static const double rough = 0.15;  /* of decays: less than that they do not follow any law */
 static const double absent = 0.25; /* cost of a mode that should show and is not there, to that of a pair's leaving */
@@ -409,7 +409,7 @@ static void figures(struct work *w, struct row *r, int n, const struct solution 
         gamma[i] = one.log_gamma;
         nu[i] = one.nu;
     }
-    /* what the mesh's error is taken to be may be wrong by its half, of all modes alike: what that does to both */
+    /* what the mesh's error is taken to be may be wrong by as much, of all modes alike: what that does to both */
     struct solution moved = *x;
     for (int i = 0; i < n; i++)
         r[i].off += unsure_mesh * r[i].mesh;
