@@ -22,7 +22,7 @@
 #include "num/noise.h"
 #include "num/real.h"
 
-enum { STEPS = 2400, PLACES = 16, ROUNDS = 12, LEAST_MODES = 3, SURE_MODES = 6 };
+enum { STEPS = 2400, PLACES = 16, ROUNDS = 12, LEAST_MODES = 3, SURE_MODES = 5 };
 
 static const double near = 0.006;      /* of frequency: a neighbour farther off than that is none */
 static const double tolerance = 0.01;  /* of frequency: two farther apart are no pair */

@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+# material_report.py FOLDER: the tables of evidence/materials.md from FOLDER's *.fits (evidence/material_judge.c) and *.paper (rasp modes material --json).
+import glob
+import json
+import os
+import re
+import sys
+
+folder = sys.argv[1]
+TRUE_NU = {"steel": 0.29, "glass": 0.22, "porcelain": 0.19, "pvc": 0.38, "beech": 0.33}
+rows, without = [], []
+for name in ("plate", "bar", "ring", "bowl", "mug", "bracket"):
+    path = os.path.join(folder, name + ".fits")
+    for line in open(path) if os.path.exists(path) else []:
+        w = line.split()
+        solid, material, snr, place = w[0].split("-")
+        if len(w) < 18 or w[1] in ("refused:", "no-table"):
+            without.append((w[0], "no table of modes" if w[1] == "no-table" else "fewer than three modes match"))
+            continue
+        modes, matched, missing, sure = map(int, w[1:5])
+        error = [abs(float(w[k])) for k in (7, 10, 13, 16)]
+        error[1] *= TRUE_NU[material]
+        rows.append((solid, material, snr, place, modes, matched, sure, error, [int(w[k]) for k in (8, 11, 14, 17)], w[18]))
+
+
+def share(hits):
+    return "%d of %d" % (sum(hits), len(hits)) if hits else "-"
+
+
+def worst(values, form, scale=1.0):
+    s = sorted(values)
+    return "%s, %s" % (form % (scale * s[len(s) // 2]), form % (scale * s[-1])) if s else "-"
+
+
+print("| solid | SNR | fits | with intervals | modes matched (least, median) | E/density, % (median, worst) | nu (median, worst) "
+      "| alpha, % | beta, % | intervals hold: E/density | nu | alpha | beta |")
+print("|---|---|---|---|---|---|---|---|---|---|---|---|---|")
+for snr in ("60", "30"):
+    for solid in ("plate", "bar", "ring", "bowl", "mug", "bracket", "all"):
+        all_ = [r for r in rows if r[2] == snr and solid in (r[0], "all")]
+        sure = [r for r in all_ if r[6]]
+        if not all_:
+            continue
+        matched = sorted(r[5] for r in all_)
+        print("| %s | %s dB | %d | %d | %d, %d | %s | %s | %s | %s | %s |" % (
+            solid, snr, len(all_), len(sure), matched[0], matched[len(matched) // 2],
+            worst([r[7][0] for r in sure], "%.3f", 100), worst([r[7][1] for r in sure], "%.4f"),
+            worst([r[7][2] for r in sure], "%.1f", 100), worst([r[7][3] for r in sure], "%.1f", 100),
+            " | ".join(share([r[8][k] == 1 for r in sure]) for k in range(4))))
+unsure = [r for r in rows if not r[6]]
+print("\n%d fits gave no interval, of which E/density was off by more than 1 %% in %d and by more than 0.1 %% in %d. %d recordings gave no fit%s" % (
+    len(unsure), sum(r[7][0] > 0.01 for r in unsure), sum(r[7][0] > 0.001 for r in unsure), len(without),
+    ": " + "; ".join("%s: %s" % w for w in without) + "." if without else "."))
+wrong = [r for r in rows if r[6] and r[7][0] > 0.005]
+print("With an interval, E/density was off by more than 0.5 %% in %d of %d%s" % (
+    len(wrong), len(rows) - len(unsure), ": " + ", ".join("-".join(r[:4]) for r in wrong) + "." if wrong else "."))
+laws = {}
+for r in rows:
+    laws[r[9]] = laws.get(r[9], 0) + 1
+print("The law of least BIC was %s; all are rendered with Rayleigh's." % ", ".join("%s %d times" % (k, v) for k, v in sorted(laws.items(), key=lambda x: -x[1])))
+papers = sorted(glob.glob(os.path.join(folder, "*.paper")))
+if papers:
+    print("\n| the paper's search, ten starts | true E/density | of its starts within 1 % | the best start's E/density | image, feature | metric computed |")
+    print("|---|---|---|---|---|---|")
+    total = 0
+    for path in papers:
+        try:
+            r = json.load(open(path))
+        except ValueError:
+            continue
+        truth = float(re.search(r"_([0-9.e+]+)\.paper$", path).group(1))
+        ends = [e["youngs_modulus_per_density"] for e in r["endings"]]
+        hits = sum(abs(x / truth - 1) < 0.01 for x in ends)
+        total += hits
+        print("| %s | %.4g | %d of %d | %.5g | %.3g, %.3g | %d times |" % (
+            os.path.basename(path).split("_")[0], truth, hits, len(ends), r["youngs_modulus_per_density"]["value"],
+            r["metric_image"], r["metric_feature"], r["evaluations"]))
