@@ -351,7 +351,8 @@ static void damping(const struct material_set *set, int sets, struct arena *a, s
     for (int law = 0; law < MATERIAL_LAWS; law++)
         material_damping_fit(law, d, n, &f->damping[law]);
     for (int law = 0; law < MATERIAL_POWER; law++)
-        if (f->damping[law].bic < f->damping[f->best].bic) f->best = law;
+        if (f->damping[law].bic < f->damping[f->best].bic && n >= 3 * f->damping[law].n) /* BIC means many modes */
+            f->best = law;
 }
 
 /* No intervals. */

@@ -424,7 +424,7 @@ bool residual_transfer(const struct residual_ask *ask, struct arena *a, struct r
 {
     const struct residual *source = ask->source;
     struct arena *inner = arena_open();
-    struct spectra s = {NULL}, to = {NULL};
+    struct spectra s = {0}, to = {0};
     double stretch = 0.0;
     *t = (struct residual_transferred){.consistency = NAN};
     if (!residual_transfer_pairs(&source->modes, ask->target, t)) {
