@@ -24,7 +24,8 @@ for name in ("plate", "bar", "ring", "bowl", "mug", "bracket"):
 
 
 def share(hits):
-    return "%d of %d" % (sum(hits), len(hits)) if hits else "-"
+    given = [h for h in hits if h >= 0]  # -1: the figure is not determined, and has no interval
+    return "%d of %d" % (sum(given), len(given)) if given else "-"
 
 
 def worst(values, form, scale=1.0):
@@ -46,7 +47,7 @@ for snr in ("60", "30"):
             solid, snr, len(all_), len(sure), matched[0], matched[len(matched) // 2],
             worst([r[7][0] for r in sure], "%.3f", 100), worst([r[7][1] for r in sure], "%.4f"),
             worst([r[7][2] for r in sure], "%.1f", 100), worst([r[7][3] for r in sure], "%.1f", 100),
-            " | ".join(share([r[8][k] == 1 for r in sure]) for k in range(4))))
+            " | ".join(share([r[8][k] for r in sure]) for k in range(4))))
 unsure = [r for r in rows if not r[6]]
 print("\n%d fits gave no interval, of which E/density was off by more than 1 %% in %d and by more than 0.1 %% in %d. %d recordings gave no fit%s" % (
     len(unsure), sum(r[7][0] > 0.01 for r in unsure), sum(r[7][0] > 0.001 for r in unsure), len(without),

@@ -250,7 +250,7 @@ static bool read_places(struct modes_material *j, struct err *e)
             for (int k = 0; k < s->places; k++)
                 if (!point_at(&map, j, t, s->placed ? s->x : xy[2 * k], s->placed ? s->y : xy[2 * k + 1], origin,
                               &t->point[t->points++], e))
-                    return err_at(e, s->file), false;
+                    return err_at(e, "%s", s->file), false;
         }
         if (args_given(&j->c->args, "listen")) {
             t->ear = t->points;
