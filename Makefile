@@ -167,6 +167,7 @@ install: all
 	install -D -m 755 $(BUILD)/rasp-modes "$(TO)"/libexec/rasp/rasp-modes
 	for page in man/*.1; do install -D -m 644 -t "$(TO)"/share/man/man1 $$page || exit 1; done
 	for page in man/*.5; do install -D -m 644 -t "$(TO)"/share/man/man5 $$page || exit 1; done
+	for page in man/*.7; do install -D -m 644 -t "$(TO)"/share/man/man7 $$page || exit 1; done
 	for folder in scenes surfaces irs; do install -d "$(TO)"/share/rasp/$$folder && cp -R $$folder/. "$(TO)"/share/rasp/$$folder || exit 1; done
 	chmod -R u+rwX,go+rX,go-w "$(TO)"/share/rasp
 	for kind in scene design; do $(BUILD)/rasp explain --schema=$$kind > $(BUILD)/$$kind.schema.json && \
@@ -179,10 +180,10 @@ install: all
 
 # Folders that others may use too go only if nothing else is in them; of a real system those that it has from the start stay.
 uninstall:
-	rm -f "$(TO)"/bin/rasp "$(TO)"/share/man/man1/rasp.1 "$(TO)"/share/man/man1/rasp-*.1 "$(TO)"/share/man/man5/rasp-*.5
+	rm -f "$(TO)"/bin/rasp "$(TO)"/share/man/man1/rasp.1 "$(TO)"/share/man/man1/rasp-*.1 "$(TO)"/share/man/man5/rasp-*.5 "$(TO)"/share/man/man7/rasp-*.7
 	rm -f "$(TO)"/$(BASHDIR)/rasp "$(TO)"/$(ZSHDIR)/_rasp "$(TO)"/$(FISHDIR)/rasp.fish
 	rm -rf "$(TO)"/share/rasp "$(TO)"/share/doc/rasp "$(TO)"/libexec/rasp
-	for folder in libexec $(BASHDIR) $(ZSHDIR) $(FISHDIR) $(if $(DESTDIR),bin share/man/man1 share/man/man5 share/doc); do \
+	for folder in libexec $(BASHDIR) $(ZSHDIR) $(FISHDIR) $(if $(DESTDIR),bin share/man/man1 share/man/man5 share/man/man7 share/doc); do \
 	    [ ! -d "$(TO)"/$$folder ] || (cd "$(TO)" && rmdir -p --ignore-fail-on-non-empty $$folder) || exit 1; done
 
 # The source archive: the same bytes from the same revision.

@@ -1,9 +1,13 @@
 /* Recordings of solids whose material is known, and fits of materials to what `rasp modes extract` finds in them.
 
-     make TABLE PLACE SNR SEED OUT.wav     a strike (0.3 ms half sine) on that place of a mode table of velocity, and
-                                           white noise so many dB below the sound's first second; channel 2: the force
-     fit OBJECT ORDER FACE X,Y;... < LINES one family of computed modes; each line: label table place-number
-                                           E/density nu alpha beta; printed: label, what was found, and its intervals
+     make TABLE PLACE SNR SEED OUT.wav [CARELESSNESS=X...]
+                                           a strike (0.3 ms half sine) on that place of a mode table of velocity, and
+                                           white noise so many dB below the sound's first second; channel 2: the force;
+                                           a carelessness is one of those in struct careless
+     fit OBJECT ORDER FACE X,Y;... [MODES] < LINES
+                                           one family of computed modes (80); each line: label table place-number
+                                           E/density nu alpha beta [size-error]; printed: label, what was found, law of
+                                           damping, the limits of the four intervals, and the warning behind |
 
    The family is what `rasp modes material` computes: the same code, so that one does for many tables. */
 #include <math.h>
@@ -32,47 +36,114 @@ static void stop(const struct err *e)
 
 enum { RATE = 44100, LEAD = 13230, LONG = 110250 };
 
+static struct careless {
+    const char *name;
+    double x;
+} careless[] = {
+    {"pulse", 3e-4},  /* s: how long the hammer touches */
+    {"bounce", 0},    /* s: when it hits again, half as hard; 0: it does not */
+    {"hold", 0},      /* 1/s: damping alpha of the hand that holds the object, besides its own */
+    {"echo", 0},      /* 1: the room answers after 3, 7 and 15 ms, each -12 dB */
+    {"hum", -400},    /* dB beside the first second of the sound: 50 Hz, and its harmonics k by 1/k */
+    {"peak", 0.8},    /* of the sound; above 1 it clips */
+    {"seconds", 2.5}, /* of the recording from the strike on */
+    {"bits", 32},     /* of a sample; 32: floating point */
+};
+enum { PULSE, BOUNCE, HOLD, ECHO, HUM, PEAK, SECONDS, BITS, CARELESS };
+
+static void careless_read(char **argv)
+{
+    for (; *argv; argv++) {
+        int k = 0;
+        char *equal = strchr(*argv, '=');
+        while (k < CARELESS && !(equal && strncmp(*argv, careless[k].name, (size_t)(equal - *argv)) == 0))
+            k++;
+        if (k == CARELESS) {
+            fprintf(stderr, "'%s' is no carelessness\n", *argv);
+            exit(1);
+        }
+        careless[k].x = number(equal + 1);
+    }
+}
+
+/* A half sine of 100 N that begins at sample from, times scale: the force at the audio rate is its mean over each sample. */
+static void strike(double scale, int from, double *f)
+{
+    enum { FINE = 64 };
+    double pulse = careless[PULSE].x;
+    for (int i = 0; i < (int)(pulse * RATE) * FINE; i++) {
+        double at = (i + 0.5) / (RATE * FINE * pulse);
+        f[from + i / FINE] += scale * sin(pi * at) * 100.0 / FINE;
+    }
+}
+
+/* z -> r e^(jw) z + f; h = Im gain e^(j phase) e^(s t) */
+static void ring(const struct mode_entry *m, const double *f, int n, double *y)
+{
+    double d = m->slope[0].decay, held = d + careless[HOLD].x / 2.0, w0 = 2.0 * pi * m->frequency,
+           w = sqrt(w0 * w0 + d * d - held * held) / RATE, r = exp(-held / RATE), c = r * cos(w), s = r * sin(w),
+           ga = m->slope[0].gain * cos(m->slope[0].phase), gb = m->slope[0].gain * sin(m->slope[0].phase), re = 0.0,
+           im = 0.0;
+    for (int i = LEAD; i < n; i++) {
+        double next = c * re - s * im + f[i] / RATE;
+        im = s * re + c * im;
+        re = next;
+        y[i] += ga * im + gb * re;
+    }
+}
+
+/* What the room, the wires and the microphone add. */
+static void spoil(double snr, uint64_t seed, int n, double *y, double *gauss)
+{
+    static const double echoes[] = {3e-3, 7e-3, 15e-3};
+    double power = 0.0, harmonics = 0.0;
+    for (int i = n - 1; i >= LEAD && careless[ECHO].x != 0.0; i--)
+        for (int k = 0; k < 3; k++)
+            y[i] += pow(10.0, -12.0 / 20.0) * y[i - (int)rint(echoes[k] * RATE)];
+    for (int i = LEAD; i < LEAD + RATE; i++)
+        power += y[i] * y[i] / RATE;
+    for (int k = 1; k <= 20; k++)
+        harmonics += 0.5 / (k * k);
+    noise_normal(noise_make(seed, "recording"), 0, (size_t)n, gauss);
+    for (int i = 0; i < n; i++) {
+        double hum = 0.0;
+        for (int k = 1; k <= 20; k++)
+            hum += sin(2.0 * pi * 50.0 * k * i / RATE + k * k) / k;
+        y[i] += sqrt(power) *
+                (pow(10.0, -snr / 20.0) * gauss[i] + pow(10.0, careless[HUM].x / 20.0) / sqrt(harmonics) * hum);
+    }
+}
+
 static int make(char **argv)
 {
     struct arena *a = arena_open();
     struct mode_table t;
     struct err e = {0};
+    careless_read(argv + 7);
     if (!mode_table_read(argv[2], a, &t, &e)) stop(&e);
     const int place = (int)number(argv[3]) - 1, n = LEAD + LONG;
     double *y = ARENA_TAKE(a, double, n), *f = ARENA_TAKE(a, double, n), *x = ARENA_TAKE(a, double, 2 * n),
-           *gauss = ARENA_TAKE(a, double, n), power = 0.0, most = 0.0;
-    enum { PULSE = 13, FINE = 64 }; /* 0.3 ms: the force at the audio rate is its mean over each sample */
-    for (int i = 0; i < PULSE * FINE; i++) {
-        double at = (i + 0.5) / (RATE * FINE * 3e-4);
-        if (at < 1.0) f[LEAD + i / FINE] += sin(pi * at) * 100.0 / FINE;
-    }
-    for (size_t k = t.first[place]; k < t.first[place + 1]; k++) {
-        const struct mode_entry *m = &t.entry[k];
-        double w = 2.0 * pi * m->frequency / RATE, r = exp(-m->slope[0].decay / RATE), re = 0.0, im = 0.0;
-        if (m->frequency > 0.45 * RATE) continue;
-        double c = r * cos(w), s = r * sin(w), ga = m->slope[0].gain * cos(m->slope[0].phase),
-               gb = m->slope[0].gain * sin(m->slope[0].phase);
-        for (int i = LEAD; i < n; i++) { /* z -> r e^(jw) z + f; h = Im gain e^(j phase) e^(s t) */
-            double next = c * re - s * im + f[i] / RATE;
-            im = s * re + c * im;
-            re = next;
-            y[i] += ga * im + gb * re;
-        }
-    }
-    for (int i = LEAD; i < LEAD + RATE; i++)
-        power += y[i] * y[i] / RATE;
-    noise_normal(noise_make((uint64_t)number(argv[5]), "recording"), 0, (size_t)n, gauss);
-    for (int i = 0; i < n; i++) {
-        y[i] += sqrt(power) * pow(10.0, -number(argv[4]) / 20.0) * gauss[i];
+           *gauss = ARENA_TAKE(a, double, n), most = 0.0;
+    strike(1.0, LEAD, f);
+    if (careless[BOUNCE].x > 0.0) strike(0.5, LEAD + (int)(careless[BOUNCE].x * RATE), f);
+    for (size_t k = t.first[place]; k < t.first[place + 1]; k++)
+        if (t.entry[k].frequency <= 0.45 * RATE) ring(&t.entry[k], f, n, y);
+    spoil(number(argv[4]), (uint64_t)number(argv[5]), n, y, gauss);
+    for (int i = 0; i < n; i++)
         most = fmax(most, fabs(y[i]));
-    }
     for (int i = 0; i < n; i++) {
-        x[2 * i] = 0.8 * y[i] / most;
+        x[2 * i] = careless[PEAK].x * y[i] / most;
+        if (careless[PEAK].x > 1.0) x[2 * i] = fmax(-1.0, fmin(x[2 * i], 1.0));
         x[2 * i + 1] = 0.008 * f[i];
     }
-    SF_INFO info = {.samplerate = RATE, .channels = 2, .format = SF_FORMAT_WAV | SF_FORMAT_FLOAT};
+    const int bits = (int)careless[BITS].x, kept = LEAD + (int)(careless[SECONDS].x * RATE);
+    SF_INFO info = {.samplerate = RATE,
+                    .channels = 2,
+                    .format = SF_FORMAT_WAV | (bits == 8    ? SF_FORMAT_PCM_U8
+                                               : bits == 16 ? SF_FORMAT_PCM_16
+                                                            : SF_FORMAT_FLOAT)};
     SNDFILE *out = sf_open(argv[6], SFM_WRITE, &info);
-    if (!out || sf_writef_double(out, x, n) != n || sf_close(out) != 0) return 1;
+    if (!out || sf_writef_double(out, x, kept) != kept || sf_close(out) != 0) return 1;
     arena_close(a);
     return 0;
 }
@@ -113,7 +184,7 @@ static int fit(char **argv)
     struct solid_family_ask ask = {.mesh = &mesh,
                                    .boundary = &boundary,
                                    .order = order,
-                                   .most = 80,
+                                   .most = argv[6] ? (int)number(argv[6]) : 80,
                                    .point = point,
                                    .points = points,
                                    .coarse = &mesh,
@@ -138,14 +209,20 @@ static int fit(char **argv)
         char *rest = line + at;
         for (int k = 0; k < 4; k++)
             truth[k] = number_first(rest, &rest);
+        double size_error = rest[strspn(rest, " \n")] ? number_first(rest, &rest) : 0.0;
         printf("%s", label);
         if (!mode_table_read(file, room, &t, &e)) {
             printf(" no-table\n");
         } else {
             struct material_set set = material_set_make(&t, 0, room);
             set.visible = material_set_visible(&family, points, place - 1, 1, -1, room);
-            struct material_problem p = {
-                .object = &family, .sets = 1, .set = &set, .gamma = {1e5, 5e8}, .poisson = NAN, .model_error = 1e-3};
+            struct material_problem p = {.object = &family,
+                                         .sets = 1,
+                                         .set = &set,
+                                         .gamma = {1e5, 5e8},
+                                         .poisson = NAN,
+                                         .model_error = 1e-3,
+                                         .size_error = size_error};
             if (!material_fit(&p, room, &f, &e)) {
                 printf(" refused: %s\n", e.text);
             } else {
@@ -155,7 +232,14 @@ static int fit(char **argv)
                 figure(&f.nu, truth[1]);
                 figure(&d->figure[0], truth[2]);
                 figure(&d->figure[1], truth[3]);
-                printf(" %s\n", f.damping[f.best].name);
+                printf(" %s", f.damping[f.best].name);
+                const struct material_figure *figures[] = {&f.gamma, &f.nu, &d->figure[0], &d->figure[1]};
+                for (int k = 0; k < 4; k++)
+                    printf(" %.6g %.6g", figures[k]->low, figures[k]->high);
+                printf(" | ");
+                for (const char *p = f.warning ? f.warning : ""; *p; p++)
+                    putchar(*p == '\n' ? ';' : *p);
+                printf("\n");
             }
         }
         fflush(stdout);
@@ -166,8 +250,9 @@ static int fit(char **argv)
 
 int main(int argc, char **argv)
 {
-    if (argc == 7 && !strcmp(argv[1], "make")) return make(argv);
-    if (argc == 6 && !strcmp(argv[1], "fit")) return fit(argv);
-    fprintf(stderr, "material_judge make TABLE PLACE SNR SEED OUT.wav | fit OBJECT ORDER FACE X,Y;...\n");
+    if (argc >= 7 && !strcmp(argv[1], "make")) return make(argv);
+    if ((argc == 6 || argc == 7) && !strcmp(argv[1], "fit")) return fit(argv);
+    fprintf(stderr, "material_judge make TABLE PLACE SNR SEED OUT.wav [CARELESSNESS=X...] | fit OBJECT ORDER FACE "
+                    "X,Y;... [MODES]\n");
     return 1;
 }

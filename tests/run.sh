@@ -29,7 +29,7 @@ tests_of() {
         unit) for path in tests/unit/test_*.c; do name_of unit "$path" .c; done ;;
         cli) for path in tests/cli/*.sh; do name_of cli "$path" .sh; done ;;
         plans | golden) for path in scenes/*.yaml; do name_of "$1" "$path" .yaml; done ;;
-        docs) grep -lE '^(```sh$|\.S[hH] .*EXAMPLES)' *.md src/*.md tests/*.md man/*.[15] | sed 's|^|docs/|' ;;
+        docs) grep -lE '^(```sh$|\.S[hH] .*EXAMPLES)' *.md src/*.md tests/*.md man/*.[157] | sed 's|^|docs/|' ;;
         tidy | faults | hard | bytes) for path in tests/"$1"/*.sh; do name_of "$1" "$path" .sh; done ;;
         *) echo "tests/run.sh: no kind of test is called '$1'" >&2; exit 64 ;;
     esac

@@ -9,7 +9,7 @@ for file in bin/rasp libexec/rasp/rasp-modes share/doc/rasp/LICENSE share/doc/ra
     share/bash-completion/completions/rasp share/zsh/site-functions/_rasp share/fish/vendor_completions.d/rasp.fish; do
     [ -s root/usr/$file ] || fail "not installed: $file"
 done
-for page in "$ROOT"/man/*.[15]; do
+for page in "$ROOT"/man/*.[157]; do
     [ -f "root/usr/share/man/man${page##*.}/${page##*/}" ] || fail "not installed: ${page##*/}"
 done
 for folder in scenes surfaces irs; do
