@@ -333,7 +333,8 @@ const struct command modes_command = {
         "Poisson's ratio and damping: all values of E/density are looked through for every ratio, modes are paired "
         "with computed ones, and laws of damping are compared by their BIC. The mass, or the density, makes E of that. "
         "Intervals hold 95 %; where pairs are few, or another material fits nearly as well, a warning says so and "
-        "there are none. E/density is that at the sizes given: 1 % of length is 2 % of it. The file is an entry of "
+        "there are none. E/density is that at the sizes given: 1 % of length is 2 % of it, one length of a bar up to 4 "
+        "%; alpha is what material and support take together. The file is an entry of "
         "materials, which a scene includes and surface.material names. Strikes without an object give their damping "
         "alone, as a file for surface.recipe.",
     .operands = "ACTION FILE",

@@ -200,6 +200,11 @@ bool modes_material_write_report(const struct modes_material *j, struct err *e)
         report_row(&r, "metrics", "not known without the place that was struck (FILE.csv@X,Y)");
     else
         report_row(&r, "metrics (0: alike)", "image %.4g, feature %.4g", j->metric.image, j->metric.feature);
+    if (!isnan(f->gamma.low) && j->size_error == 0.0)
+        report_note(&r, "  ",
+                    "The intervals suppose exact sizes: all lengths 1 % too long make E/density 2 % too large, one "
+                    "length of a bar up to 4 %. See --size-error. alpha is what material and support take "
+                    "together.");
     if (j->paper)
         report_endings(&r, j);
     else {
