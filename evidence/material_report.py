@@ -58,7 +58,7 @@ print("With an interval, E/density was off by more than 0.5 %% in %d of %d%s" % 
 laws = {}
 for r in rows:
     laws[r[9]] = laws.get(r[9], 0) + 1
-print("The law of least BIC was %s; all are rendered with Rayleigh's." % ", ".join("%s %d times" % (k, v) for k, v in sorted(laws.items(), key=lambda x: -x[1])))
+print("The law of least BIC was %s; the recordings all have Rayleigh's damping." % ", ".join("%s %d times" % (k, v) for k, v in sorted(laws.items(), key=lambda x: -x[1])))
 papers = sorted(glob.glob(os.path.join(folder, "*.paper")))
 if papers:
     print("\n| the paper's search, ten starts | true E/density | of its starts within 1 % | the best start's E/density | image, feature | metric computed |")

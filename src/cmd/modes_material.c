@@ -216,11 +216,9 @@ static bool read_object(struct modes_material *j, struct modes_material_object *
     return args_whole(&j->c->args, "order", orders, &k->order, e);
 }
 
-static bool point_at(const struct boundary_map *map, const struct modes_material *j,
-                     const struct modes_material_object *t, double x, double y, const double origin[2],
-                     struct boundary_point *p, struct err *e)
+static bool point_at(const struct boundary_map *map, const struct modes_material_object *t, double x, double y,
+                     const double origin[2], struct boundary_point *p, struct err *e)
 {
-    (void)j;
     return boundary_map_point(map, x - origin[0], y - origin[1], p) ||
            err_set(e, ERR_SCENE, "the place (%.6g, %.6g) m does not lie on %s", x, y, t->text);
 }
@@ -248,13 +246,13 @@ static bool read_places(struct modes_material *j, struct err *e)
             if (!s->placed && s->table.places == 1 && xy[0] == 0.0 && xy[1] == 0.0) s->places = 0;
             if (t->points + s->places > PLACES) return err_set(e, ERR_SCENE, "more than %d places", PLACES);
             for (int k = 0; k < s->places; k++)
-                if (!point_at(&map, j, t, s->placed ? s->x : xy[2 * k], s->placed ? s->y : xy[2 * k + 1], origin,
+                if (!point_at(&map, t, s->placed ? s->x : xy[2 * k], s->placed ? s->y : xy[2 * k + 1], origin,
                               &t->point[t->points++], e))
                     return err_at(e, "%s", s->file), false;
         }
         if (args_given(&j->c->args, "listen")) {
             t->ear = t->points;
-            if (!point_at(&map, j, t, listen[0], listen[1], origin, &t->point[t->points++], e)) return false;
+            if (!point_at(&map, t, listen[0], listen[1], origin, &t->point[t->points++], e)) return false;
         }
     }
     return true;
@@ -312,6 +310,15 @@ static void find_density(struct modes_material *j)
 
 /* ------------------------------------------------------------------ metrics and the search of papers/003 */
 
+/* The node whose Poisson's ratio is nearest. */
+static int nearest_node(const struct solid_family *f, double nu)
+{
+    int best = 0;
+    for (int i = 1; i < f->nodes; i++)
+        best = fabs(f->nu[i] - nu) < fabs(f->nu[best] - nu) ? i : best;
+    return best;
+}
+
 /* The first strike whose place is known, as a reference; NULL: there is none. Without --listen a vibration is heard
    where it is struck, and of a pressure all modes alike. */
 static struct material_search *open_metric(const struct modes_material *j, double nu)
@@ -325,8 +332,7 @@ static struct material_search *open_metric(const struct modes_material *j, doubl
     const struct mode_table *table = &s->table;
     const struct modes_material_object *t = &j->thing[j->set[i].object];
     const struct solid_family *f = &j->family[j->set[i].object];
-    int node = f->nodes == 1 ? 0 : (int)rint(nu / (f->nu[1] - f->nu[0])), room = 0;
-    node = node < 0 ? 0 : node > f->nodes - 1 ? f->nodes - 1 : node;
+    int node = nearest_node(f, nu), room = 0;
     const double *phi = f->phi + (size_t)node * t->points * f->n;
     for (size_t k = table->first[0]; k < table->first[1]; k++)
         room += table->entry[k].n;
@@ -432,8 +438,7 @@ static void strength(const struct modes_material *j, struct modes_material_strik
     const struct modes_material_object *t = &j->thing[set->object];
     const struct mode_table *table = &s->table;
     double sum = 0.0, square = 0.0;
-    int n = 0, node = (int)rint(j->fit.nu.value / 0.0125);
-    node = f->nodes == 1 ? 0 : node < 0 ? 0 : node > f->nodes - 1 ? f->nodes - 1 : node;
+    int n = 0, node = nearest_node(f, j->fit.nu.value);
     if (isnan(j->density)) return;
     for (int p = 0; p < s->places; p++) {
         const double *phi = f->phi + ((size_t)node * t->points + (size_t)(s->first + p)) * f->n,
