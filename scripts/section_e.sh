@@ -1,7 +1,7 @@
 #!/bin/bash
 # Section E of papers/003: five objects are struck, their materials are fitted to that, and both materials and residuals go over to objects of other sizes
 # and to an irregular mesh. Writes irs/fitted/ (or the folder given) and its table.txt: what was found beside the truth, what was carried over beside the
-# same object rendered from the truth. Takes some six minutes of one processor.
+# same object rendered from the truth. Takes some seven minutes of one processor.
 #     scripts/section_e.sh [FOLDER [OBJECT...]]       rasp from $BUILD (default: build/ of this tree)
 #     KEEP=FOLDER   keeps recordings, truths and sounds there; tables that are current are not computed again
 #
@@ -27,7 +27,7 @@ objects='wood_plate plate 240,160,8 31,25 3 3 oak
 plastic_plate plate 200,140,5 28,22 3 3 -
 metal_plate plate 180,120,3 23,17 3 3 -
 porcelain_plate plate 200,160,6 29,23 3 3 -
-glass_bowl bowl 160,60,4 72,11 4 4 -'
+glass_bowl bowl 200,75,5 90,14 4 4 -'
 
 # solid KIND SIZES SCALE FINENESS: as --shape has it
 solid() {
@@ -128,7 +128,7 @@ while read -r name kind sizes at order fit wood; do
     # truth and recording
     strike "true.$name" "$name" --shape "$(solid "$kind" "$sizes" 1 2)" --order "$order" "${like[@]}" -- 1 "$(place "$at" 1)"
     recording "$name" 2 "$name.wav"
-    recording "$name" 0.45 "$name.short.wav"
+    recording "$name" 0.42 "$name.short.wav"
     mass=$(sed -n 's/^# object: .*, \([0-9.]* kg\)$/\1/p' "true.$name.modes.csv")
     # the fit
     heard=(--force-channel 2 --quantity velocity --scale 100 --force-scale 100)
@@ -145,13 +145,16 @@ while read -r name kind sizes at order fit wood; do
               t[3] == "" ? "-" : t[3], "poisson" in found ? sprintf("%.4f", found["poisson"]) : "-", t[5], found["alpha"], t[6], found["beta"] }' >> fitted.txt
     # other sizes
     while read -r other scale; do
+        table=$to/${name}_$other
+        [ $other != same ] || table=$keep/${name}_same # only to be compared
         strike "true.$name.$other" "$name" --shape "$(solid "$kind" "$sizes" $scale 2)" --order "$order" "${like[@]}" -- $scale "$(place "$at" $scale)"
         rasp modes compute -f -q --shape "$(solid "$kind" "$sizes" $scale 1)" --order "$fit" --material "$to/$name.yaml" --modes 30 --at "$(place "$at" $scale)" \
-            --title "${name/_/ }, $scale times as large, of the material fitted" -o "$to/${name}_$other.csv"
-        transferred "$name" $other "$to/${name}_$other" "$(place "$at" $scale)"
+            --title "${name/_/ }, $scale times as large, of the material fitted" -o "$table.csv"
+        transferred "$name" $other "$table" "$(place "$at" $scale)"
     done << END
+same 1
 small 0.7
-large 1.4
+$([ "$kind" = bowl ] && echo half 0.5 || echo large 1.4)
 END
     [ "$name" = porcelain_plate ] || continue
     # an irregular body

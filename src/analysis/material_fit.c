@@ -28,6 +28,7 @@ static const double near = 0.006;      /* of frequency: a neighbour farther off 
 static const double tolerance = 0.01;  /* of frequency: two farther apart are no pair */
 static const double distinct = 0.01;   /* of gamma: another place */
 static const double unlike = 1.2;      /* times the cost: less is not unique */
+static const double lawless = 0.5;     /* scatter of logarithms about a law */
 static const double unsure_mesh = 1.0; /* of the mesh's error, as a standard error (evidence/materials.md) */
 static const double highest_nu = 0.45, prior_nu[2] = {0.3, 0.5};
 static const double rough = 0.15;  /* of decays: less than that they do not follow any law */
@@ -338,6 +339,11 @@ static double refine(struct work *w, struct solution *x, struct row *r, int *n)
 
 /* ------------------------------------------------------------------ 3: damping */
 
+static void warn(struct material_fit *f, struct arena *a, const char *text)
+{
+    f->warning = arena_line(a, f->warning, text);
+}
+
 static void damping(const struct material_set *set, int sets, struct arena *a, struct material_fit *f)
 {
     struct material_decay *d = ARENA_TAKE(a, struct material_decay, count_modes(set, sets) + 1);
@@ -353,6 +359,12 @@ static void damping(const struct material_set *set, int sets, struct arena *a, s
     for (int law = 0; law < MATERIAL_POWER; law++)
         if (f->damping[law].bic < f->damping[f->best].bic && n >= 3 * f->damping[law].n) /* BIC means many modes */
             f->best = law;
+    if (f->damping[f->best].scatter > lawless)
+        warn(f, a,
+             arena_format(a,
+                          "decays lie %.0f %% (rms) beside the likeliest law: they are not of one material; air, support "
+                          "and what decays at once are among them (modes extract --modes takes the strongest)",
+                          100.0 * f->damping[f->best].scatter));
 }
 
 /* No intervals. */
@@ -377,7 +389,7 @@ void material_fit_damping(const struct material_set *set, int sets, struct arena
     damping(set, sets, a, f);
     if (f->sure) return;
     unsure(f);
-    f->warning = arena_format(a, "%d modes are few, and %d are needed for intervals", f->modes, SURE_MODES);
+    warn(f, a, arena_format(a, "%d modes are few, and %d are needed for intervals", f->modes, SURE_MODES));
 }
 
 /* ------------------------------------------------------------------ the whole */
@@ -436,11 +448,6 @@ static void figures(struct work *w, struct row *r, int n, const struct solution 
     f->nu_known = free_nu && half_nu < 0.2;
     f->nu_at_bound = free_nu && (x->nu <= 0.0 || x->nu >= highest_nu);
     arena_close(room);
-}
-
-static void warn(struct material_fit *f, struct arena *a, const char *text)
-{
-    f->warning = arena_line(a, f->warning, text);
 }
 
 static void certainty(const struct work *w, struct arena *a, struct material_fit *f)
@@ -546,7 +553,7 @@ bool material_fit(const struct material_problem *p, struct arena *a, struct mate
     f->unique = !(f->next.cost < unlike * f->cost);
     figures(&w, r, n, &best, f);
     count_missing(&w, &best, f);
-    damping(p->set, p->sets, room, f);
+    damping(p->set, p->sets, a, f);
     certainty(&w, a, f);
     arena_close(room);
     return true;

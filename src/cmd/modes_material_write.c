@@ -173,6 +173,17 @@ static void report_endings(struct report *r, const struct modes_material *j)
     report_end(r);
 }
 
+static void report_warnings(struct report *r, const struct modes_material *j)
+{
+    report_list(r, "warnings");
+    for (char *rest = j->fit.warning ? arena_text(j->c->arena, j->fit.warning) : NULL, *line;
+         (line = strsep(&rest, "\n"));) {
+        report_set(r, ":s", line);
+        report_note(r, "  warning: ", line);
+    }
+    report_end(r);
+}
+
 bool modes_material_write_report(const struct modes_material *j, struct err *e)
 {
     struct report r = report_open(stdout, args_given(&j->c->args, "json"));
@@ -216,12 +227,7 @@ bool modes_material_write_report(const struct modes_material *j, struct err *e)
         report_damping(&r, j);
         report_matches(&r, j);
     }
-    report_list(&r, "warnings");
-    for (char *rest = f->warning ? arena_text(j->c->arena, f->warning) : NULL, *line; (line = strsep(&rest, "\n"));) {
-        report_set(&r, ":s", line);
-        report_note(&r, "  warning: ", line);
-    }
-    report_end(&r);
+    report_warnings(&r, j);
     return report_close(&r, 10, e);
 }
 
@@ -242,9 +248,6 @@ bool modes_material_write_damping_report(const struct modes_material *j, struct 
     report_set(&r, "material:s name:s method:s modes:i sure:b", j->file, j->name, "damping", j->fit.modes, j->fit.sure);
     report_text(&r, "%s: damping of %d modes\n", j->name, j->fit.modes);
     report_damping(&r, j);
-    report_list(&r, "warnings");
-    if (j->fit.warning) report_set(&r, ":s", j->fit.warning);
-    report_end(&r);
-    if (j->fit.warning) report_note(&r, "  warning: ", j->fit.warning);
+    report_warnings(&r, j);
     return report_close(&r, 10, e);
 }

@@ -10,7 +10,11 @@
    before the strike shows it: each pixel of the spectrogram (num/stft.h) times sqrt(1 - P_noise/P), P the mean of 3 x
    3, and what is not 3 dB above the noise is 0. By power, as printed: P_recording - P_represented, where the paper does
    not say that it falls below 0, as it does wherever phases differ; here it stops there, and has the recording's
-   phases. */
+   phases.
+
+   That is the sound of the strike's own force. What scenes take is a response, as the modes are: where the force was
+   recorded, the residual is divided by its spectrum. Where that is more than 20 dB below its strongest the response is
+   too weak: there the strike held next to nothing. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -26,6 +30,7 @@
 #include "cmd/modes_extract.h"
 #include "cmd/report.h"
 #include "file/wav.h"
+#include "num/fft.h"
 #include "num/scaled.h"
 #include "num/stft.h"
 #include "response/mode_table.h"
@@ -37,6 +42,7 @@ enum { LEAD_FRAMES = 4 }; /* that show the noise */
 
 static const double fade = 0.005;   /* s at the end */
 static const double nothing = 1e-8; /* of the energy: a tail of less is cut */
+static const double weakest = 1e-2; /* of the force's power, where it is strongest: what is divided by */
 
 struct table { /* features of a mode table */
     const char *file, *name;
@@ -61,6 +67,7 @@ struct job {
     int stretch;                                      /* of the strike */
     long start, length;                               /* samples of the recording, of the strike's sound */
     double *recorded, *represented, *left, *residual; /* [length] */
+    double *response;                                 /* [length] the residual by the strike's force */
     double *noise;                                    /* [bins] power; NULL: no lead shows it, or it is kept */
     double variance;                                  /* of the lead; NAN: there is none */
     double sounds, gains;                             /* factors of the sounds and gains, for the unit */
@@ -271,6 +278,40 @@ static void compensate(struct job *j)
     j->length = last;
 }
 
+/* The residual divided by the force, of amplitude 1 at 0 Hz; without a force it is as it is. */
+static void divide(struct job *j)
+{
+    const struct modal_pulse *p = &stretch_of(j)->pulse;
+    j->response = j->residual;
+    if (!j->x.given.force_channel || strike_of(j)->clipped) return;
+    struct arena *a = arena_open();
+    size_t size = fft_good_size((size_t)(j->length + 2 * p->n));
+    long bins = (long)size / 2 + 1;
+    struct fft *fft = fft_open(size);
+    double *x = ARENA_TAKE(a, double, size), *re = ARENA_TAKE(a, double, bins), *im = ARENA_TAKE(a, double, bins),
+           *f = ARENA_TAKE(a, double, size), *f_re = ARENA_TAKE(a, double, bins), *f_im = ARENA_TAKE(a, double, bins),
+           most = 0.0;
+    memcpy(x, j->residual, (size_t)j->length * sizeof *x);
+    for (long k = 0; k < p->n; k++)
+        f[(k + p->at - j->start + (long)size) % (long)size] = p->f[k];
+    fft_forward(fft, x, re, im);
+    fft_forward(fft, f, f_re, f_im);
+    double whole = f_re[0];
+    for (long k = 0; k < bins; k++)
+        most = fmax(most, f_re[k] * f_re[k] + f_im[k] * f_im[k]);
+    for (long k = 0; k < bins; k++) {
+        double scale = whole / (fmax(f_re[k] * f_re[k] + f_im[k] * f_im[k], weakest * most) * (double)size),
+               real = scale * (re[k] * f_re[k] + im[k] * f_im[k]);
+        im[k] = scale * (im[k] * f_re[k] - re[k] * f_im[k]);
+        re[k] = real;
+    }
+    fft_inverse(fft, re, im, x);
+    fft_close(fft);
+    j->response = ARENA_TAKE(j->arena, double, j->length);
+    memcpy(j->response, x, (size_t)j->length * sizeof *x);
+    arena_close(a);
+}
+
 /* ------------------------------------------------------------------ the folder */
 
 static const char *per(const struct job *j)
@@ -293,12 +334,18 @@ static const char *at(const struct job *j, const char *name)
     return arena_format(j->arena, "%s/%s", j->temporary, name);
 }
 
-static bool write_sound(struct job *j, const char *name, const double *x, struct err *e)
+/* other: a second channel, or NULL. */
+static bool write_sound(struct job *j, const char *name, const double *x, const double *other, struct err *e)
 {
-    struct wav_format f = {.rate = j->x.rate, .channels = 1, .bits = -32, .comment = "rasp: by rasp modes residual"};
-    double *scaled = ARENA_TAKE(j->arena, double, j->length);
+    int channels = other ? 2 : 1;
+    struct wav_format f = {
+        .rate = j->x.rate, .channels = channels, .bits = -32, .comment = "rasp: by rasp modes residual"};
+    double *scaled = ARENA_TAKE(j->arena, double, channels *j->length);
     struct wav_out *w = wav_create(at(j, name), &f, e);
-    scaled_copy(scaled, j->sounds, x, j->length);
+    for (long i = 0; i < j->length; i++) {
+        scaled[channels * i] = j->sounds * x[i];
+        if (other) scaled[channels * i + 1] = j->sounds * other[i];
+    }
     if (!w) return false;
     if (wav_write(w, scaled, (size_t)j->length, e)) return wav_commit(w, e);
     wav_drop(w);
@@ -356,7 +403,7 @@ static void yaml_file(FILE *f, const struct job *j, const char *name, const char
 
 static void yaml_write(FILE *f, const struct job *j, const struct figures *g)
 {
-    static const char *const names[] = {RESIDUAL_WAV, RESIDUAL_MODES, RESIDUAL_REPRESENTED};
+    static const char *const names[] = {RESIDUAL_WAV, RESIDUAL_MODES, RESIDUAL_STRIKE};
     const struct strikes_one *v = strike_of(j);
     const char *lacks = why_not(j);
     fprintf(
@@ -391,9 +438,10 @@ static void yaml_write(FILE *f, const struct job *j, const struct figures *g)
 
 static bool write_files(struct job *j, const struct figures *g, struct err *e)
 {
-    static const char *const names[] = {RESIDUAL_WAV, RESIDUAL_MODES, RESIDUAL_REPRESENTED};
+    static const char *const names[] = {RESIDUAL_WAV, RESIDUAL_MODES, RESIDUAL_STRIKE};
     struct outfile *o = ARENA_TAKE(j->arena, struct outfile, 1);
-    if (!write_sound(j, RESIDUAL_WAV, j->residual, e) || !write_sound(j, RESIDUAL_REPRESENTED, j->represented, e) ||
+    if (!write_sound(j, RESIDUAL_WAV, j->response, NULL, e) ||
+        !write_sound(j, RESIDUAL_STRIKE, j->represented, j->residual, e) ||
         !outfile_open(o, at(j, RESIDUAL_MODES), e))
         return false;
     modes_write(o->stream, j);
@@ -407,7 +455,7 @@ static bool write_files(struct job *j, const struct figures *g, struct err *e)
 
 static void remove_folder(const struct job *j, const char *folder)
 {
-    static const char *const names[] = {RESIDUAL_WAV, RESIDUAL_MODES, RESIDUAL_REPRESENTED, RESIDUAL_YAML};
+    static const char *const names[] = {RESIDUAL_WAV, RESIDUAL_MODES, RESIDUAL_STRIKE, RESIDUAL_YAML};
     for (int k = 0; k < 4; k++)
         unlink(arena_format(j->arena, "%s/%s", folder, names[k]));
     rmdir(folder);
@@ -453,10 +501,10 @@ static void report(const struct job *j, const struct figures *g, bool json, stru
     struct report r = report_open(stdout, json);
     double seconds = (double)j->length / j->x.rate, onset = (double)v->onset / j->x.rate;
     report_set(&r,
-               "folder:s recording:s table:s estimated:s strike:i onset_s:n momentum:n peak:n quantity:s per:s "
+               "folder:s recording:s table:s estimated:s strike:i onset_s:n start_s:n momentum:n peak:n quantity:s per:s "
                "physical:b seconds:n modes:i outside:i",
                j->folder, j->place->shown, j->table.file, j->estimated.file, stretch_of(j)->strike + 1, onset,
-               v->momentum, v->peak, modes_quantity_name(j->x.given.quantity), per(j), !lacks, seconds, j->table.n,
+               (double)j->start / j->x.rate, v->momentum, v->peak, modes_quantity_name(j->x.given.quantity), per(j), !lacks, seconds, j->table.n,
                j->outside);
     report_set(&r, "noise_removed:b match_ratio_mean:n match_ratio_least:n match_ratio_by_energy:n match_score:n",
                j->noise != NULL, g->mean, g->least, j->estimated.file ? j->match.represented : 1.0,
@@ -529,6 +577,7 @@ int modes_residual_run(struct cmd_call *c, struct err *e)
     listen(j);
     long length = j->length;
     compensate(j);
+    divide(j);
     struct figures g = figures(j, length);
     if (write_folder(j, &g, e) && (args_given(&c->args, "json") || !args_given(&c->args, "quiet")))
         report(j, &g, args_given(&c->args, "json"), e);

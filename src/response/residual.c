@@ -13,7 +13,7 @@
 #include "file/yaml.h"
 #include "num/resample.h"
 
-static const char *const files[] = {RESIDUAL_YAML, RESIDUAL_WAV, RESIDUAL_MODES, RESIDUAL_REPRESENTED};
+static const char *const files[] = {RESIDUAL_YAML, RESIDUAL_WAV, RESIDUAL_MODES, RESIDUAL_STRIKE};
 
 enum { FILES = sizeof files / sizeof *files };
 

@@ -1,8 +1,9 @@
 /* What a struck object sounds besides its modes: the residual of a recording (papers/003 D.1, `rasp modes residual`),
    and its transfer to another object by the modes of both (D.2, algorithm 1).
 
-   A folder FOLDER/residual.yaml names, with their hashes, residual.wav and modes.csv: the residual and the modes that
-   were taken off, both of one strike and in one unit, whatever that is. The transfer takes the ratio of the two over to
+   A folder FOLDER/residual.yaml names, with their hashes, residual.wav and modes.csv: the residual as an impulse
+   response, and the modes that were taken off, both of one strike and in one unit, whatever that is. Its third file,
+   strike.wav, is for who looks: the strike's sound in two channels, represented and residual. The transfer takes the ratio of the two over to
    the modes of the target, per N s. So a residual of a recording whose level is relative, or of another quantity than
    the scene's, keeps its level relative to its modes. */
 #ifndef RESPONSE_RESIDUAL_H
@@ -14,11 +15,11 @@
 #include "num/noise.h"
 
 #define RESIDUAL_FORMAT "rasp_residual" /* key of residual.yaml; its value is RESIDUAL_VERSION */
-#define RESIDUAL_VERSION "1"
+#define RESIDUAL_VERSION "2"
 #define RESIDUAL_YAML "residual.yaml"
 #define RESIDUAL_WAV "residual.wav"
 #define RESIDUAL_MODES "modes.csv"
-#define RESIDUAL_REPRESENTED "represented.wav"
+#define RESIDUAL_STRIKE "strike.wav"
 
 struct residual_modes { /* as heard; gain: |h| at t = 0 */
     int n;
