@@ -76,3 +76,4 @@ if papers:
         print("| %s | %.4g | %d of %d | %.5g | %.3g, %.3g | %d times |" % (
             os.path.basename(path).split("_")[0], truth, hits, len(ends), r["youngs_modulus_per_density"]["value"],
             r["metric_image"], r["metric_feature"], r["evaluations"]))
+    print("\n%d of the paper's %d starts land within 1 %% of the true E/density." % (total, 10 * len(papers)))
