@@ -374,9 +374,7 @@ bool batch_run(const struct batch_ask *ask, struct arena *a, struct batch_report
 {
     double start = stopwatch_wall();
     struct file_cache *file_cache = file_cache_open(FILE_CACHE_MOST);
-    fft_cache_plans(true);
     bool ok = run(ask, file_cache, a, r, e);
-    fft_cache_plans(false);
     file_cache_close(file_cache);
     r->seconds = stopwatch_wall() - start;
     return ok;

@@ -11,10 +11,6 @@ struct fft; /* a plan of one size with its work space; not to be shared by threa
 struct fft *fft_open(size_t n);
 void fft_close(struct fft *f);
 
-/* true: plans made from here on stay for all who ask for the same size, up to 64 of them. false: they are given up; no
- * struct fft that came in between is open. */
-void fft_cache_plans(bool on);
-
 /* x[n] -> re[n/2+1], im[n/2+1] (split); x is left as it was. */
 void fft_forward(struct fft *f, const double *x, double *re, double *im);
 

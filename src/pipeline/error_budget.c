@@ -1,6 +1,5 @@
-/* See error_budget.h. The parts: pilot runs (error_curve.h), how the budget is shared out; here the
-   plans, and what is reported. Nothing here reads a clock but for the report: the same scene is given the same knobs
-   everywhere. */
+/* See error_budget.h. Differences of settings are measured by error_pilot.h, those of ramps here. Nothing here reads a
+   clock but for the report: the same scene is given the same knobs everywhere. */
 #include "pipeline/error_budget.h"
 
 #include <math.h>
@@ -9,62 +8,72 @@
 #include "base/stopwatch.h"
 #include "convolution/ring_choice.h"
 #include "num/real.h"
-#include "pipeline/error_curve.h"
+#include "pipeline/error_pilot.h"
 #include "pipeline/inputs.h"
 #include "pipeline/render.h"
 #include "pipeline/run.h"
-#include "pipeline/segments.h"
 #include "pipeline/stages.h"
 #include "scene/accuracy.h"
 #include "scene/keys.h"
+
+struct found { /* of a knob */
+    double value;
+    double energy; /* that its error is at most taken to have                 */
+    double least;  /* of the energies by which values are accepted, the least */
+    double best;   /* the value that has it                                   */
+    double end;    /* the finest that can be had                              */
+};
+
+struct kept {
+    double *x, *next; /* sound at the finer of the last two ramps; next: the same, or NULL where it is too long */
+};
 
 struct budgeting {
     const struct scene *asked;
     struct scene *chosen;
     struct arena *arena;
     struct error_budget *to;
-    double whole; /* relative rms: asked, less the margin */
     struct render_parts parts;
     unsigned used;             /* set of knobs                         */
-    struct segments *segments; /* [n_contacts] */
-    double **force[2];         /* [n_contacts] of the last pilot run and, [1], the one before */
-    double **first;            /* [n_contacts] of the pilot run with every knob at `draft`, once it has been */
-    bool began;                /* it has                               */
+    struct error_pilot *pilot; /* [n_contacts] */
     bool sounds;               /* some contact sounds; else forces are promised about */
-    struct error_curve curves[KNOBS];
+    struct kept *kept;         /* [n_contacts] */
+    double energy;             /* of all that is heard */
+    struct found found[KNOBS];
 };
 
 /* Does the scene itself give the knob? */
-static inline bool is_users(const struct budgeting *m, int knob) { return m->asked->accuracy.by_user & 1u << knob; }
+static bool is_users(const struct budgeting *m, int knob) { return m->asked->accuracy.by_user & 1u << knob; }
 
 /* Does it turn the scene, so that its error is piloted? */
-static inline bool budget_used(const struct budgeting *m, int knob) { return m->used & 1u << knob; }
+static bool budget_used(const struct budgeting *m, int knob) { return m->used & 1u << knob; }
 
 /* ------------------------------------------------------------------ pilot runs */
 
-/* Pilot runs: what a knob's error is along the scene's own motion. That of each knob has all others at `draft`, those
-   that the scene says as it says them: so the first one, where a knob is at `draft` itself, is the same for all, and is
-   run once.
+/* A knob's error at a value K is told from d, the energy of the difference between the sounds at K and at 2K. An error
+   that falls by 6 dB a doubling, as at a kink, is twice the difference: so 4 d is what it is taken to be, and K is
+   accepted where that is within the knob's share. The first value has no history that shows whether K and 2K agree by
+   accident: there it is 10 d. Of the last value, which has no finer one, the error is at most the difference from the
+   one before it, if it falls by 6 dB or more: 2 d.
 
-   A coupled ball's steps are contact_steps in a contact or `oversampling` in a sample, whichever are more. So its
-   oversampling is piloted with contact_steps two doublings finer than these were piloted themselves: else its error
-   would be that of the steps.
-
-   What it costs. Values double, so that all pilot runs of a knob cost about twice the last, which is at most two
-   doublings coarser than what is chosen. Where an error cannot be kept, curves that are not settled (error_curve.h)
-   are piloted anew until they are: up to 64 times the first value, of contact_steps perhaps more. Measured, refusals
-   of shipped scenes: 1.2 s (circle, basswood_scrape), 9 s (roll_coupled), 11 s (round_tip, most of it tip_heights).
-   What is reported as the best is so the same whatever was asked.
+   That of each knob has all others at `draft`, those that the scene says as it says them. A coupled ball's steps are
+   contact_steps in a contact or `oversampling` in a sample, whichever are more. So its oversampling is piloted with
+   contact_steps two doublings finer than what was accepted: else its error would be that of the steps.
 
    A ramp of gains is piloted up to the sound, over the whole motion, two values side by side: what it misses lies at
    kinks, and grows with what rings.
 
-   What comes in its order is piloted in its beginning only. A coupled ball's error grows with time, as its place
-   drifts, up to linearly: measured over 10 times what is piloted, by 16 dB. So much is added, in proportion to the
-   time (segments.h: drift). */
+   A coupled ball is piloted in its beginning only. Its error grows with time, as its place drifts, up to linearly:
+   measured over 10 times what is piloted, by 16 dB. So much is added, in proportion to the time (error_pilot.h:
+   drift). */
 
-#define FIRST 0.5    /* s of what comes in its order, to begin with */
-#define LONGEST 60.0 /* s of what rings */
+#define HAND 4.0        /* energy of an error over that of a difference that it is taken to have */
+#define HAND_FIRST 10.0 /* the same, of the first value */
+#define HAND_LAST 2.0   /* the same, of the last value, beside the difference from the one before */
+#define FLOOR 1e-15     /* of a difference that is none of 0: the filters' ripple and rounding are no powers; -150 dB */
+#define FIRST 0.5       /* s of a coupled ball, to begin with */
+#define LONGEST 60.0    /* s of what rings */
+#define KEPT (1L << 20) /* samples of a sound that is kept in memory, at most */
 
 static bool coupled(const struct budgeting *m)
 {
@@ -79,21 +88,6 @@ static bool is_audible(const struct budgeting *m, int contact)
     return m->sounds ? targets & ITEM_BIT(ITEM_SOUND) : targets != 0;
 }
 
-static bool make_segments(struct budgeting *m, double first, struct err *e)
-{
-    for (int i = 0; i < m->chosen->n_contacts; i++) {
-        const struct contact *c = m->parts.parts[i].plan.contact;
-        bool moves = c && c->surface.response.choice && c->surface.response.choice->moves;
-        if (!is_audible(m, i)) continue;
-        if (!segments_make(m->chosen, c, first, moves, m->arena, &m->segments[i], e)) return false;
-        for (int k = 0; k < 2; k++)
-            m->force[k][i] = ARENA_TAKE(m->arena, double, m->segments[i].frames);
-        m->first[i] = ARENA_TAKE(m->arena, double, m->segments[i].frames);
-        m->began = false;
-    }
-    return true;
-}
-
 /* Does every contact take the knob at that value? Else *e says which does not, and why. */
 static bool can(struct budgeting *m, int knob, double value, struct err *e)
 {
@@ -101,7 +95,7 @@ static bool can(struct budgeting *m, int knob, double value, struct err *e)
     bool ok = true;
     accuracy_turn(&set, (enum knob)knob, value);
     for (int i = 0; ok && i < m->chosen->n_contacts; i++)
-        ok = !is_audible(m, i) || segments_can(&m->segments[i], &set, e);
+        ok = !is_audible(m, i) || error_pilot_can(&m->pilot[i], &set, e);
     return ok;
 }
 
@@ -109,7 +103,7 @@ static bool can(struct budgeting *m, int knob, double value, struct err *e)
 static double finest(struct budgeting *m, int knob, double had, double end)
 {
     struct err refused = {0};
-    if (can(m, knob, end, &refused) || refused.kind != ERR_SCENE)
+    if (knob == KNOB_oversampling || knob == KNOB_gain_ramp || can(m, knob, end, &refused) || refused.kind != ERR_SCENE)
         return end; /* what else is wrong a pilot run will tell */
     for (double not = end; fabs(not -had) > 1;) {
         double middle = floor((had + not ) / 2);
@@ -119,71 +113,51 @@ static double finest(struct budgeting *m, int knob, double had, double end)
     return had;
 }
 
-static bool pilot_at(struct budgeting *m, int knob, double value, struct err *e)
+/* What the scene has, with the knob at a value. */
+static struct accuracy turned(const struct budgeting *m, int knob, double value)
 {
     struct accuracy set = m->chosen->accuracy;
-    bool first = accuracy_knob(&set, (enum knob)knob) == value;
     accuracy_turn(&set, (enum knob)knob, value);
-    if (knob == KNOB_oversampling && m->curves[KNOB_contact_steps].n > 0 && !is_users(m, KNOB_contact_steps)) {
-        const struct error_curve *steps = &m->curves[KNOB_contact_steps];
+    if (knob == KNOB_oversampling && m->found[KNOB_contact_steps].value > 0 && !is_users(m, KNOB_contact_steps))
         accuracy_turn(&set, KNOB_contact_steps,
-                      error_curve_value(steps, steps->n + 2) < steps->end ? error_curve_value(steps, steps->n + 2)
-                                                                          : steps->end);
-        first = false;
-    }
-    for (int i = 0; i < m->chosen->n_contacts; i++) {
-        double *older = m->force[1][i];
-        m->force[1][i] = m->force[0][i];
-        m->force[0][i] = older;
-        if (!is_audible(m, i)) continue;
-        if (first && m->began)
-            memcpy(m->force[0][i], m->first[i], (size_t)m->segments[i].frames * sizeof(double));
-        else if (!segments_run(&m->segments[i], &set, m->force[0][i], e))
-            return false;
-        if (first) memcpy(m->first[i], m->force[0][i], (size_t)m->segments[i].frames * sizeof(double));
-    }
-    m->began = m->began || first;
-    return true;
+                      fmin(4 * m->found[KNOB_contact_steps].value, m->found[KNOB_contact_steps].end));
+    return set;
 }
 
-/* Of the last pilot run, or ([1]) of what is in the place of the one before: their difference. */
-static double energy(const struct budgeting *m, bool difference)
+/* The first survey of a contact, of oversampling where that is open, tells its energy and which blocks are followed.
+   What comes in its order may begin with silence: longer beginnings, until something is heard. */
+static bool begin(struct budgeting *m, int i, struct err *e)
 {
-    double sum = 0;
-    for (int i = 0; i < m->chosen->n_contacts; i++) {
-        double drift = difference ? m->segments[i].drift : 1;
-        sum += is_audible(m, i) ? drift * drift * segments_energy(&m->segments[i], m->force[difference][i]) : 0;
+    const struct contact *c = m->parts.parts[i].plan.contact;
+    bool moves = c->surface.response.choice && c->surface.response.choice->moves;
+    struct error_pilot *p = &m->pilot[i];
+    double over = m->chosen->accuracy.oversampling, finer = fmin(2 * over, keys_knobs[KNOB_oversampling].high);
+    struct accuracy set = m->chosen->accuracy, next = turned(m, KNOB_oversampling, finer);
+    long before = -1;
+    for (double some = FIRST; p->some != before; some *= 4) {
+        before = p->some;
+        if (!error_pilot_make(m->chosen, c, some, moves, m->arena, p, e)) return false;
+        bool over_used = p->knobs & KNOB_BIT(oversampling) && c->contact.model != CONTACT_ROLL_COUPLED;
+        if (!error_pilot_survey(p, &set, over_used && finer > over ? &next : NULL, false, e)) return false;
+        if (p->energy > 0) break;
     }
-    return sum;
-}
-
-/* What comes in its order may begin with silence: longer beginnings, until something is heard. */
-static bool begin_pilot(struct budgeting *m, int knob, double value, struct err *e)
-{
-    long before = -1, frames = 0;
-    for (double first = FIRST; frames != before; first *= 4) {
-        before = frames;
-        frames = 0;
-        if ((first > FIRST && !make_segments(m, first, e)) || !pilot_at(m, knob, value, e)) return false;
-        if (energy(m, false) > 0) break;
-        for (int i = 0; i < m->chosen->n_contacts; i++)
-            frames += is_audible(m, i) ? m->segments[i].frames : 0;
-    }
+    m->energy += p->energy;
     return true;
 }
 
 /* Adds the energies of a contact's sound at the second of two ramps and of its difference from the first, until 40 dB
- * after the motion's end. */
-static bool compare_ramps(const struct budgeting *m, int contact, const double ramp[2], double *all, double *distance,
-                          struct err *e)
+   after the motion's end. A short sound is kept for the next pair, which begins with it (going). */
+static bool compare_ramps(const struct budgeting *m, int contact, const double ramp[2], bool going, double *all,
+                          double *distance, struct err *e)
 {
+    struct kept *kept = &m->kept[contact];
     struct contact own = *m->parts.parts[contact].plan.contact;
     struct arena *a = arena_open();
     struct scene set[2];
     struct plan p;
     struct run r[2];
-    int open = 0;
-    bool ok = true;
+    bool open[2] = {false, false}, ok;
+    if (!going) kept->x = NULL;
     for (int k = 0; k < 2; k++) {
         set[k] = *m->chosen;
         set[k].contacts = &own;
@@ -193,50 +167,67 @@ static bool compare_ramps(const struct budgeting *m, int contact, const double r
         set[k].output.impacts = LISTING_NONE;
         accuracy_turn(&set[k].accuracy, KNOB_gain_ramp, ramp[k]);
     }
-    for (ok = plan_make(stages_table, &own, set, a, &p, e); ok && open < 2; open += ok)
-        ok = run_open(&r[open], &p, &set[open], NULL, e);
-    long frames = ok ? r[0].board.moving + (long)(0.5 * fmin(r[0].board.ring, LONGEST) * r[0].board.rate) : 0;
+    ok = plan_make(stages_table, &own, set, a, &p, e);
+    bool depends = ok && plan_knobs(&p) & KNOB_BIT(gain_ramp);
+    for (int k = kept->x || !depends; ok && k < 2; k++)
+        ok = open[k] = run_open(&r[k], &p, &set[k], NULL, e);
+    const struct board *b = &r[1].board;
+    long frames = ok ? b->moving + (long)(0.5 * fmin(b->ring, LONGEST) * b->rate) : 0, room = frames * (ok ? b->channels : 0);
+    if (depends && !kept->next && room <= KEPT) kept->next = ARENA_TAKE(m->arena, double, room);
     for (long from = 0, to; ok && from < frames; from = to) {
         to = from + STAGE_BLOCK < frames ? from + STAGE_BLOCK : frames;
-        ok = run_block(&r[0], to, e) && run_block(&r[1], to, e);
-        const double *x = ok ? board_at(&r[0].board, ITEM_SOUND, from) : NULL,
-                     *y = ok ? board_at(&r[1].board, ITEM_SOUND, from) : NULL;
-        for (long i = 0; ok && i < (to - from) * r[0].board.channels; i++) {
+        ok = (!open[0] || run_block(&r[0], to, e)) && run_block(&r[1], to, e);
+        if (!ok) break;
+        const double *y = board_at(b, ITEM_SOUND, from),
+                     *x = open[0]   ? board_at(&r[0].board, ITEM_SOUND, from)
+                          : depends ? kept->x + from * b->channels
+                                    : y;
+        for (long i = 0; i < (to - from) * b->channels; i++) {
             *all += y[i] * y[i];
             *distance += (x[i] - y[i]) * (x[i] - y[i]);
         }
+        if (kept->next) memcpy(kept->next + from * b->channels, y, (size_t)((to - from) * b->channels) * sizeof *y);
     }
-    for (int k = 0; k < open; k++)
-        run_close(&r[k]);
+    for (int k = 0; k < 2; k++)
+        if (open[k]) run_close(&r[k]);
     arena_close(a);
+    kept->x = kept->next;
     return ok;
 }
 
-static bool pilot_knob(struct budgeting *m, int knob, double error, struct err *e)
+static bool ramps_distance(const struct budgeting *m, const double ramp[2], bool going, double *distance, struct err *e)
 {
-    const struct key_knob *k = &keys_knobs[knob];
-    struct error_curve *c = &m->curves[knob];
-    bool down = k->scale == KEY_SAMPLES, fixed = is_users(m, knob);
-    double low = fixed ? accuracy_knob(&m->asked->accuracy, (enum knob)knob) : k->preset[0],
-           end = finest(m, knob, low, down ? k->low : k->high);
-    if (fixed && (down ? low < 2 * end : low > end / 2)) low = floor(down ? 2 * end : end / 2);
-    *c = (struct error_curve){.order = k->order, .low = low, .down = down, .end = end};
-    bool ramp = knob == KNOB_gain_ramp && !coupled(m);
-    if (!ramp && !begin_pilot(m, knob, low, e)) return false;
-    while (!error_curve_enough(c, error) && !(fixed && c->n == 2)) {
-        const double values[2] = {error_curve_value(c, c->n), error_curve_value(c, c->n + 1)};
-        double all = 0, distance = 0;
-        for (int i = 0; ramp && i < m->chosen->n_contacts; i++)
-            if (is_audible(m, i) && !compare_ramps(m, i, values, &all, &distance, e)) return false;
-        if (!ramp && !pilot_at(m, knob, values[1], e)) return false;
-        if (!ramp) {
-            all = energy(m, false);
-            for (int i = 0; i < m->chosen->n_contacts; i++)
-                for (long n = 0; is_audible(m, i) && n < m->segments[i].frames; n++)
-                    m->force[1][i][n] -= m->force[0][i][n];
-            distance = energy(m, true);
-        }
-        c->distance[c->n++] = all > 0 ? sqrt(distance / all) : 0;
+    double all = 0, sum = 0;
+    for (int i = 0; i < m->chosen->n_contacts; i++)
+        if (is_audible(m, i) && !compare_ramps(m, i, ramp, going, &all, &sum, e)) return false;
+    *distance = all > 0 ? m->energy * sum / all : 0;
+    return true;
+}
+
+/* Energy of the difference between a value and a finer one, which follow others (going) or begin; [1]: as it is, without
+   history. */
+static bool knob_distance(struct budgeting *m, int knob, const double value[2], bool going,
+                          double distance[2], struct err *e)
+{
+    struct accuracy set = turned(m, knob, value[0]), finer = turned(m, knob, value[1]);
+    distance[0] = distance[1] = 0;
+    if (knob == KNOB_gain_ramp && !coupled(m)) {
+        if (!ramps_distance(m, value, going, distance, e)) return false;
+        distance[1] = distance[0];
+        return true;
+    }
+    for (int i = 0; i < m->chosen->n_contacts; i++) {
+        struct error_pilot *p = &m->pilot[i];
+        if (!is_audible(m, i) || !(p->knobs & 1u << knob)) continue;
+        bool surveyed = knob == KNOB_oversampling && value[0] == m->chosen->accuracy.oversampling &&
+                        value[1] == 2 * value[0] && (p->follows || p->surveys == 1) &&
+                        p->contact.contact.model != CONTACT_ROLL_COUPLED; /* by begin */
+        bool ok = surveyed      ? true
+                  : p->follows ? (going || error_pilot_follow(p, &set, e)) && error_pilot_follow(p, &finer, e)
+                               : error_pilot_survey(p, &set, &finer, going, e);
+        if (!ok) return false;
+        distance[0] += surveyed ? error_pilot_surveyed(p) : error_pilot_distance(p, going);
+        distance[1] += surveyed ? error_pilot_surveyed(p) : error_pilot_distance(p, false);
     }
     return true;
 }
@@ -246,7 +237,7 @@ static bool pilot_knob(struct budgeting *m, int knob, double error, struct err *
 static bool run_chaos_pilot(const struct budgeting *m, bool failed, struct err *e)
 {
     for (int i = 0; i < m->chosen->n_contacts; i++) {
-        const struct segments *x = &m->segments[i];
+        const struct error_pilot *x = &m->pilot[i];
         if (!is_audible(m, i) || x->contact.contact.model != CONTACT_ROLL_COUPLED ||
             (failed ? x->lift_offs : x->bounces) == 0)
             continue;
@@ -256,128 +247,85 @@ static bool run_chaos_pilot(const struct budgeting *m, bool failed, struct err *
                 "%ld times in its first %.3g s, and each time "
                 "whatever two renders differ by grows, until they follow each other no more; take accuracy.error out, "
                 "choose a preset, and compare statistics (rasp accuracy)",
-                m->chosen->contacts[i].name, x->lift_offs, (double)x->frames / m->chosen->output.sample_rate);
+                m->chosen->contacts[i].name, x->lift_offs, (double)x->some / m->chosen->output.sample_rate);
         return true;
     }
     return false;
 }
 
-/* The curves of all knobs whose errors are piloted, each until it tells which value has at most that error; 0: until
-   all of them are settled. ERR_SCENE: of a ball that bounces; else those of stages. */
-static bool run_pilot(struct budgeting *m, double error, struct err *e)
-{
-    static const int first = KNOB_contact_steps; /* oversampling asks for it */
-    if (!m->segments) {
-        m->segments = ARENA_TAKE(m->arena, struct segments, m->chosen->n_contacts);
-        m->force[0] = ARENA_TAKE(m->arena, double *, m->chosen->n_contacts);
-        m->force[1] = ARENA_TAKE(m->arena, double *, m->chosen->n_contacts);
-        m->first = ARENA_TAKE(m->arena, double *, m->chosen->n_contacts);
-        if (!make_segments(m, FIRST, e)) return false;
-    }
-    for (int i = -1; i < KNOBS; i++) {
-        int k = i < 0 ? first : i;
-        bool known = error_curve_converged(&m->curves[k]) && !(k == KNOB_oversampling && coupled(m));
-        if (i != first && !known && budget_used(m, k) && (!pilot_knob(m, k, error, e) || run_chaos_pilot(m, false, e)))
-            return false;
-    }
-    return true;
-}
-
 /* ------------------------------------------------------------------ sharing */
 
-/* The budget is shared in tenths of its square between the knobs that are free; the shares whose values cost the least,
- * by the plans' predicted work, are taken. Where tenths are too coarse to keep the error, every knob is as fine as
- * helps. */
-
-enum { SOURCES = 4, TENTHS = 10 };
-
-struct sources { /* what is free to be chosen */
-    int n, knob[SOURCES], tenths[SOURCES], best[SOURCES];
-    double cost, left; /* left: of the budget's square, share that what is said does not use */
-};
-
-/* Sets the knobs for shares of what is left; false: one has no such value. */
-static bool take(const struct budgeting *m, const struct sources *s, const int *tenths, struct accuracy *set,
-                 double *spent)
+/* The coarsest value whose error is within the share, from the first on by doublings; false without an error: none. A
+   knob that the scene says has the value that it says. */
+static bool climb(struct budgeting *m, int knob, double share, bool *had, struct err *e)
 {
-    *spent = 0;
-    for (int i = 0; i < s->n; i++) {
-        double square = s->left * tenths[i] / TENTHS;
-        double value = error_curve_least(&m->curves[s->knob[i]], m->whole * sqrt(square));
-        if (isnan(value)) return false;
-        double error = error_curve_error(&m->curves[s->knob[i]], value) / m->whole;
-        *spent += error * error;
-        accuracy_turn(set, (enum knob)s->knob[i], value);
+    const struct key_knob *k = &keys_knobs[knob];
+    struct found *f = &m->found[knob];
+    bool down = k->scale == KEY_SAMPLES, fixed = is_users(m, knob);
+    double value = fixed ? accuracy_knob(&m->asked->accuracy, (enum knob)knob) : k->preset[0], distance[2] = {0, 0},
+           end = finest(m, knob, value, down ? k->low : k->high);
+    *f = (struct found){.least = HUGE_VAL, .end = end};
+    for (int step = 0;; step++) {
+        double next = down ? floor(value / 2) : 2 * value, hand = step ? HAND : HAND_FIRST, d;
+        bool last = down ? next < end : next > end;
+        if (fixed) {
+            double pair[2] = {value, last ? end : next};
+            if (value == end) pair[0] = down ? 2 * end : fmax(floor(end / 2), k->low);
+            if (!knob_distance(m, knob, pair, false, distance, e)) return false;
+            hand = value == end ? HAND_LAST : HAND;
+        } else if (last)
+            hand = HAND_LAST;
+        else if (!knob_distance(m, knob, (double[2]){value, next}, step > 0, distance, e))
+            return false;
+        if (run_chaos_pilot(m, false, e)) return false;
+        d = distance[last] > 0 ? fmax(distance[last], FLOOR * m->energy) : 0;
+        f->value = value;
+        f->energy = (hand == HAND_FIRST ? HAND : hand) * d;
+        if (hand * d < f->least) {
+            f->least = hand * d;
+            f->best = value;
+        }
+        *had = hand * d <= share;
+        if (*had || last || fixed) return true;
+        value = next;
     }
+}
+
+/* In which order knobs are chosen: oversampling, for which contact_steps are known by then, has what the others leave. */
+static const int order[] = {KNOB_contact_steps, KNOB_gain_ramp, KNOB_tip_heights, KNOB_oversampling};
+
+enum { ORDER = sizeof order / sizeof *order };
+static_assert((int)ORDER == (int)KNOBS, "each knob has its place");
+
+/* Each knob that is open has an equal share of what is left; what it does not use the next ones have. */
+static bool share_budget(struct budgeting *m, double budget, bool *had, struct err *e)
+{
+    double left = budget;
+    int open = 0;
+    bool one;
+    *had = true;
+    for (int k = 0; k < ORDER; k++) {
+        if (!budget_used(m, order[k])) continue;
+        if (!is_users(m, order[k])) {
+            open++;
+            continue;
+        }
+        if (!climb(m, order[k], left, &one, e)) return false;
+        left -= m->found[order[k]].energy;
+        *had = *had && left >= 0;
+    }
+    for (int k = 0; *had && k < ORDER; k++) {
+        if (!budget_used(m, order[k]) || is_users(m, order[k])) continue;
+        if (!climb(m, order[k], left / open--, had, e)) return false;
+        left -= m->found[order[k]].energy;
+    }
+    for (int k = 0; *had && k < ORDER; k++)
+        if (budget_used(m, order[k]) && !is_users(m, order[k]))
+            accuracy_turn(&m->chosen->accuracy, (enum knob)order[k], m->found[order[k]].value);
     return true;
 }
 
-/* Are these shares cheaper, by the plans' predicted work, than all before? */
-static void try_shares(const struct budgeting *m, struct sources *s)
-{
-    struct scene set = *m->chosen;
-    double spent, cost = 0;
-    if (!take(m, s, s->tenths, &set.accuracy, &spent)) return;
-    for (int i = 0; i < set.n_contacts; i++) {
-        const struct plan *p = &m->parts.parts[i].plan;
-        for (int k = 0; k < p->n; k++)
-            cost += p->rows[k].verdict == PLAN_RUNS ? stages_work(p->rows[k].stage, p->contact, &set) : 0;
-    }
-    if (cost >= s->cost) return;
-    s->cost = cost;
-    memcpy(s->best, s->tenths, sizeof s->best);
-}
-
-/* All ways to share out what is left among the sources from i on, a tenth at least to each. */
-static void share(const struct budgeting *m, struct sources *s, int i, int left)
-{
-    if (i == s->n - 1) {
-        s->tenths[i] = left;
-        try_shares(m, s);
-        return;
-    }
-    for (s->tenths[i] = 1; s->tenths[i] <= left - (s->n - 1 - i); s->tenths[i]++) {
-        int chosen = s->tenths[i];
-        share(m, s, i + 1, left - chosen);
-        s->tenths[i] = chosen;
-    }
-}
-
-/* Every knob as fine as helps, however the budget is then shared. */
-static bool take_best(const struct budgeting *m, const struct sources *s, struct accuracy *set, double *spent)
-{
-    *spent = 0;
-    for (int i = 0; i < s->n; i++) {
-        const struct error_curve *c = &m->curves[s->knob[i]];
-        double value = error_curve_best(c), error = error_curve_error(c, value) / m->whole;
-        *spent += error * error;
-        accuracy_turn(set, (enum knob)s->knob[i], value);
-    }
-    return *spent < s->left;
-}
-
-/* Sets the knobs that the scene leaves open. False: there are no such values. */
-static bool share_budget(struct budgeting *m)
-{
-    struct sources s = {.cost = HUGE_VAL, .left = 1};
-    double spent = 0;
-    for (int k = 0; k < KNOBS; k++)
-        if (budget_used(m, k) && is_users(m, k)) { /* what knobs that are said leave of the budget's square */
-            double error =
-                error_curve_error(&m->curves[k], accuracy_knob(&m->asked->accuracy, (enum knob)k)) / m->whole;
-            s.left -= error * error;
-        } else if (budget_used(m, k) && s.n < SOURCES)
-            s.knob[s.n++] = k;
-    if (s.n == 0) /* nothing is free: the margin is no matter */
-        return s.left >= 1 - real_exp10(ERROR_BUDGET_MARGIN / 10);
-    if (s.left > 0) share(m, &s, 0, TENTHS);
-    struct accuracy set = m->chosen->accuracy;
-    if (!(isfinite(s.cost) ? take(m, &s, s.best, &set, &spent) : take_best(m, &s, &set, &spent))) return false;
-    m->chosen->accuracy = set;
-    return true;
-}
-
-static double decibel(double x) { return 20 * real_log10(x); }
+static double decibel(double power) { return power > 0 ? 10 * real_log10(power) : -HUGE_VAL; }
 
 /* ------------------------------------------------------------------ telling */
 
@@ -387,13 +335,12 @@ static void parts_text(struct budgeting *m)
     double sum = 0;
     p->n = 0;
     for (int k = 0; k < KNOBS; k++) {
-        double value = accuracy_knob(&m->chosen->accuracy, (enum knob)k);
-        double error = budget_used(m, k) ? error_curve_error(&m->curves[k], value) : 0;
-        if (error > 0) p->parts[p->n++] = (struct error_budget_part){(enum knob)k, is_users(m, k), value, error};
+        double error = budget_used(m, k) && m->energy > 0 ? m->found[k].energy / m->energy : 0;
+        sum += error;
+        if (error > 0)
+            p->parts[p->n++] = (struct error_budget_part){(enum knob)k, is_users(m, k), m->found[k].value, sqrt(error)};
     }
-    for (int i = 0; i < p->n; i++)
-        sum += p->parts[i].error * p->parts[i].error;
-    p->predicted = sum > 0 ? decibel(sqrt(sum)) : -HUGE_VAL;
+    p->predicted = decibel(sum);
 }
 
 static const char *budget_text(struct arena *a, const struct error_budget *p)
@@ -404,49 +351,67 @@ static const char *budget_text(struct arena *a, const struct error_budget *p)
     text = arena_format(a, "%s%.1f dB predicted: ", text, p->predicted);
     for (int i = 0; i < p->n; i++)
         text = arena_format(a, "%s%s%s %.6g %.1f dB%s", text, i ? ", " : "", keys_knobs[p->parts[i].knob].name,
-                            p->parts[i].value, decibel(p->parts[i].error), p->parts[i].by_user ? " (said)" : "");
+                            p->parts[i].value, decibel(p->parts[i].error * p->parts[i].error), p->parts[i].by_user ? " (said)" : "");
     return text;
 }
 
-/* What is in the way, and what could be had: every free knob at its finest. */
+/* What is in the way, and what could be had: every knob that is open at its best. */
 static bool refuse(struct budgeting *m, struct err *e)
 {
     struct error_budget *p = m->to;
-    const struct error_budget_part *worst = p->parts;
+    double most = 0, fixed = 0;
+    int open = 0;
+    bool had;
     if (run_chaos_pilot(m, true, e)) return false;
-    for (int k = 0; k < KNOBS; k++)
-        if (budget_used(m, k) && !is_users(m, k))
-            accuracy_turn(&m->chosen->accuracy, (enum knob)k, error_curve_best(&m->curves[k]));
+    for (int k = 0; k < ORDER; k++) {
+        struct found *f = &m->found[order[k]];
+        if (!budget_used(m, order[k])) continue;
+        if (is_users(m, order[k])) {
+            fixed += f->energy;
+            continue;
+        }
+        if (!climb(m, order[k], -1, &had, e)) return false;
+        f->value = f->best;
+        f->energy = f->least;
+        most = fmax(most, f->least);
+        open++;
+    }
     parts_text(m);
+    const struct error_budget_part *worst = p->parts;
     for (int i = 0; i < p->n; i++)
         worst = p->parts[i].error > worst->error ? &p->parts[i] : worst;
-    double best = ceil(p->predicted + ERROR_BUDGET_MARGIN);
+    double best = ceil(decibel((fixed + open * most) / m->energy) + 1e-6), alone = decibel(worst->error * worst->error);
     err_about(e, NULL, "accuracy.error");
     if (worst->by_user)
         return err_set(e, ERR_SCENE,
                        "accuracy.error: %.6g dB cannot be promised: accuracy.%s is %.6g, which alone leaves %.1f dB; "
                        "take it out, or ask for %.0f dB at most",
-                       p->error, keys_knobs[worst->knob].name, worst->value, decibel(worst->error), best);
+                       p->error, keys_knobs[worst->knob].name, worst->value, alone, best);
     return err_set(e, ERR_SCENE,
-                   "accuracy.error: %.6g dB cannot be promised: %s stands in the way, of which at its finest, %.6g, no "
+                   "accuracy.error: %.6g dB cannot be promised: %s stands in the way, of which at its best, %.6g, no "
                    "less than %.1f dB is promised; the best that can be promised here is %.0f dB",
-                   p->error, keys_knobs[worst->knob].name, worst->value, decibel(worst->error), best);
+                   p->error, keys_knobs[worst->knob].name, worst->value, alone, best);
 }
 
 /* ------------------------------------------------------------------ choosing */
 
-/* From the cheapest values of all knobs on. That an error cannot be kept is believed when all is piloted, and not
-   before. The engines are chosen then, and need not be again. */
+/* From the cheapest values of all knobs on. The engines are chosen then, and need not be again. */
 static bool make(struct budgeting *m, struct err *e)
 {
+    bool had;
     for (int k = 0; k < KNOBS; k++)
         if (!is_users(m, k)) accuracy_turn(&m->chosen->accuracy, (enum knob)k, keys_knobs[k].preset[0]);
     m->parts = render_parts_make(m->chosen, m->arena);
     if (!render_parts_plan(&m->parts, e)) return false;
     m->sounds = m->parts.asked & ITEM_BIT(ITEM_SOUND);
-    for (int i = 0; i < m->chosen->n_contacts; i++)
+    m->pilot = ARENA_TAKE(m->arena, struct error_pilot, m->chosen->n_contacts);
+    m->kept = ARENA_TAKE(m->arena, struct kept, m->chosen->n_contacts);
+    for (int i = 0; i < m->chosen->n_contacts; i++) {
         m->used |= plan_knobs(&m->parts.parts[i].plan);
-    if (!run_pilot(m, m->whole, e) || !(share_budget(m) || (run_pilot(m, 0, e) && (share_budget(m) || refuse(m, e)))))
+        if (is_audible(m, i) && !begin(m, i, e)) return false;
+    }
+    if (run_chaos_pilot(m, false, e) ||
+        !share_budget(m, real_exp10(m->asked->accuracy.error / 10) * m->energy, &had, e) || !(had || refuse(m, e)))
         return false;
     parts_text(m);
     struct contact *c = ARENA_TAKE(m->arena, struct contact, m->chosen->n_contacts);
@@ -463,8 +428,7 @@ bool error_budget_apply(const struct scene *asked, struct arena *a, struct scene
     struct budgeting m = {.asked = asked,
                           .chosen = chosen,
                           .arena = a,
-                          .to = p ? p : &own,
-                          .whole = real_exp10((asked->accuracy.error - ERROR_BUDGET_MARGIN) / 20)};
+                          .to = p ? p : &own};
     double start = stopwatch_cpu();
     *chosen = *asked;
     *m.to =

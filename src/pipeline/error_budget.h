@@ -1,21 +1,18 @@
-/* accuracy.error: the knobs that a scene leaves unsaid, chosen as the cheapest that keep an error, which is predicted
+/* accuracy.error: the knobs that a scene leaves unsaid, chosen as the coarsest that keep an error, which is predicted
    before anything is rendered.
 
    The error is that of all knobs that turn the scene, each taken to be independent of the others, so that powers add:
 
-     predicted^2 = sum of e_k^2 <= (asked / margin)^2        margin  ERROR_BUDGET_MARGIN, for what excerpts do not see
+     predicted^2 = sum of e_k^2 <= asked^2
 
-   e of gain_ramp   the sound of the whole motion at halved values against each other (error_curve.h), all else at
-                    `draft`
-   e of steps       piloted on excerpts of the motion, up to the force, at doubled values (segments.h), and weighed by
-                    what of the force is heard */
+   e of gain_ramp   the sound of the whole motion at halved values against each other, all else at `draft`
+   e of steps       the force at doubled values against each other, weighed by what of it is heard: of the whole motion
+                    at the two coarsest values, then of the blocks that differ most and a few others (error_pilot.h) */
 #ifndef PIPELINE_ERROR_BUDGET_H
 #define PIPELINE_ERROR_BUDGET_H
 #include "base/arena.h"
 #include "base/err.h"
 #include "scene/scene.h"
-
-#define ERROR_BUDGET_MARGIN 3.0 /* dB */
 
 struct error_budget_part {
     enum knob knob;

@@ -1,0 +1,390 @@
+/* A kink of the force (a rest, a reversal, a corner, a jump of alpha) makes most of the error of a motion in one block,
+   and around it the error is erratic in the knob: what agrees at two settings may differ at the next. So all blocks are
+   surveyed, none is drawn in proportion to anything, and a block's difference is believed to fall by 12 dB at most from
+   one doubling to the next.
+
+   Of the blocks that are not followed each counts as the mean of those spread evenly, or, where that is more, as its
+   share of the survey's differences says, four times the mean at most. */
+#include "pipeline/error_pilot.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "convolution/ring_choice.h"
+#include "force/strike.h"
+#include "num/fft.h"
+#include "num/real.h"
+#include "pipeline/run.h"
+#include "pipeline/stages.h"
+#include "response/response.h"
+#include "scene/params.h"
+#include "scene/scene.h"
+#include "trajectory/trajectory.h"
+
+enum { KEEPS = 1 << 20 }; /* frames of a force that are kept in memory at most */
+enum { SETTLED = 64 }; /* frames that a limited trajectory feels where it begins, and that a force lasts after the motion */
+
+/* What of a contact's force is heard: the power of its sound over that of the force, by frequency. */
+
+/* power[PILOT_BINS] of the contact's sound at a place (m) that is touched and left: its response to a unit impulse,
+   all listening places together, of the first AUDIBLE_FRAMES frames (what rings longer is counted less than it rings:
+   all of it, by the same bands). Where nothing rings, and of a contact whose gain is 0, it is 1: the force itself.
+   Errors: those of plans and stages. */
+enum { AUDIBLE_FRAMES = 8192 };
+
+/* The contact is replaced by a strike far shorter than a sample, and its sound by the scene's own stages: whatever
+   rings (modes, recordings, an object, scraper and surface) and however it is heard needs no second formula here.
+
+     |H(f)|^2 = sum over channels |FFT of the sound|^2 / (sum of the force's samples)^2      means over 1/512 of
+       the band */
+#define SHORT 1e-7   /* s, of the strike */
+enum { FIRST = 64 }; /* frames before it: the decimator's reach and more */
+
+static void strike(struct contact *c, const double place[2], double rate, struct arena *a)
+{
+    double mass = 0.01;
+    c->start = 0;
+    c->contact.model = CONTACT_STRIKE;
+    *(struct strike *)params_edit(c, strike_stage.params, a) =
+        (struct strike){.pulse = PULSE_HALF_SINE,
+                        .speed = 1,
+                        .stiffness = mass * REAL_PI * REAL_PI / (SHORT * SHORT),
+                        .first = FIRST / rate,
+                        .count = 1,
+                        .interval = NAN,
+                        .restitution = NAN};
+    c->scraper.mass = mass;
+    c->motion = (struct motion){
+        .path = PATH_STILL, .at = {place[0], place[1]}, .duration = AUDIBLE_FRAMES / rate, .speed = NAN};
+}
+
+static bool measure(struct run *r, struct arena *a, double *power, struct err *e)
+{
+    enum { WIDE = AUDIBLE_FRAMES / 2 / (PILOT_BINS - 1) };
+    int channels = r->board.channels;
+    double *sound = ARENA_TAKE(a, double, (size_t)channels *AUDIBLE_FRAMES), pushed = 0;
+    double *re = ARENA_TAKE(a, double, AUDIBLE_FRAMES / 2 + 1), *im = ARENA_TAKE(a, double, AUDIBLE_FRAMES / 2 + 1);
+    for (long from = 0; from < AUDIBLE_FRAMES; from += STAGE_BLOCK) {
+        if (!run_block(r, from + STAGE_BLOCK, e)) return false;
+        const double *x = board_at(&r->board, ITEM_SOUND, from), *force = board_at(&r->board, ITEM_FORCE, from);
+        for (long i = 0; i < STAGE_BLOCK; i++) {
+            pushed += force[i];
+            for (int k = 0; k < channels; k++)
+                sound[k * (long)AUDIBLE_FRAMES + from + i] = x[i * channels + k];
+        }
+    }
+    struct fft *f = fft_open(AUDIBLE_FRAMES);
+    memset(power, 0, PILOT_BINS * sizeof *power);
+    for (int k = 0; k < channels; k++) { /* each channel's spectrum onto the bands */
+        fft_forward(f, sound + k * (long)AUDIBLE_FRAMES, re, im);
+        for (int i = 0; i <= AUDIBLE_FRAMES / 2; i++)
+            power[(i + WIDE / 2) / WIDE] += re[i] * re[i] + im[i] * im[i];
+    }
+    fft_close(f);
+    for (int k = 0; k < PILOT_BINS; k++)
+        power[k] /= pushed * pushed * (k == 0 || k == PILOT_BINS - 1 ? 0.5 * WIDE + 0.5 : WIDE);
+    return true;
+}
+
+static bool audible_power(const struct scene *s, const struct contact *c, const double place[2], double *power,
+                          struct err *e)
+{
+    struct scene own = *s;
+    struct contact struck = *c;
+    struct plan p;
+    struct run r;
+    for (int k = 0; k < PILOT_BINS; k++)
+        power[k] = 1;
+    if (s->output.quantity == QUANTITY_FORCE || !response_rings(c) || c->gain == 0) return true;
+    struct arena *a = arena_open();
+    strike(&struck, place, s->output.sample_rate, a);
+    own.contacts = &struck;
+    own.n_contacts = 1;
+    own.output.stems = NULL;
+    own.output.diagnostics.given = false;
+    own.output.impacts = LISTING_NONE;
+    bool ok = plan_make(stages_table, &struck, &own, a, &p, e) && run_open(&r, &p, &own, NULL, e);
+    if (ok) {
+        ok = measure(&r, a, power, e);
+        run_close(&r);
+    }
+    arena_close(a);
+    return ok;
+}
+
+/* ------------------------------------------------------------------ making */
+
+/* Is the force read from the ground wherever the contact is, so that it can begin anywhere? */
+static bool anywhere(const struct contact *c)
+{
+    return (c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL ||
+            c->contact.model == CONTACT_PLAYBACK) &&
+           c->motion.path != PATH_STILL;
+}
+
+bool error_pilot_make(const struct scene *s, const struct contact *c, double some, bool moves, struct arena *a,
+                      struct error_pilot *p, struct err *e)
+{
+    struct trajectory tr;
+    double rate = s->output.sample_rate;
+    *p = (struct error_pilot){.scene = *s,
+                              .contact = *c,
+                              .gain = c->gain,
+                              .drift = 1,
+                              .places = moves ? PILOT_PLACES : 1,
+                              .power = ARENA_TAKE(a, double, PILOT_PLACES *PILOT_BINS),
+                              .block = ARENA_TAKE(a, struct pilot_block, PILOT_FOLLOWED)};
+    if (c->gain == 0) /* it is here for its table, which holds its force as it is */
+        p->gain = p->contact.gain = 1;
+    *(bool *)params_edit(&p->contact, enhance_stage.params, a) = false; /* the weighting has it */
+    p->scene.contacts = &p->contact;
+    p->scene.n_contacts = 1;
+    p->scene.output.quantity = QUANTITY_FORCE;
+    p->scene.output.stems = NULL;
+    p->scene.output.listen.given = false;
+    p->scene.output.channels = 1;
+    p->scene.output.diagnostics.given = false;
+    p->scene.output.impacts = LISTING_NONE;
+    if (!trajectory_make(&c->motion, trajectory_seed(s, c), a, &tr, e)) return err_at(e, "contact '%s'", c->name);
+    p->moving = trajectory_frames(&tr, rate);
+    p->some = p->moving + SETTLED;
+    if (c->contact.model == CONTACT_ROLL_COUPLED) {
+        long first = (long)ceil(some * rate);
+        p->some = first < p->some ? first : p->some;
+        p->drift = fmax(1, (double)p->moving / (double)p->some);
+    }
+    p->blocks = (p->some + PILOT_HOP - 1) / PILOT_HOP + 1;
+    p->follows = anywhere(c) && p->blocks > 2 * PILOT_FOLLOWED + PILOT_SPREAD; /* else as dear */
+    p->last = p->follows || p->some > KEEPS ? NULL : ARENA_TAKE(a, double, p->some);
+    p->distance = ARENA_TAKE(a, double, p->blocks);
+    p->older = ARENA_TAKE(a, double, p->blocks);
+    if (!plan_make(stages_table, &p->contact, &p->scene, a, &p->plan, e)) return false;
+    p->knobs = plan_knobs(&p->plan);
+    for (int k = 0; k < p->places; k++) { /* of a response that moves, those in the middle of each third */
+        double t = tr.duration * (2 * k + 1) / (2 * p->places), place[2];
+        trajectory_at(&tr, 1, &t, (struct trajectory_out){.x = &place[0], .y = &place[1]});
+        if (!audible_power(s, c, place, p->power + k * PILOT_BINS, e)) return false;
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------ blocks */
+
+struct hearing {
+    struct fft *fft;
+    double taper[PILOT_WINDOW], x[PILOT_WINDOW], re[PILOT_BINS], im[PILOT_BINS];
+};
+
+static struct hearing hearing_open(void)
+{
+    struct hearing h = {.fft = fft_open(PILOT_WINDOW)};
+    for (int i = 0; i < PILOT_WINDOW; i++) {
+        double s = real_sin(REAL_PI * (i + 0.5) / PILOT_WINDOW);
+        h.taper[i] = s * s;
+    }
+    return h;
+}
+
+/* Of x - y (y NULL: of x) in a block. */
+static double block_energy(const struct error_pilot *p, struct hearing *h, long block, const double *x, const double *y)
+{
+    const double *power = p->power + block * p->places / p->blocks * PILOT_BINS;
+    double sum = 0, any = 0;
+    for (int i = 0; i < PILOT_WINDOW; i++) {
+        h->x[i] = h->taper[i] * (y ? x[i] - y[i] : x[i]);
+        any = fmax(any, fabs(h->x[i]));
+    }
+    if (any == 0) return 0;
+    fft_forward(h->fft, h->x, h->re, h->im);
+    for (int k = 0; k < PILOT_BINS; k++)
+        sum += (k == 0 || k == PILOT_BINS - 1 ? 1 : 2) * power[k] * (h->re[k] * h->re[k] + h->im[k] * h->im[k]);
+    return p->gain * p->gain * sum / PILOT_WINDOW;
+}
+
+static void learn(struct error_pilot *p, const struct run *r)
+{
+    p->bounces = r->board.roll.bounces > p->bounces ? r->board.roll.bounces : p->bounces;
+    p->lift_offs = r->board.roll.lift_offs > p->lift_offs ? r->board.roll.lift_offs : p->lift_offs;
+}
+
+static void block_take(struct pilot_block *b, long number, const double *x, double distance)
+{
+    b->number = number;
+    b->distance[0] = distance;
+    memcpy(b->x, x, sizeof b->x);
+}
+
+/* Is the block one of those spread evenly, and which? */
+static int spread_at(const struct error_pilot *p, long number)
+{
+    for (int k = 0; k < PILOT_SPREAD; k++)
+        if (number == p->blocks * (2 * k + 1) / (2 * PILOT_SPREAD)) return PILOT_WORST + k;
+    return -1;
+}
+
+static void block_follow(struct error_pilot *p, long number, const double *x, double distance)
+{
+    int least = 0, spread = spread_at(p, number);
+    for (int k = 1; k < PILOT_WORST; k++)
+        if (p->block[k].distance[0] < p->block[least].distance[0]) least = k;
+    if (p->block[least].number < 0 || distance > p->block[least].distance[0])
+        block_take(&p->block[least], number, x, distance);
+    if (spread >= 0) block_take(&p->block[spread], number, x, distance);
+}
+
+bool error_pilot_survey(struct error_pilot *p, const struct accuracy *set, const struct accuracy *finer, bool going,
+                        struct err *e)
+{
+    const struct accuracy *sets[2] = {going && p->last ? NULL : set, finer}; /* NULL: not run */
+    struct scene scene[2] = {p->scene, p->scene};
+    struct run r[2];
+    bool open[2] = {false, false}, ok = true;
+    struct hearing h = hearing_open();
+    double x[2][PILOT_WINDOW] = {{0}}, *older = p->older, *now = x[finer != NULL];
+    p->older = p->distance;
+    p->distance = older;
+    p->energy = 0;
+    p->surveys++;
+    for (int k = 0; k < PILOT_FOLLOWED; k++)
+        p->block[k] = (struct pilot_block){.number = -1};
+    for (int k = 0; ok && k < 2; k++) {
+        if (!sets[k]) continue;
+        scene[k].accuracy = *sets[k];
+        ok = open[k] = run_open(&r[k], &p->plan, &scene[k], NULL, e);
+    }
+    for (long number = 0; ok && number < p->blocks; number++) {
+        long from = number * PILOT_HOP, left = p->some - from, frames = left < PILOT_HOP ? left : PILOT_HOP;
+        for (int k = 0; k < 2; k++) {
+            memcpy(x[k], x[k] + PILOT_HOP, PILOT_HOP * sizeof(double));
+            memset(x[k] + PILOT_HOP, 0, PILOT_HOP * sizeof(double));
+        }
+        for (int k = 0; ok && k < 2 && frames > 0; k++) {
+            const double *force = k == 0 && !open[0] ? p->last + from : NULL;
+            if (open[k] && (ok = run_block(&r[k], from + frames, e)))
+                force = board_at(&r[k].board, ITEM_FORCE, from);
+            if (ok && force) memcpy(x[k] + PILOT_HOP, force, (size_t)frames * sizeof(double));
+        }
+        if (!ok) break;
+        if (p->last && frames > 0) memcpy(p->last + from, now + PILOT_HOP, (size_t)frames * sizeof(double));
+        double energy = block_energy(p, &h, number, now, NULL);
+        p->energy += energy;
+        p->distance[number] = finer ? block_energy(p, &h, number, x[1], x[0]) : energy;
+        if (p->follows) block_follow(p, number, now, p->distance[number]);
+    }
+    for (int k = PILOT_WORST; k < PILOT_FOLLOWED; k++) /* one that is among the worst does not stand for others */
+        for (int i = 0; i < PILOT_WORST; i++)
+            if (p->block[i].number == p->block[k].number) p->block[k].number = -1;
+    for (int k = 0; k < 2; k++) {
+        if (!open[k]) continue;
+        learn(p, &r[k]);
+        run_close(&r[k]);
+    }
+    fft_close(h.fft);
+    return ok;
+}
+
+/* The block not run yet that begins first. */
+static int next_block(const struct error_pilot *p, long after)
+{
+    int first = -1;
+    for (int k = 0; k < PILOT_FOLLOWED; k++)
+        if (p->block[k].number > after && (first < 0 || p->block[k].number < p->block[first].number)) first = k;
+    return first;
+}
+
+bool error_pilot_follow(struct error_pilot *p, const struct accuracy *set, struct err *e)
+{
+    struct scene scene = p->scene;
+    struct run r;
+    struct arena *a = arena_open();
+    struct window {
+        double x[PILOT_WINDOW];
+    } *now = ARENA_TAKE(a, struct window, PILOT_FOLLOWED);
+    bool ok = true;
+    scene.accuracy = *set;
+    if (!run_open(&r, &p->plan, &scene, NULL, e)) {
+        arena_close(a);
+        return false;
+    }
+    /* Where a block begins the limited trajectory begins, too: so it is where the first, coarsest run has it for all. */
+    if (p->lead == 0) {
+        p->lead = SETTLED;
+        for (int i = 0; i < r.n; i++)
+            p->lead += r.stages[i].back + r.stages[i].ahead;
+    }
+    long at = 0;
+    for (int k = -1; ok && (k = next_block(p, k < 0 ? -1 : p->block[k].number)) >= 0;) {
+        long from = (p->block[k].number - 1) * PILOT_HOP, end = from + PILOT_WINDOW;
+        end = end < p->some ? end : p->some;
+        if (from - p->lead > at) run_skip(&r, at = from - p->lead);
+        for (long to; ok && at < end; at = to) {
+            to = at + STAGE_BLOCK < end ? at + STAGE_BLOCK : end;
+            ok = run_block(&r, to, e);
+            const double *force = ok ? board_at(&r.board, ITEM_FORCE, at) : NULL;
+            for (int i = 0; ok && i < PILOT_FOLLOWED; i++) {
+                long begin = (p->block[i].number - 1) * PILOT_HOP, first = at > begin ? at : begin,
+                     last = to < begin + PILOT_WINDOW ? to : begin + PILOT_WINDOW;
+                if (p->block[i].number >= 0 && first < last)
+                    memcpy(now[i].x + (first - begin), force + (first - at), (size_t)(last - first) * sizeof(double));
+            }
+        }
+    }
+    learn(p, &r);
+    run_close(&r);
+    struct hearing h = hearing_open();
+    for (int k = 0; ok && k < PILOT_FOLLOWED; k++) {
+        struct pilot_block *b = &p->block[k];
+        if (b->number < 0) continue;
+        b->distance[1] = b->distance[0];
+        b->distance[0] = block_energy(p, &h, b->number, now[k].x, b->x);
+        memcpy(b->x, now[k].x, sizeof b->x);
+    }
+    fft_close(h.fft);
+    arena_close(a);
+    return ok;
+}
+
+double error_pilot_surveyed(const struct error_pilot *p)
+{
+    double sum = 0;
+    for (long b = 0; b < p->blocks; b++)
+        sum += p->distance[b];
+    return p->drift * p->drift * sum;
+}
+
+double error_pilot_distance(const struct error_pilot *p, bool history)
+{
+    double sum = 0, spread = 0, surveyed = 0, rest = 0, part = history ? 1.0 / 16 : 0;
+    long n = 0, others = p->blocks;
+    if (!p->follows) {
+        for (long b = 0; b < p->blocks; b++)
+            sum += fmax(p->distance[b], part * p->older[b]);
+        return p->drift * p->drift * sum;
+    }
+    for (long b = 0; b < p->blocks; b++)
+        rest += p->distance[b];
+    for (int k = 0; k < PILOT_FOLLOWED; k++) {
+        const struct pilot_block *b = &p->block[k];
+        if (b->number < 0) continue;
+        double own = fmax(b->distance[0], part * b->distance[1]);
+        sum += own;
+        others--;
+        rest -= p->distance[b->number];
+        if (k < PILOT_WORST) continue;
+        spread += own;
+        surveyed += p->distance[b->number];
+        n++;
+    }
+    double mean = n ? spread / (double)n : 0, by_share = surveyed > 0 ? spread * fmax(rest, 0) / surveyed : 0,
+           even = mean * (double)others;
+    return sum + fmax(even, fmin(by_share, 4 * even));
+}
+
+bool error_pilot_can(struct error_pilot *p, const struct accuracy *set, struct err *e)
+{
+    struct run r;
+    p->scene.accuracy = *set;
+    bool ok = run_open(&r, &p->plan, &p->scene, NULL, e);
+    if (ok) run_close(&r);
+    return ok;
+}
