@@ -361,10 +361,11 @@ static void damping(const struct material_set *set, int sets, struct arena *a, s
             f->best = law;
     if (f->damping[f->best].scatter > lawless)
         warn(f, a,
-             arena_format(a,
-                          "decays lie %.0f %% (rms) beside the likeliest law: they are not of one material; air, support "
-                          "and what decays at once are among them (modes extract --modes takes the strongest)",
-                          100.0 * f->damping[f->best].scatter));
+             arena_format(
+                 a,
+                 "decays lie %.0f %% (rms) beside the likeliest law: they are not of one material; air, support "
+                 "and what decays at once are among them (modes extract --modes takes the strongest)",
+                 100.0 * f->damping[f->best].scatter));
 }
 
 /* No intervals. */

@@ -340,7 +340,7 @@ static bool write_sound(struct job *j, const char *name, const double *x, const 
     int channels = other ? 2 : 1;
     struct wav_format f = {
         .rate = j->x.rate, .channels = channels, .bits = -32, .comment = "rasp: by rasp modes residual"};
-    double *scaled = ARENA_TAKE(j->arena, double, channels *j->length);
+    double *scaled = ARENA_TAKE(j->arena, double, channels * j->length);
     struct wav_out *w = wav_create(at(j, name), &f, e);
     for (long i = 0; i < j->length; i++) {
         scaled[channels * i] = j->sounds * x[i];
@@ -441,8 +441,7 @@ static bool write_files(struct job *j, const struct figures *g, struct err *e)
     static const char *const names[] = {RESIDUAL_WAV, RESIDUAL_MODES, RESIDUAL_STRIKE};
     struct outfile *o = ARENA_TAKE(j->arena, struct outfile, 1);
     if (!write_sound(j, RESIDUAL_WAV, j->response, NULL, e) ||
-        !write_sound(j, RESIDUAL_STRIKE, j->represented, j->residual, e) ||
-        !outfile_open(o, at(j, RESIDUAL_MODES), e))
+        !write_sound(j, RESIDUAL_STRIKE, j->represented, j->residual, e) || !outfile_open(o, at(j, RESIDUAL_MODES), e))
         return false;
     modes_write(o->stream, j);
     if (!outfile_commit(o, e)) return false;
@@ -500,12 +499,13 @@ static void report(const struct job *j, const struct figures *g, bool json, stru
     const char *lacks = why_not(j), *strike = "";
     struct report r = report_open(stdout, json);
     double seconds = (double)j->length / j->x.rate, onset = (double)v->onset / j->x.rate;
-    report_set(&r,
-               "folder:s recording:s table:s estimated:s strike:i onset_s:n start_s:n momentum:n peak:n quantity:s per:s "
-               "physical:b seconds:n modes:i outside:i",
-               j->folder, j->place->shown, j->table.file, j->estimated.file, stretch_of(j)->strike + 1, onset,
-               (double)j->start / j->x.rate, v->momentum, v->peak, modes_quantity_name(j->x.given.quantity), per(j), !lacks, seconds, j->table.n,
-               j->outside);
+    report_set(
+        &r,
+        "folder:s recording:s table:s estimated:s strike:i onset_s:n start_s:n momentum:n peak:n quantity:s per:s "
+        "physical:b seconds:n modes:i outside:i",
+        j->folder, j->place->shown, j->table.file, j->estimated.file, stretch_of(j)->strike + 1, onset,
+        (double)j->start / j->x.rate, v->momentum, v->peak, modes_quantity_name(j->x.given.quantity), per(j), !lacks,
+        seconds, j->table.n, j->outside);
     report_set(&r, "noise_removed:b match_ratio_mean:n match_ratio_least:n match_ratio_by_energy:n match_score:n",
                j->noise != NULL, g->mean, g->least, j->estimated.file ? j->match.represented : 1.0,
                j->estimated.file ? j->match.score : 1.0);

@@ -41,7 +41,7 @@ static const struct choice shifts[] = {
 static const struct key keys[] = {
     {ROW_FILE(surface_residual, file, RESIDUAL), KEY_NONE, 0, 0, "", NULL,
      "what the surface sounds besides its modes: the residual.yaml in a folder that rasp modes residual wrote",
-     .example = "oak/residual.yaml"},
+     .shown = "oak/residual.yaml"},
     {ROW_CHOICE(surface_residual, inverse, "surface.residual_inverse"), KEY_NONE, 0, 0, "phases", RESIDUAL,
      "how a sound is made from the spectrogram that is transferred", inverses},
     {ROW_CHOICE(surface_residual, shift, "surface.residual_shift"), KEY_NONE, 0, 0, "difference", RESIDUAL,

@@ -172,16 +172,16 @@ static bool compare_ramps(const struct budgeting *m, int contact, const double r
     for (int k = kept->x || !depends; ok && k < 2; k++)
         ok = open[k] = run_open(&r[k], &p, &set[k], NULL, e);
     const struct board *b = &r[1].board;
-    long frames = ok ? b->moving + (long)(0.5 * fmin(b->ring, LONGEST) * b->rate) : 0, room = frames * (ok ? b->channels : 0);
+    long frames = ok ? b->moving + (long)(0.5 * fmin(b->ring, LONGEST) * b->rate) : 0,
+         room = frames * (ok ? b->channels : 0);
     if (depends && !kept->next && room <= KEPT) kept->next = ARENA_TAKE(m->arena, double, room);
     for (long from = 0, to; ok && from < frames; from = to) {
         to = from + STAGE_BLOCK < frames ? from + STAGE_BLOCK : frames;
         ok = (!open[0] || run_block(&r[0], to, e)) && run_block(&r[1], to, e);
         if (!ok) break;
-        const double *y = board_at(b, ITEM_SOUND, from),
-                     *x = open[0]   ? board_at(&r[0].board, ITEM_SOUND, from)
-                          : depends ? kept->x + from * b->channels
-                                    : y;
+        const double *y = board_at(b, ITEM_SOUND, from), *x = open[0]   ? board_at(&r[0].board, ITEM_SOUND, from)
+                                                              : depends ? kept->x + from * b->channels
+                                                                        : y;
         for (long i = 0; i < (to - from) * b->channels; i++) {
             *all += y[i] * y[i];
             *distance += (x[i] - y[i]) * (x[i] - y[i]);
@@ -204,10 +204,10 @@ static bool ramps_distance(const struct budgeting *m, const double ramp[2], bool
     return true;
 }
 
-/* Energy of the difference between a value and a finer one, which follow others (going) or begin; [1]: as it is, without
-   history. */
-static bool knob_distance(struct budgeting *m, int knob, const double value[2], bool going,
-                          double distance[2], struct err *e)
+/* Energy of the difference between a value and a finer one, which follow others (going) or begin; [1]: as it is,
+   without history. */
+static bool knob_distance(struct budgeting *m, int knob, const double value[2], bool going, double distance[2],
+                          struct err *e)
 {
     struct accuracy set = turned(m, knob, value[0]), finer = turned(m, knob, value[1]);
     distance[0] = distance[1] = 0;
@@ -222,7 +222,7 @@ static bool knob_distance(struct budgeting *m, int knob, const double value[2], 
         bool surveyed = knob == KNOB_oversampling && value[0] == m->chosen->accuracy.oversampling &&
                         value[1] == 2 * value[0] && (p->follows || p->surveys == 1) &&
                         p->contact.contact.model != CONTACT_ROLL_COUPLED; /* by begin */
-        bool ok = surveyed      ? true
+        bool ok = surveyed     ? true
                   : p->follows ? (going || error_pilot_follow(p, &set, e)) && error_pilot_follow(p, &finer, e)
                                : error_pilot_survey(p, &set, &finer, going, e);
         if (!ok) return false;
@@ -291,7 +291,8 @@ static bool climb(struct budgeting *m, int knob, double share, bool *had, struct
     }
 }
 
-/* In which order knobs are chosen: oversampling, for which contact_steps are known by then, has what the others leave. */
+/* In which order knobs are chosen: oversampling, for which contact_steps are known by then, has what the others
+   leave. */
 static const int order[] = {KNOB_contact_steps, KNOB_gain_ramp, KNOB_tip_heights, KNOB_oversampling};
 
 enum { ORDER = sizeof order / sizeof *order };
@@ -351,7 +352,8 @@ static const char *budget_text(struct arena *a, const struct error_budget *p)
     text = arena_format(a, "%s%.1f dB predicted: ", text, p->predicted);
     for (int i = 0; i < p->n; i++)
         text = arena_format(a, "%s%s%s %.6g %.1f dB%s", text, i ? ", " : "", keys_knobs[p->parts[i].knob].name,
-                            p->parts[i].value, decibel(p->parts[i].error * p->parts[i].error), p->parts[i].by_user ? " (said)" : "");
+                            p->parts[i].value, decibel(p->parts[i].error * p->parts[i].error),
+                            p->parts[i].by_user ? " (said)" : "");
     return text;
 }
 
@@ -425,10 +427,7 @@ bool error_budget_apply(const struct scene *asked, struct arena *a, struct scene
                         struct err *e)
 {
     struct error_budget own;
-    struct budgeting m = {.asked = asked,
-                          .chosen = chosen,
-                          .arena = a,
-                          .to = p ? p : &own};
+    struct budgeting m = {.asked = asked, .chosen = chosen, .arena = a, .to = p ? p : &own};
     double start = stopwatch_cpu();
     *chosen = *asked;
     *m.to =

@@ -22,7 +22,9 @@
 #include "trajectory/trajectory.h"
 
 enum { KEEPS = 1 << 20 }; /* frames of a force that are kept in memory at most */
-enum { SETTLED = 64 }; /* frames that a limited trajectory feels where it begins, and that a force lasts after the motion */
+enum {
+    SETTLED = 64
+}; /* frames that a limited trajectory feels where it begins, and that a force lasts after the motion */
 
 /* What of a contact's force is heard: the power of its sound over that of the force, by frequency. */
 
@@ -35,10 +37,11 @@ enum { AUDIBLE_FRAMES = 8192 };
 /* The contact is replaced by a strike far shorter than a sample, and its sound by the scene's own stages: whatever
    rings (modes, recordings, an object, scraper and surface) and however it is heard needs no second formula here.
 
-     |H(f)|^2 = sum over channels |FFT of the sound|^2 / (sum of the force's samples)^2      means over 1/512 of
+     |H(f)|^2 = sum over channels |FFT of the sound|^2 / |FFT of the force|^2      means over 1/512 of
        the band */
-#define SHORT 1e-7   /* s, of the strike */
-enum { FIRST = 64 }; /* frames before it: the decimator's reach and more */
+#define SHORT 1e-7        /* s, of the strike */
+#define LEAST_PUSHED 1e-8 /* of the force's power at 0 Hz: the contact smooths, and the decimator has its edge */
+enum { FIRST = 64 };      /* frames before it: the decimator's reach and more */
 
 static void strike(struct contact *c, const double place[2], double rate, struct arena *a)
 {
@@ -58,31 +61,41 @@ static void strike(struct contact *c, const double place[2], double rate, struct
         .path = PATH_STILL, .at = {place[0], place[1]}, .duration = AUDIBLE_FRAMES / rate, .speed = NAN};
 }
 
+/* What still rings at the end would leak to where the object does not. */
+static double fade(long n)
+{
+    double c = real_sinpi(0.5 + 0.5 * (double)n / AUDIBLE_FRAMES);
+    return c * c;
+}
+
 static bool measure(struct run *r, struct arena *a, double *power, struct err *e)
 {
-    enum { WIDE = AUDIBLE_FRAMES / 2 / (PILOT_BINS - 1) };
+    enum { WIDE = AUDIBLE_FRAMES / 2 / (PILOT_BINS - 1), FINE = AUDIBLE_FRAMES / 2 + 1 };
     int channels = r->board.channels;
-    double *sound = ARENA_TAKE(a, double, (size_t)channels *AUDIBLE_FRAMES), pushed = 0;
-    double *re = ARENA_TAKE(a, double, AUDIBLE_FRAMES / 2 + 1), *im = ARENA_TAKE(a, double, AUDIBLE_FRAMES / 2 + 1);
+    double *force = ARENA_TAKE(a, double, AUDIBLE_FRAMES),
+           *sound = ARENA_TAKE(a, double, (size_t)channels *AUDIBLE_FRAMES), *re = ARENA_TAKE(a, double, FINE),
+           *im = ARENA_TAKE(a, double, FINE), *pushed = ARENA_TAKE(a, double, FINE);
     for (long from = 0; from < AUDIBLE_FRAMES; from += STAGE_BLOCK) {
         if (!run_block(r, from + STAGE_BLOCK, e)) return false;
-        const double *x = board_at(&r->board, ITEM_SOUND, from), *force = board_at(&r->board, ITEM_FORCE, from);
-        for (long i = 0; i < STAGE_BLOCK; i++) {
-            pushed += force[i];
+        const double *x = board_at(&r->board, ITEM_SOUND, from);
+        memcpy(force + from, board_at(&r->board, ITEM_FORCE, from), STAGE_BLOCK * sizeof *force);
+        for (long i = 0; i < STAGE_BLOCK; i++)
             for (int k = 0; k < channels; k++)
-                sound[k * (long)AUDIBLE_FRAMES + from + i] = x[i * channels + k];
-        }
+                sound[k * (long)AUDIBLE_FRAMES + from + i] = x[i * channels + k] * fade(from + i);
     }
     struct fft *f = fft_open(AUDIBLE_FRAMES);
+    fft_forward(f, force, re, im);
+    for (int i = 0; i < FINE; i++)
+        pushed[i] = fmax(re[i] * re[i] + im[i] * im[i], LEAST_PUSHED * re[0] * re[0]);
     memset(power, 0, PILOT_BINS * sizeof *power);
     for (int k = 0; k < channels; k++) { /* each channel's spectrum onto the bands */
         fft_forward(f, sound + k * (long)AUDIBLE_FRAMES, re, im);
-        for (int i = 0; i <= AUDIBLE_FRAMES / 2; i++)
-            power[(i + WIDE / 2) / WIDE] += re[i] * re[i] + im[i] * im[i];
+        for (int i = 0; i < FINE; i++)
+            power[(i + WIDE / 2) / WIDE] += (re[i] * re[i] + im[i] * im[i]) / pushed[i];
     }
     fft_close(f);
     for (int k = 0; k < PILOT_BINS; k++)
-        power[k] /= pushed * pushed * (k == 0 || k == PILOT_BINS - 1 ? 0.5 * WIDE + 0.5 : WIDE);
+        power[k] /= k == 0 || k == PILOT_BINS - 1 ? 0.5 * WIDE + 0.5 : WIDE;
     return true;
 }
 
@@ -185,20 +198,56 @@ static struct hearing hearing_open(void)
     return h;
 }
 
-/* Of x - y (y NULL: of x) in a block. */
-static double block_energy(const struct error_pilot *p, struct hearing *h, long block, const double *x, const double *y)
+static double heard(const struct error_pilot *p, long block, const double *square)
 {
     const double *power = p->power + block * p->places / p->blocks * PILOT_BINS;
-    double sum = 0, any = 0;
+    double sum = 0;
+    for (int k = 0; k < PILOT_BINS; k++)
+        sum += (k == 0 || k == PILOT_BINS - 1 ? 1 : 2) * power[k] * square[k];
+    return p->gain * p->gain * sum / PILOT_WINDOW;
+}
+
+static bool spectrum(struct hearing *h, double *square)
+{
+    double any = 0;
     for (int i = 0; i < PILOT_WINDOW; i++) {
-        h->x[i] = h->taper[i] * (y ? x[i] - y[i] : x[i]);
+        h->x[i] *= h->taper[i];
         any = fmax(any, fabs(h->x[i]));
     }
-    if (any == 0) return 0;
+    if (any == 0) return false;
     fft_forward(h->fft, h->x, h->re, h->im);
     for (int k = 0; k < PILOT_BINS; k++)
-        sum += (k == 0 || k == PILOT_BINS - 1 ? 1 : 2) * power[k] * (h->re[k] * h->re[k] + h->im[k] * h->im[k]);
-    return p->gain * p->gain * sum / PILOT_WINDOW;
+        square[k] = h->re[k] * h->re[k] + h->im[k] * h->im[k];
+    return true;
+}
+
+/* Of the force in a block. A force's mean is often many times what of it rings, and leaks from the window into the bins
+   of modes: so each bin has the least of its power and of that of the second difference, for which a mean and a slope
+   are nothing, over 16 sin^4(omega/2). */
+static double block_energy(const struct error_pilot *p, struct hearing *h, long block, const double *x)
+{
+    double square[PILOT_BINS], other[PILOT_BINS];
+    memcpy(h->x, x, sizeof h->x);
+    if (!spectrum(h, square)) return 0;
+    h->x[0] = h->x[PILOT_WINDOW - 1] = 0;
+    for (int i = 1; i < PILOT_WINDOW - 1; i++)
+        h->x[i] = x[i - 1] - 2 * x[i] + x[i + 1];
+    bool bends = spectrum(h, other);
+    for (int k = 1; k < PILOT_BINS; k++) {
+        double s = real_sinpi((double)k / PILOT_WINDOW), scale = 16 * s * s * s * s;
+        square[k] = bends ? fmin(square[k], other[k] / scale) : 0;
+    }
+    return heard(p, block, square);
+}
+
+/* Of the difference of two; what leaks makes it more. */
+static double block_distance(const struct error_pilot *p, struct hearing *h, long block, const double *x,
+                             const double *y)
+{
+    double square[PILOT_BINS];
+    for (int i = 0; i < PILOT_WINDOW; i++)
+        h->x[i] = x[i] - y[i];
+    return spectrum(h, square) ? heard(p, block, square) : 0;
 }
 
 static void learn(struct error_pilot *p, const struct run *r)
@@ -260,15 +309,14 @@ bool error_pilot_survey(struct error_pilot *p, const struct accuracy *set, const
         }
         for (int k = 0; ok && k < 2 && frames > 0; k++) {
             const double *force = k == 0 && !open[0] ? p->last + from : NULL;
-            if (open[k] && (ok = run_block(&r[k], from + frames, e)))
-                force = board_at(&r[k].board, ITEM_FORCE, from);
+            if (open[k] && (ok = run_block(&r[k], from + frames, e))) force = board_at(&r[k].board, ITEM_FORCE, from);
             if (ok && force) memcpy(x[k] + PILOT_HOP, force, (size_t)frames * sizeof(double));
         }
         if (!ok) break;
         if (p->last && frames > 0) memcpy(p->last + from, now + PILOT_HOP, (size_t)frames * sizeof(double));
-        double energy = block_energy(p, &h, number, now, NULL);
+        double energy = block_energy(p, &h, number, now);
         p->energy += energy;
-        p->distance[number] = finer ? block_energy(p, &h, number, x[1], x[0]) : energy;
+        p->distance[number] = finer ? block_distance(p, &h, number, x[1], x[0]) : energy;
         if (p->follows) block_follow(p, number, now, p->distance[number]);
     }
     for (int k = PILOT_WORST; k < PILOT_FOLLOWED; k++) /* one that is among the worst does not stand for others */
@@ -306,7 +354,7 @@ bool error_pilot_follow(struct error_pilot *p, const struct accuracy *set, struc
         arena_close(a);
         return false;
     }
-    /* Where a block begins the limited trajectory begins, too: so it is where the first, coarsest run has it for all. */
+    /* Where a block begins the limited trajectory begins, too: where the first, coarsest run has it, for all. */
     if (p->lead == 0) {
         p->lead = SETTLED;
         for (int i = 0; i < r.n; i++)
@@ -336,7 +384,7 @@ bool error_pilot_follow(struct error_pilot *p, const struct accuracy *set, struc
         struct pilot_block *b = &p->block[k];
         if (b->number < 0) continue;
         b->distance[1] = b->distance[0];
-        b->distance[0] = block_energy(p, &h, b->number, now[k].x, b->x);
+        b->distance[0] = block_distance(p, &h, b->number, now[k].x, b->x);
         memcpy(b->x, now[k].x, sizeof b->x);
     }
     fft_close(h.fft);

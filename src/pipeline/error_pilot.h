@@ -16,29 +16,29 @@ enum { PILOT_WINDOW = 1024, PILOT_HOP = PILOT_WINDOW / 2, PILOT_BINS = PILOT_HOP
 enum { PILOT_WORST = 3, PILOT_SPREAD = 5, PILOT_FOLLOWED = PILOT_WORST + PILOT_SPREAD };
 
 struct pilot_block {
-    long number;              /* -1: none */
-    double x[PILOT_WINDOW];   /* the force at the last setting */
-    double distance[2];       /* between the last two settings, and between the two before */
+    long number;            /* -1: none */
+    double x[PILOT_WINDOW]; /* the force at the last setting */
+    double distance[2];     /* between the last two settings, and between the two before */
 };
 
 struct error_pilot {        /* of one contact */
     struct scene scene;     /* that asks for the force alone */
     struct contact contact; /* of it */
     struct plan plan;
-    unsigned knobs;    /* those that the force depends on */
-    long moving, some; /* frames of the motion; of what is run of it */
-    bool follows;      /* blocks are followed; else all are run at each setting, in their order */
-    long lead;         /* frames before a block that is begun with; 0: not known yet */
+    unsigned knobs;     /* those that the force depends on */
+    long moving, some;  /* frames of the motion; of what is run of it */
+    bool follows;       /* blocks are followed; else all are run at each setting, in their order */
+    long lead;          /* frames before a block that is begun with; 0: not known yet */
     double gain, drift; /* drift: by which errors may grow beyond what is run: 1, but of a coupled ball */
     double *power;      /* [PILOT_PLACES][PILOT_BINS] |H|^2 */
     int places;
     long blocks;
     int surveys;  /* so far */
     double *last; /* [some] the force at the last setting of a survey; NULL: it is too long, and run again */
-    double *distance, *older; /* [blocks] between the last two settings, and between the two before: of a survey */
-    double energy;            /* of the whole */
+    double *distance, *older;  /* [blocks] between the last two settings, and between the two before: of a survey */
+    double energy;             /* of the whole */
     struct pilot_block *block; /* [PILOT_FOLLOWED] the worst first */
-    long bounces, lift_offs;  /* of a coupled ball, as far as it was run */
+    long bounces, lift_offs;   /* of a coupled ball, as far as it was run */
 };
 
 /* some: s that are run of a coupled ball. moves: the response changes on the way. */

@@ -3,9 +3,9 @@
 
    A folder FOLDER/residual.yaml names, with their hashes, residual.wav and modes.csv: the residual as an impulse
    response, and the modes that were taken off, both of one strike and in one unit, whatever that is. Its third file,
-   strike.wav, is for who looks: the strike's sound in two channels, represented and residual. The transfer takes the ratio of the two over to
-   the modes of the target, per N s. So a residual of a recording whose level is relative, or of another quantity than
-   the scene's, keeps its level relative to its modes. */
+   strike.wav, is for who looks: the strike's sound in two channels, represented and residual. The transfer takes the
+   ratio of the two over to the modes of the target, per N s. So a residual of a recording whose level is relative, or
+   of another quantity than the scene's, keeps its level relative to its modes. */
 #ifndef RESPONSE_RESIDUAL_H
 #define RESPONSE_RESIDUAL_H
 #include <stdbool.h>

@@ -174,6 +174,7 @@ START_TEST(test_examples_are_taken)
         {"surface.continuation.exponent", "surface.height_map=x.gsf"},
         {"surface.continuation.from", "surface.height_map=x.gsf"},
         {"surface.roughness.like_pitch", "surface.roughness.like=x.npy"},
+        {"surface.residual", "surface.response=a.csv"},
         {"surface.space.dimension_to", "surface.space.from=[0, 1]"},
         {"ablation.place", "ablation.response=constant", "surface.response=a.csv"},
         {"output.duration", "surface.response=a.csv"},
