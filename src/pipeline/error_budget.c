@@ -24,7 +24,7 @@ struct found { /* of a knob */
     double end;    /* the finest that can be had                              */
 };
 
-struct kept {
+struct ramp_sound {
     double *x, *next; /* sound at the finer of the last two ramps; next: the same, or NULL where it is too long */
 };
 
@@ -37,7 +37,7 @@ struct budgeting {
     unsigned used;             /* set of knobs                         */
     struct error_pilot *pilot; /* [n_contacts] */
     bool sounds;               /* some contact sounds; else forces are promised about */
-    struct kept *kept;         /* [n_contacts] */
+    struct ramp_sound *ramps;  /* [n_contacts] */
     double energy;             /* of all that is heard */
     struct found found[KNOBS];
 };
@@ -73,7 +73,7 @@ static bool budget_used(const struct budgeting *m, int knob) { return m->used & 
 #define FLOOR 1e-15     /* of a difference that is none of 0: the filters' ripple and rounding are no powers; -150 dB */
 #define FIRST 0.5       /* s of a coupled ball, to begin with */
 #define LONGEST 60.0    /* s of what rings */
-#define KEPT (1L << 20) /* samples of a sound that is kept in memory, at most */
+#define SOUND_MOST (1L << 20) /* samples of a sound that is kept in memory, at most */
 
 static bool coupled(const struct budgeting *m)
 {
@@ -150,14 +150,14 @@ static bool begin(struct budgeting *m, int i, struct err *e)
 static bool compare_ramps(const struct budgeting *m, int contact, const double ramp[2], bool going, double *all,
                           double *distance, struct err *e)
 {
-    struct kept *kept = &m->kept[contact];
+    struct ramp_sound *finer = &m->ramps[contact];
     struct contact own = *m->parts.parts[contact].plan.contact;
     struct arena *a = arena_open();
     struct scene set[2];
     struct plan p;
     struct run r[2];
     bool open[2] = {false, false}, ok;
-    if (!going) kept->x = NULL;
+    if (!going) finer->x = NULL;
     for (int k = 0; k < 2; k++) {
         set[k] = *m->chosen;
         set[k].contacts = &own;
@@ -169,29 +169,29 @@ static bool compare_ramps(const struct budgeting *m, int contact, const double r
     }
     ok = plan_make(stages_table, &own, set, a, &p, e);
     bool depends = ok && plan_knobs(&p) & KNOB_BIT(gain_ramp);
-    for (int k = kept->x || !depends; ok && k < 2; k++)
+    for (int k = finer->x || !depends; ok && k < 2; k++)
         ok = open[k] = run_open(&r[k], &p, &set[k], NULL, e);
     const struct board *b = &r[1].board;
     long frames = ok ? b->moving + (long)(0.5 * fmin(b->ring, LONGEST) * b->rate) : 0,
          room = frames * (ok ? b->channels : 0);
-    if (depends && !kept->next && room <= KEPT) kept->next = ARENA_TAKE(m->arena, double, room);
+    if (depends && !finer->next && room <= SOUND_MOST) finer->next = ARENA_TAKE(m->arena, double, room);
     for (long from = 0, to; ok && from < frames; from = to) {
         to = from + STAGE_BLOCK < frames ? from + STAGE_BLOCK : frames;
         ok = (!open[0] || run_block(&r[0], to, e)) && run_block(&r[1], to, e);
         if (!ok) break;
         const double *y = board_at(b, ITEM_SOUND, from), *x = open[0]   ? board_at(&r[0].board, ITEM_SOUND, from)
-                                                              : depends ? kept->x + from * b->channels
+                                                              : depends ? finer->x + from * b->channels
                                                                         : y;
         for (long i = 0; i < (to - from) * b->channels; i++) {
             *all += y[i] * y[i];
             *distance += (x[i] - y[i]) * (x[i] - y[i]);
         }
-        if (kept->next) memcpy(kept->next + from * b->channels, y, (size_t)((to - from) * b->channels) * sizeof *y);
+        if (finer->next) memcpy(finer->next + from * b->channels, y, (size_t)((to - from) * b->channels) * sizeof *y);
     }
     for (int k = 0; k < 2; k++)
         if (open[k]) run_close(&r[k]);
     arena_close(a);
-    kept->x = kept->next;
+    finer->x = finer->next;
     return ok;
 }
 
@@ -407,7 +407,7 @@ static bool make(struct budgeting *m, struct err *e)
     if (!render_parts_plan(&m->parts, e)) return false;
     m->sounds = m->parts.asked & ITEM_BIT(ITEM_SOUND);
     m->pilot = ARENA_TAKE(m->arena, struct error_pilot, m->chosen->n_contacts);
-    m->kept = ARENA_TAKE(m->arena, struct kept, m->chosen->n_contacts);
+    m->ramps = ARENA_TAKE(m->arena, struct ramp_sound, m->chosen->n_contacts);
     for (int i = 0; i < m->chosen->n_contacts; i++) {
         m->used |= plan_knobs(&m->parts.parts[i].plan);
         if (is_audible(m, i) && !begin(m, i, e)) return false;

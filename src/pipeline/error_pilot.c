@@ -21,7 +21,7 @@
 #include "scene/scene.h"
 #include "trajectory/trajectory.h"
 
-enum { KEEPS = 1 << 20 }; /* frames of a force that are kept in memory at most */
+enum { FORCE_MOST = 1 << 20 }; /* frames of a force that are kept in memory at most */
 enum {
     SETTLED = 64
 }; /* frames that a limited trajectory feels where it begins, and that a force lasts after the motion */
@@ -168,7 +168,7 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
     }
     p->blocks = (p->some + PILOT_HOP - 1) / PILOT_HOP + 1;
     p->follows = anywhere(c) && p->blocks > 2 * PILOT_FOLLOWED + PILOT_SPREAD; /* else as dear */
-    p->last = p->follows || p->some > KEEPS ? NULL : ARENA_TAKE(a, double, p->some);
+    p->last = p->follows || p->some > FORCE_MOST ? NULL : ARENA_TAKE(a, double, p->some);
     p->distance = ARENA_TAKE(a, double, p->blocks);
     p->older = ARENA_TAKE(a, double, p->blocks);
     if (!plan_make(stages_table, &p->contact, &p->scene, a, &p->plan, e)) return false;
@@ -198,7 +198,7 @@ static struct hearing hearing_open(void)
     return h;
 }
 
-static double heard(const struct error_pilot *p, long block, const double *square)
+static double weighted(const struct error_pilot *p, long block, const double *square)
 {
     const double *power = p->power + block * p->places / p->blocks * PILOT_BINS;
     double sum = 0;
@@ -237,7 +237,7 @@ static double block_energy(const struct error_pilot *p, struct hearing *h, long 
         double s = real_sinpi((double)k / PILOT_WINDOW), scale = 16 * s * s * s * s;
         square[k] = bends ? fmin(square[k], other[k] / scale) : 0;
     }
-    return heard(p, block, square);
+    return weighted(p, block, square);
 }
 
 /* Of the difference of two; what leaks makes it more. */
@@ -247,7 +247,7 @@ static double block_distance(const struct error_pilot *p, struct hearing *h, lon
     double square[PILOT_BINS];
     for (int i = 0; i < PILOT_WINDOW; i++)
         h->x[i] = x[i] - y[i];
-    return spectrum(h, square) ? heard(p, block, square) : 0;
+    return spectrum(h, square) ? weighted(p, block, square) : 0;
 }
 
 static void learn(struct error_pilot *p, const struct run *r)
