@@ -138,7 +138,7 @@ static bool begin(struct budgeting *m, int i, struct err *e)
         before = p->some;
         if (!error_pilot_make(m->chosen, c, some, moves, m->arena, p, e)) return false;
         bool over_used = p->knobs & KNOB_BIT(oversampling) && c->contact.model != CONTACT_ROLL_COUPLED;
-        if (!error_pilot_survey(p, &set, over_used && finer > over ? &next : NULL, false, e)) return false;
+        if (!error_pilot_whole(p, &set, over_used && finer > over ? &next : NULL, false, e)) return false;
         if (p->energy > 0) break;
     }
     m->energy += p->energy;
@@ -219,15 +219,15 @@ static bool knob_distance(struct budgeting *m, int knob, const double value[2], 
     for (int i = 0; i < m->chosen->n_contacts; i++) {
         struct error_pilot *p = &m->pilot[i];
         if (!is_audible(m, i) || !(p->knobs & 1u << knob)) continue;
-        bool surveyed = knob == KNOB_oversampling && value[0] == m->chosen->accuracy.oversampling &&
-                        value[1] == 2 * value[0] && (p->follows || p->surveys == 1) &&
-                        p->contact.contact.model != CONTACT_ROLL_COUPLED; /* by begin */
-        bool ok = surveyed     ? true
+        bool known = knob == KNOB_oversampling && value[0] == m->chosen->accuracy.oversampling &&
+                     value[1] == 2 * value[0] && (p->follows || p->runs == 1) &&
+                     p->contact.contact.model != CONTACT_ROLL_COUPLED; /* by begin */
+        bool ok = known        ? true
                   : p->follows ? (going || error_pilot_follow(p, &set, e)) && error_pilot_follow(p, &finer, e)
-                               : error_pilot_survey(p, &set, &finer, going, e);
+                               : error_pilot_whole(p, &set, &finer, going, e);
         if (!ok) return false;
-        distance[0] += surveyed ? error_pilot_surveyed(p) : error_pilot_distance(p, going);
-        distance[1] += surveyed ? error_pilot_surveyed(p) : error_pilot_distance(p, false);
+        distance[0] += known ? error_pilot_whole_distance(p) : error_pilot_distance(p, going);
+        distance[1] += known ? error_pilot_whole_distance(p) : error_pilot_distance(p, false);
     }
     return true;
 }

@@ -281,8 +281,8 @@ static void block_follow(struct error_pilot *p, long number, const double *x, do
     if (spread >= 0) block_take(&p->block[spread], number, x, distance);
 }
 
-bool error_pilot_survey(struct error_pilot *p, const struct accuracy *set, const struct accuracy *finer, bool going,
-                        struct err *e)
+bool error_pilot_whole(struct error_pilot *p, const struct accuracy *set, const struct accuracy *finer, bool going,
+                       struct err *e)
 {
     const struct accuracy *sets[2] = {going && p->last ? NULL : set, finer}; /* NULL: not run */
     struct scene scene[2] = {p->scene, p->scene};
@@ -293,7 +293,7 @@ bool error_pilot_survey(struct error_pilot *p, const struct accuracy *set, const
     p->older = p->distance;
     p->distance = older;
     p->energy = 0;
-    p->surveys++;
+    p->runs++;
     for (int k = 0; k < PILOT_FOLLOWED; k++)
         p->block[k] = (struct pilot_block){.number = -1};
     for (int k = 0; ok && k < 2; k++) {
@@ -392,7 +392,7 @@ bool error_pilot_follow(struct error_pilot *p, const struct accuracy *set, struc
     return ok;
 }
 
-double error_pilot_surveyed(const struct error_pilot *p)
+double error_pilot_whole_distance(const struct error_pilot *p)
 {
     double sum = 0;
     for (long b = 0; b < p->blocks; b++)
@@ -402,7 +402,7 @@ double error_pilot_surveyed(const struct error_pilot *p)
 
 double error_pilot_distance(const struct error_pilot *p, bool history)
 {
-    double sum = 0, spread = 0, surveyed = 0, rest = 0, part = history ? 1.0 / 16 : 0;
+    double sum = 0, spread = 0, first = 0, rest = 0, part = history ? 1.0 / 16 : 0;
     long n = 0, others = p->blocks;
     if (!p->follows) {
         for (long b = 0; b < p->blocks; b++)
@@ -420,10 +420,10 @@ double error_pilot_distance(const struct error_pilot *p, bool history)
         rest -= p->distance[b->number];
         if (k < PILOT_WORST) continue;
         spread += own;
-        surveyed += p->distance[b->number];
+        first += p->distance[b->number];
         n++;
     }
-    double mean = n ? spread / (double)n : 0, by_share = surveyed > 0 ? spread * fmax(rest, 0) / surveyed : 0,
+    double mean = n ? spread / (double)n : 0, by_share = first > 0 ? spread * fmax(rest, 0) / first : 0,
            even = mean * (double)others;
     return sum + fmax(even, fmin(by_share, 4 * even));
 }

@@ -33,7 +33,7 @@ struct error_pilot {        /* of one contact */
     double *power;      /* [PILOT_PLACES][PILOT_BINS] |H|^2 */
     int places;
     long blocks;
-    int surveys;  /* so far */
+    int runs;     /* so far */
     double *last; /* [some] the force at the last setting of a survey; NULL: it is too long, and run again */
     double *distance, *older;  /* [blocks] between the last two settings, and between the two before: of a survey */
     double energy;             /* of the whole */
@@ -47,11 +47,11 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
 
 /* The whole motion at a setting and at a finer one (NULL: there is none, and distances are the energies): distances,
    energy, and which blocks are followed from there. going: the last survey ended with `set`. */
-bool error_pilot_survey(struct error_pilot *p, const struct accuracy *set, const struct accuracy *finer, bool going,
-                        struct err *e);
+bool error_pilot_whole(struct error_pilot *p, const struct accuracy *set, const struct accuracy *finer, bool going,
+                       struct err *e);
 
 /* Energy of the difference between a survey's settings. */
-double error_pilot_surveyed(const struct error_pilot *p);
+double error_pilot_whole_distance(const struct error_pilot *p);
 
 /* The blocks followed, at the next setting. */
 bool error_pilot_follow(struct error_pilot *p, const struct accuracy *set, struct err *e);
