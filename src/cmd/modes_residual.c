@@ -42,6 +42,7 @@ enum { LEAD_FRAMES = 4 }; /* that show the noise */
 
 static const double fade = 0.005;   /* s at the end */
 static const double nothing = 1e-8; /* of the energy: a tail of less is cut */
+#define LITTLE (-1.0)               /* dB that are left: a table of another object */
 static const double weakest = 1e-2; /* of the force's power, where it is strongest: what is divided by */
 
 struct table { /* features of a mode table */
@@ -496,7 +497,11 @@ static const char *shown(const struct job *j, double x, const char *otherwise)
 static void report(const struct job *j, const struct figures *g, bool json, struct err *e)
 {
     const struct strikes_one *v = strike_of(j);
-    const char *lacks = why_not(j), *strike = "";
+    const char *lacks = why_not(j), *strike = "",
+               *little = g->left > LITTLE
+                             ? "the table's modes take less than a fifth of the sound off: is the table of "
+                               "this object, and the recording one of a strike?"
+                             : NULL;
     struct report r = report_open(stdout, json);
     double seconds = (double)j->length / j->x.rate, onset = (double)v->onset / j->x.rate;
     report_set(
@@ -511,6 +516,9 @@ static void report(const struct job *j, const struct figures *g, bool json, stru
                j->estimated.file ? j->match.score : 1.0);
     report_set(&r, "represented_db:n left_db:n noise_db:n residual_db:n", g->represented, g->left, g->noise,
                g->residual);
+    report_list(&r, "warnings");
+    if (little) report_set(&r, ":s", little);
+    report_end(&r);
     report_list(&r, "match_ratios");
     for (int i = 0; i < j->table.n; i++)
         report_set(&r, ":n", j->ratio[i]);
@@ -531,6 +539,7 @@ static void report(const struct job *j, const struct figures *g, bool json, stru
                                  : " with its noise: there is no silence before the strike that shows it");
     report_text(&r, "%s: %.3g s of %s, per %s%s%s\n", j->folder, seconds, modes_quantity_name(j->x.given.quantity),
                 per(j), lacks ? "; relative: " : "", lacks ? lacks : "");
+    if (little) report_note(&r, "warning: ", little);
     report_close(&r, 12, e);
 }
 

@@ -111,6 +111,7 @@ awk -F, -v OFS=, '/^1,/ { $6 *= 1.13 } { print }' all.csv > near.csv
 awk -F, -v OFS=, '/^1,/ { $5 *= 1.2 } { print }' all.csv > far.csv
 residual click.wav all.csv --estimated near.csv -o near | sed -n 2p
 residual click.wav all.csv --estimated far.csv --keep-noise -o far | sed -n 's/[.][0-9]* dB/ dB/g; 2,3p'
+residual click.wav far.csv -o other | grep -o 'warning: .* off'
 echo "the same bytes"
 residual click.wav all.csv -q -o again
 cmp all/residual.wav again/residual.wav
