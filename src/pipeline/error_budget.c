@@ -58,7 +58,9 @@ static bool budget_used(const struct budgeting *m, int knob) { return m->used & 
 
    That of each knob has all others at `draft`, those that the scene says as it says them. A coupled ball's steps are
    contact_steps in a contact or `oversampling` in a sample, whichever are more. So its oversampling is piloted with
-   contact_steps two doublings finer than what was accepted: else its error would be that of the steps.
+   contact_steps two doublings finer than what was accepted: else its error would be that of the steps. Under a round
+   tip it is piloted with the tip_heights that were accepted: ground that is read more finely has more to be averaged.
+   The first two values of each knob are compared over the whole motion, finer ones in the blocks that differ most.
 
    A ramp of gains is piloted up to the sound, over the whole motion, two values side by side: what it misses lies at
    kinks, and grows with what rings.
@@ -121,6 +123,8 @@ static struct accuracy turned(const struct budgeting *m, int knob, double value)
     if (knob == KNOB_oversampling && m->found[KNOB_contact_steps].value > 0 && !is_users(m, KNOB_contact_steps))
         accuracy_turn(&set, KNOB_contact_steps,
                       fmin(4 * m->found[KNOB_contact_steps].value, m->found[KNOB_contact_steps].end));
+    if (knob == KNOB_oversampling && m->found[KNOB_tip_heights].value > 0) /* a finer ground has more to be averaged */
+        accuracy_turn(&set, KNOB_tip_heights, m->found[KNOB_tip_heights].value);
     return set;
 }
 
@@ -219,15 +223,15 @@ static bool knob_distance(struct budgeting *m, int knob, const double value[2], 
     for (int i = 0; i < m->chosen->n_contacts; i++) {
         struct error_pilot *p = &m->pilot[i];
         if (!is_audible(m, i) || !(p->knobs & 1u << knob)) continue;
-        bool known = knob == KNOB_oversampling && value[0] == m->chosen->accuracy.oversampling &&
-                     value[1] == 2 * value[0] && (p->follows || p->runs == 1) &&
-                     p->contact.contact.model != CONTACT_ROLL_COUPLED; /* by begin */
-        bool ok = known        ? true
-                  : p->follows ? (going || error_pilot_follow(p, &set, e)) && error_pilot_follow(p, &finer, e)
-                               : error_pilot_whole(p, &set, &finer, going, e);
+        bool begun = knob == KNOB_oversampling && !going && p->contact.contact.model != CONTACT_ROLL_COUPLED &&
+                     value[0] == m->chosen->accuracy.oversampling && value[1] == 2 * value[0] &&
+                     set.tip_heights == m->chosen->accuracy.tip_heights && p->runs == 1; /* by begin */
+        bool ok = begun                 ? true
+                  : going && p->follows ? error_pilot_follow(p, &finer, e)
+                                        : error_pilot_whole(p, &set, &finer, going, e);
         if (!ok) return false;
-        distance[0] += known ? error_pilot_whole_distance(p) : error_pilot_distance(p, going);
-        distance[1] += known ? error_pilot_whole_distance(p) : error_pilot_distance(p, false);
+        distance[0] += going ? error_pilot_distance(p, true) : error_pilot_whole_distance(p);
+        distance[1] += going ? error_pilot_distance(p, false) : error_pilot_whole_distance(p);
     }
     return true;
 }
