@@ -53,14 +53,13 @@ static bool budget_used(const struct budgeting *m, int knob) { return m->used & 
 /* A knob's error at a value K is told from d, the energy of the difference between the sounds at K and at 2K. An error
    that falls by 6 dB a doubling, as at a kink, is twice the difference: so 4 d is what it is taken to be, and K is
    accepted where that is within the knob's share. The first value has no history that shows whether K and 2K agree by
-   accident: there it is 10 d. Of the last value, which has no finer one, the error is at most the difference from the
-   one before it, if it falls by 6 dB or more: 2 d.
+   accident: there it is 10 times the greater of d and, of steps, the next value's. Of the last value, which has no
+   finer one, the error is at most the difference from the one before it, if it falls by 6 dB or more: 2 d.
 
    That of each knob has all others at `draft`, those that the scene says as it says them. A coupled ball's steps are
    contact_steps in a contact or `oversampling` in a sample, whichever are more. So its oversampling is piloted with
    contact_steps two doublings finer than what was accepted: else its error would be that of the steps. Under a round
    tip it is piloted with the tip_heights that were accepted: ground that is read more finely has more to be averaged.
-   The first two values of each knob are compared over the whole motion, finer ones in the blocks that differ most.
 
    A ramp of gains is piloted up to the sound, over the whole motion, two values side by side: what it misses lies at
    kinks, and grows with what rings.
@@ -128,7 +127,7 @@ static struct accuracy turned(const struct budgeting *m, int knob, double value)
     return set;
 }
 
-/* The first survey of a contact, of oversampling where that is open, tells its energy and which blocks are followed.
+/* The first survey of a contact, of oversampling where that is open, tells its energy.
    What comes in its order may begin with silence: longer beginnings, until something is heard. */
 static bool begin(struct budgeting *m, int i, struct err *e)
 {
@@ -226,12 +225,9 @@ static bool knob_distance(struct budgeting *m, int knob, const double value[2], 
         bool begun = knob == KNOB_oversampling && !going && p->contact.contact.model != CONTACT_ROLL_COUPLED &&
                      value[0] == m->chosen->accuracy.oversampling && value[1] == 2 * value[0] &&
                      set.tip_heights == m->chosen->accuracy.tip_heights && p->runs == 1; /* by begin */
-        bool ok = begun                 ? true
-                  : going && p->follows ? error_pilot_follow(p, &finer, e)
-                                        : error_pilot_whole(p, &set, &finer, going, e);
-        if (!ok) return false;
-        distance[0] += going ? error_pilot_distance(p, true) : error_pilot_whole_distance(p);
-        distance[1] += going ? error_pilot_distance(p, false) : error_pilot_whole_distance(p);
+        if (!begun && !error_pilot_whole(p, &set, &finer, going, e)) return false;
+        distance[0] += error_pilot_distance(p, going);
+        distance[1] += error_pilot_distance(p, false);
     }
     return true;
 }
@@ -265,13 +261,14 @@ static bool climb(struct budgeting *m, int knob, double share, bool *had, struct
 {
     const struct key_knob *k = &keys_knobs[knob];
     struct found *f = &m->found[knob];
-    bool down = k->scale == KEY_SAMPLES, fixed = is_users(m, knob);
+    bool down = k->scale == KEY_SAMPLES, fixed = is_users(m, knob), looks_back = false;
     double value = fixed ? accuracy_knob(&m->asked->accuracy, (enum knob)knob) : k->preset[0], distance[2] = {0, 0},
            end = finest(m, knob, value, down ? k->low : k->high);
+    double ahead[2] = {0, 0}; /* of the next value */
     *f = (struct found){.least = HUGE_VAL, .end = end};
     for (int step = 0;; step++) {
         double next = down ? floor(value / 2) : 2 * value, hand = step ? HAND : HAND_FIRST, d;
-        bool last = down ? next < end : next > end;
+        bool last = down ? next < end : next > end, looks = !fixed && !down && 2 * next <= end;
         if (fixed) {
             double pair[2] = {value, last ? end : next};
             if (value == end) pair[0] = down ? 2 * end : fmax(floor(end / 2), k->low);
@@ -279,10 +276,18 @@ static bool climb(struct budgeting *m, int knob, double share, bool *had, struct
             hand = value == end ? HAND_LAST : HAND;
         } else if (last)
             hand = HAND_LAST;
+        else if (step == 1 && looks_back)
+            memcpy(distance, ahead, sizeof distance);
         else if (!knob_distance(m, knob, (double[2]){value, next}, step > 0, distance, e))
             return false;
         if (run_chaos_pilot(m, false, e)) return false;
-        d = distance[last] > 0 ? fmax(distance[last], FLOOR * m->energy) : 0;
+        d = distance[last];
+        if (step == 0 && looks) { /* one that grows from here on was small by accident */
+            if (!knob_distance(m, knob, (double[2]){next, 2 * next}, true, ahead, e)) return false;
+            d = fmax(d, ahead[1]);
+            looks_back = true;
+        }
+        d = d > 0 ? fmax(d, FLOOR * m->energy) : 0;
         f->value = value;
         f->energy = (hand == HAND_FIRST ? HAND : hand) * d;
         if (hand * d < f->least) {

@@ -6,8 +6,8 @@
      predicted^2 = sum of e_k^2 <= asked^2
 
    e of gain_ramp   the sound of the whole motion at halved values against each other, all else at `draft`
-   e of steps       the force at doubled values against each other, weighed by what of it is heard: of the whole motion
-                    at the two coarsest values, then of the blocks that differ most and a few others (error_pilot.h) */
+   e of steps       the force of the whole motion at doubled values against each other, weighed by what of it is heard
+                    (error_pilot.h) */
 #ifndef PIPELINE_ERROR_BUDGET_H
 #define PIPELINE_ERROR_BUDGET_H
 #include "base/arena.h"

@@ -1,10 +1,6 @@
 /* A kink of the force (a rest, a reversal, a corner, a jump of alpha) makes most of the error of a motion in one block,
-   and around it the error is erratic in the knob: what agrees at two settings may differ at the next. So all blocks are
-   surveyed, none is drawn in proportion to anything, and a block's difference is believed to fall by 12 dB at most from
-   one doubling to the next.
-
-   Of the blocks that are not followed each counts as the mean of those spread evenly, or, where that is more, as its
-   share of the survey's differences says, four times the mean at most. */
+   and around it the error is erratic in the knob: what agrees at two settings may differ at the next. So the whole
+   motion is run, and a block's difference is believed to fall by 12 dB at most from one doubling to the next. */
 #include "pipeline/error_pilot.h"
 
 #include <math.h>
@@ -127,14 +123,6 @@ static bool audible_power(const struct scene *s, const struct contact *c, const 
 
 /* ------------------------------------------------------------------ making */
 
-/* Is the force read from the ground wherever the contact is, so that it can begin anywhere? */
-static bool anywhere(const struct contact *c)
-{
-    return (c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL ||
-            c->contact.model == CONTACT_PLAYBACK) &&
-           c->motion.path != PATH_STILL;
-}
-
 bool error_pilot_make(const struct scene *s, const struct contact *c, double some, bool moves, struct arena *a,
                       struct error_pilot *p, struct err *e)
 {
@@ -145,8 +133,7 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
                               .gain = c->gain,
                               .drift = 1,
                               .places = moves ? PILOT_PLACES : 1,
-                              .power = ARENA_TAKE(a, double, PILOT_PLACES *PILOT_BINS),
-                              .block = ARENA_TAKE(a, struct pilot_block, PILOT_FOLLOWED)};
+                              .power = ARENA_TAKE(a, double, PILOT_PLACES *PILOT_BINS)};
     if (c->gain == 0) /* it is here for its table, which holds its force as it is */
         p->gain = p->contact.gain = 1;
     *(bool *)params_edit(&p->contact, enhance_stage.params, a) = false; /* the weighting has it */
@@ -167,8 +154,7 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
         p->drift = fmax(1, (double)p->moving / (double)p->some);
     }
     p->blocks = (p->some + PILOT_HOP - 1) / PILOT_HOP + 1;
-    p->follows = anywhere(c) && p->blocks > 2 * PILOT_FOLLOWED + PILOT_SPREAD; /* else as dear */
-    p->last = p->follows || p->some > FORCE_MOST ? NULL : ARENA_TAKE(a, double, p->some);
+    p->last = p->some > FORCE_MOST ? NULL : ARENA_TAKE(a, double, p->some);
     p->distance = ARENA_TAKE(a, double, p->blocks);
     p->older = ARENA_TAKE(a, double, p->blocks);
     if (!plan_make(stages_table, &p->contact, &p->scene, a, &p->plan, e)) return false;
@@ -256,31 +242,6 @@ static void learn(struct error_pilot *p, const struct run *r)
     p->lift_offs = r->board.roll.lift_offs > p->lift_offs ? r->board.roll.lift_offs : p->lift_offs;
 }
 
-static void block_take(struct pilot_block *b, long number, const double *x, double distance)
-{
-    b->number = number;
-    b->distance[0] = distance;
-    memcpy(b->x, x, sizeof b->x);
-}
-
-/* Is the block one of those spread evenly, and which? */
-static int spread_at(const struct error_pilot *p, long number)
-{
-    for (int k = 0; k < PILOT_SPREAD; k++)
-        if (number == p->blocks * (2 * k + 1) / (2 * PILOT_SPREAD)) return PILOT_WORST + k;
-    return -1;
-}
-
-static void block_follow(struct error_pilot *p, long number, const double *x, double distance)
-{
-    int least = 0, spread = spread_at(p, number);
-    for (int k = 1; k < PILOT_WORST; k++)
-        if (p->block[k].distance[0] < p->block[least].distance[0]) least = k;
-    if (p->block[least].number < 0 || distance > p->block[least].distance[0])
-        block_take(&p->block[least], number, x, distance);
-    if (spread >= 0) block_take(&p->block[spread], number, x, distance);
-}
-
 bool error_pilot_whole(struct error_pilot *p, const struct accuracy *set, const struct accuracy *finer, bool going,
                        struct err *e)
 {
@@ -294,8 +255,6 @@ bool error_pilot_whole(struct error_pilot *p, const struct accuracy *set, const 
     p->distance = older;
     p->energy = 0;
     p->runs++;
-    for (int k = 0; k < PILOT_FOLLOWED; k++)
-        p->block[k] = (struct pilot_block){.number = -1};
     for (int k = 0; ok && k < 2; k++) {
         if (!sets[k]) continue;
         scene[k].accuracy = *sets[k];
@@ -317,11 +276,7 @@ bool error_pilot_whole(struct error_pilot *p, const struct accuracy *set, const 
         double energy = block_energy(p, &h, number, now);
         p->energy += energy;
         p->distance[number] = finer ? block_distance(p, &h, number, x[1], x[0]) : energy;
-        if (p->follows) block_follow(p, number, now, p->distance[number]);
     }
-    for (int k = PILOT_WORST; k < PILOT_FOLLOWED; k++) /* one that is among the worst does not stand for others */
-        for (int i = 0; i < PILOT_WORST; i++)
-            if (p->block[i].number == p->block[k].number) p->block[k].number = -1;
     for (int k = 0; k < 2; k++) {
         if (!open[k]) continue;
         learn(p, &r[k]);
@@ -331,101 +286,12 @@ bool error_pilot_whole(struct error_pilot *p, const struct accuracy *set, const 
     return ok;
 }
 
-/* The block not run yet that begins first. */
-static int next_block(const struct error_pilot *p, long after)
-{
-    int first = -1;
-    for (int k = 0; k < PILOT_FOLLOWED; k++)
-        if (p->block[k].number > after && (first < 0 || p->block[k].number < p->block[first].number)) first = k;
-    return first;
-}
-
-bool error_pilot_follow(struct error_pilot *p, const struct accuracy *set, struct err *e)
-{
-    struct scene scene = p->scene;
-    struct run r;
-    struct arena *a = arena_open();
-    struct window {
-        double x[PILOT_WINDOW];
-    } *now = ARENA_TAKE(a, struct window, PILOT_FOLLOWED);
-    bool ok = true;
-    scene.accuracy = *set;
-    if (!run_open(&r, &p->plan, &scene, NULL, e)) {
-        arena_close(a);
-        return false;
-    }
-    /* Where a block begins the limited trajectory begins, too: where the first, coarsest run has it, for all. */
-    if (p->lead == 0) {
-        p->lead = SETTLED;
-        for (int i = 0; i < r.n; i++)
-            p->lead += r.stages[i].back + r.stages[i].ahead;
-    }
-    long at = 0;
-    for (int k = -1; ok && (k = next_block(p, k < 0 ? -1 : p->block[k].number)) >= 0;) {
-        long from = (p->block[k].number - 1) * PILOT_HOP, end = from + PILOT_WINDOW;
-        end = end < p->some ? end : p->some;
-        if (from - p->lead > at) run_skip(&r, at = from - p->lead);
-        for (long to; ok && at < end; at = to) {
-            to = at + STAGE_BLOCK < end ? at + STAGE_BLOCK : end;
-            ok = run_block(&r, to, e);
-            const double *force = ok ? board_at(&r.board, ITEM_FORCE, at) : NULL;
-            for (int i = 0; ok && i < PILOT_FOLLOWED; i++) {
-                long begin = (p->block[i].number - 1) * PILOT_HOP, first = at > begin ? at : begin,
-                     last = to < begin + PILOT_WINDOW ? to : begin + PILOT_WINDOW;
-                if (p->block[i].number >= 0 && first < last)
-                    memcpy(now[i].x + (first - begin), force + (first - at), (size_t)(last - first) * sizeof(double));
-            }
-        }
-    }
-    learn(p, &r);
-    run_close(&r);
-    struct hearing h = hearing_open();
-    for (int k = 0; ok && k < PILOT_FOLLOWED; k++) {
-        struct pilot_block *b = &p->block[k];
-        if (b->number < 0) continue;
-        b->distance[1] = b->distance[0];
-        b->distance[0] = block_distance(p, &h, b->number, now[k].x, b->x);
-        memcpy(b->x, now[k].x, sizeof b->x);
-    }
-    fft_close(h.fft);
-    arena_close(a);
-    return ok;
-}
-
-double error_pilot_whole_distance(const struct error_pilot *p)
-{
-    double sum = 0;
-    for (long b = 0; b < p->blocks; b++)
-        sum += p->distance[b];
-    return p->drift * p->drift * sum;
-}
-
 double error_pilot_distance(const struct error_pilot *p, bool history)
 {
-    double sum = 0, spread = 0, first = 0, rest = 0, part = history ? 1.0 / 16 : 0;
-    long n = 0, others = p->blocks;
-    if (!p->follows) {
-        for (long b = 0; b < p->blocks; b++)
-            sum += fmax(p->distance[b], part * p->older[b]);
-        return p->drift * p->drift * sum;
-    }
+    double sum = 0, part = history ? 1.0 / 16 : 0;
     for (long b = 0; b < p->blocks; b++)
-        rest += p->distance[b];
-    for (int k = 0; k < PILOT_FOLLOWED; k++) {
-        const struct pilot_block *b = &p->block[k];
-        if (b->number < 0) continue;
-        double own = fmax(b->distance[0], part * b->distance[1]);
-        sum += own;
-        others--;
-        rest -= p->distance[b->number];
-        if (k < PILOT_WORST) continue;
-        spread += own;
-        first += p->distance[b->number];
-        n++;
-    }
-    double mean = n ? spread / (double)n : 0, by_share = first > 0 ? spread * fmax(rest, 0) / first : 0,
-           even = mean * (double)others;
-    return sum + fmax(even, fmin(by_share, 4 * even));
+        sum += fmax(p->distance[b], part * p->older[b]);
+    return p->drift * p->drift * sum;
 }
 
 bool error_pilot_can(struct error_pilot *p, const struct accuracy *set, struct err *e)
