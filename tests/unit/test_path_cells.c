@@ -59,7 +59,7 @@ static void prepare(const struct motion *m, double rate, int over)
     struct err e = {0};
     size_t n = (size_t)((FRAMES + 1) * over);
     double *t = ARENA_TAKE(arena, double, n), *x[6];
-    contact.motion = *m;
+    contact = (struct contact){.motion = *m}; // parameters of an arena that is closed are forgotten
     *(struct limiter *)params_edit(&contact, limiter_stage.params, arena) =
         (struct limiter){.alpha = 0.03, .ratio_y = 0.5, .force_range = {NAN, NAN}};
     contact.load.constant = 1;
