@@ -111,13 +111,15 @@ lowest() { awk -F, '/^[0-9]/ && n < 3 { printf "%s%.1f", n++ ? " " : "", $5 }' "
 
 # transferred NAME OBJECT FILE PLACE: by the fitted material FILE.csv, with the residual and without
 transferred() {
-    local name=$1 file=$3 at=$4
+    local name=$1 file=$3 at=$4 shift
     sound "$file.csv" "$name.$2.modal.wav" "$at"
-    sound "$file.csv" "$name.$2.wav" "$at" --set surface.residual="$to/${name}_residual/residual.yaml"
+    for shift in difference ratio; do
+        sound "$file.csv" "$name.$2.$shift.wav" "$at" --set surface.residual="$to/${name}_residual/residual.yaml" --set surface.residual_shift=$shift
+    done
     sound "$PWD/true.$name.$2.modes.csv" "true.$name.$2.modal.wav" "$at"
-    printf '%-16s %-9s %-24s %-24s %-18s %-18s %s\n' "$name" "$2" "$(lowest "true.$name.$2.modes.csv")" "$(lowest "$file.csv")" \
+    printf '%-16s %-9s %-24s %-24s %-18s %-18s %-18s %s\n' "$name" "$2" "$(lowest "true.$name.$2.modes.csv")" "$(lowest "$file.csv")" \
         "$(distance "true.$name.$2.modal.wav" "$name.$2.modal.wav")" "$(distance "true.$name.$2.wav" "$name.$2.modal.wav")" \
-        "$(distance "true.$name.$2.wav" "$name.$2.wav")" >> transferred.txt
+        "$(distance "true.$name.$2.wav" "$name.$2.difference.wav")" "$(distance "true.$name.$2.wav" "$name.$2.ratio.wav")" >> transferred.txt
 }
 
 rm -f fitted.txt transferred.txt warnings.txt
@@ -170,8 +172,9 @@ done <<< "$objects"
     cat fitted.txt
     echo
     echo 'Carried over: lowest frequencies in Hz; the third octave, of those within 40 dB of the loudest, that is farthest from the truth:'
-    echo 'modes from true modes, modes from all that truly sounds, modes and residual from all that truly sounds'
-    printf '%-16s %-9s %-24s %-24s %-18s %-18s %s\n' object size truth 'by the fit' modes 'without residual' 'with it'
+    echo 'modes from true modes, modes from all that truly sounds, and modes with the residual, moved by difference or by ratio (surface.residual_shift).'
+    echo 'The bracket is unlike what was recorded and truly has nothing but modes.'
+    printf '%-16s %-9s %-24s %-24s %-18s %-18s %-18s %s\n' object size truth 'by the fit' modes 'without residual' 'by difference' 'by ratio'
     cat transferred.txt
 } | tee table.txt
 [ $# != 0 ] || cp table.txt "$to"

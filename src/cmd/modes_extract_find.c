@@ -26,7 +26,6 @@ static const double before = 4e-4;     /* s of a stretch before its force */
 static const double past = 1e-3;       /* s after a strike without force: the hammer has left */
 static const double shortest = 0.01;   /* s of sound that a stretch needs */
 static const double lead_least = 0.05; /* s of silence before the first strike that show the noise */
-static const double reach = 1e-4;      /* of the force's greatest power: what lies below is noise */
 static const double half = 0.5;        /* of a strike's energy: modes that explain less are not its own */
 static const double enough = 0.9;      /* of all strikes' */
 static const double single = 0.7; /* of a mode's parts of all strikes' energies: less than that is in any of them */
@@ -182,7 +181,7 @@ static double reach_of_force(const struct modes_extract *x, const struct modes_e
             power[i] += one[i];
     }
     double most = gsl_stats_max(power, 1, (size_t)n / 2 + 1);
-    while (k > 0 && power[k] < reach * most)
+    while (k > 0 && power[k] < MODES_EXTRACT_REACH * most)
         k--;
     arena_close(a);
     return fmin(0.49 * x->rate, (double)k * x->rate / (double)n);

@@ -8,13 +8,13 @@
 
    By time, the represented sound is subtracted as it is, for its phases are known; then noise is taken off, as the lead
    before the strike shows it: each pixel of the spectrogram (num/stft.h) times sqrt(1 - P_noise/P), P the mean of 3 x
-   3, and what is not 3 dB above the noise is 0. By power, as printed: P_recording - P_represented, where the paper does
-   not say that it falls below 0, as it does wherever phases differ; here it stops there, and has the recording's
-   phases.
+   3, and what is not 6 dB above the noise is 0: of noise alone chance then leaves 23 dB less than there was, with 3 dB
+   it was 10. By power, as printed: P_recording - P_represented, where the paper does not say that it falls below 0, as
+   it does wherever phases differ; here it stops there, and has the recording's phases.
 
    That is the sound of the strike's own force. What scenes take is a response, as the modes are: where the force was
-   recorded, the residual is divided by its spectrum. Where that is more than 20 dB below its strongest the response is
-   too weak: there the strike held next to nothing. */
+   recorded, it is divided out (num/deconvolve.h), as far as it reaches. Where it is 40 dB below its strongest the
+   response is half of what it was, at 30 dB 1 dB less, and fades beyond. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -30,7 +30,7 @@
 #include "cmd/modes_extract.h"
 #include "cmd/report.h"
 #include "file/wav.h"
-#include "num/fft.h"
+#include "num/deconvolve.h"
 #include "num/scaled.h"
 #include "num/stft.h"
 #include "response/mode_table.h"
@@ -43,7 +43,6 @@ enum { LEAD_FRAMES = 4 }; /* that show the noise */
 static const double fade = 0.005;   /* s at the end */
 static const double nothing = 1e-8; /* of the energy: a tail of less is cut */
 #define LITTLE (-1.0)               /* dB that are left: a table of another object */
-static const double weakest = 1e-2; /* of the force's power, where it is strongest: what is divided by */
 
 struct table { /* features of a mode table */
     const char *file, *name;
@@ -61,7 +60,7 @@ struct job {
     int domain;
     bool keeps_noise;
     struct table table, estimated;
-    int outside; /* modes of the table that lie outside the band that the strike holds */
+    int outside; /* modes of the table that lie outside the band that is fitted */
     struct feature_match match;
     double *ratio;                                    /* [table.n] R_i; 0 of one outside */
     cplx *gain;                                       /* [table.n][stretches] */
@@ -119,7 +118,7 @@ static bool table_read(struct job *j, const char *file, struct table *to, struct
 
 /* ------------------------------------------------------------------ the strike */
 
-/* The loudest that is neither doubled nor clipped; of none such, of those that are used. */
+/* The loudest that is neither doubled nor clipped, else the loudest. */
 static void choose(struct job *j)
 {
     double most = -1.0;
@@ -174,8 +173,7 @@ static bool subtract(struct job *j, struct modal_options *o, struct err *e)
     }
     j->outside = n - inside;
     if (!inside)
-        return err_set(e, ERR_SCENE,
-                       "%s: no mode of %s lies between %.6g and %.6g Hz, where the strike holds something",
+        return err_set(e, ERR_SCENE, "%s: no mode of %s lies in the band that is fitted, %.6g to %.6g Hz",
                        j->place->shown, j->table.file, j->x.low, j->x.high);
     o->most = inside;
     o->fastest = 1e9; /* of a table any decay is a mode's */
@@ -195,12 +193,10 @@ static bool subtract(struct job *j, struct modal_options *o, struct err *e)
         scaled_add(j->recorded, -1.0, earlier, j->length);
     }
     j->ratio = ARENA_TAKE(j->arena, double, n);
-    for (int i = 0; i < n; i++)
-        j->ratio[i] = 1.0;
-    if (j->estimated.file) {
+    if (j->estimated.file)
         feature_match(j->table.feature, n, j->estimated.feature, j->estimated.n, NULL, j->arena, &j->match);
-        memcpy(j->ratio, j->match.reference, (size_t)n * sizeof *j->ratio);
-    }
+    for (int i = 0; i < inside; i++)
+        j->ratio[of[i]] = j->estimated.file ? j->match.reference[of[i]] : 1.0;
     for (int i = 0; i < inside; i++)
         ring(j, j->stretch, pole[i], cplx_scale(j->ratio[of[i]], gain[i * stretches + j->stretch]), j->represented);
     for (long i = 0; i < j->length; i++)
@@ -263,7 +259,7 @@ static void compensate(struct job *j)
         for (int k = 0; k < s->bins; k++) {
             long i = (long)m * s->bins + k;
             double mean = mean_of_nine(power, s, m, k), noise = j->noise ? j->noise[k] : 0.0,
-                   gain = mean > 2.0 * noise && whole[i] > 0.0 ? sqrt((1.0 - noise / mean) * power[i] / whole[i]) : 0.0;
+                   gain = mean > 4.0 * noise && whole[i] > 0.0 ? sqrt((1.0 - noise / mean) * power[i] / whole[i]) : 0.0;
             re[i] *= gain;
             im[i] *= gain;
         }
@@ -279,38 +275,22 @@ static void compensate(struct job *j)
     j->length = last;
 }
 
-/* The residual divided by the force, of amplitude 1 at 0 Hz; without a force it is as it is. */
+/* Is there a force to divide by? */
+static bool divided(const struct job *j) { return j->x.given.force_channel && stretch_of(j)->pulse.n; }
+
+/* The residual as a response: by the force, of amplitude 1 at 0 Hz. Without a force it is as it is. */
 static void divide(struct job *j)
 {
     const struct modal_pulse *p = &stretch_of(j)->pulse;
     j->response = j->residual;
-    if (!j->x.given.force_channel || strike_of(j)->clipped) return;
-    struct arena *a = arena_open();
-    size_t size = fft_good_size((size_t)(j->length + 2 * p->n));
-    long bins = (long)size / 2 + 1;
-    struct fft *fft = fft_open(size);
-    double *x = ARENA_TAKE(a, double, size), *re = ARENA_TAKE(a, double, bins), *im = ARENA_TAKE(a, double, bins),
-           *f = ARENA_TAKE(a, double, size), *f_re = ARENA_TAKE(a, double, bins), *f_im = ARENA_TAKE(a, double, bins),
-           most = 0.0;
-    memcpy(x, j->residual, (size_t)j->length * sizeof *x);
+    if (!divided(j)) return;
+    double sum = 0.0;
     for (long k = 0; k < p->n; k++)
-        f[(k + p->at - j->start + (long)size) % (long)size] = p->f[k];
-    fft_forward(fft, x, re, im);
-    fft_forward(fft, f, f_re, f_im);
-    double whole = f_re[0];
-    for (long k = 0; k < bins; k++)
-        most = fmax(most, f_re[k] * f_re[k] + f_im[k] * f_im[k]);
-    for (long k = 0; k < bins; k++) {
-        double scale = whole / (fmax(f_re[k] * f_re[k] + f_im[k] * f_im[k], weakest * most) * (double)size),
-               real = scale * (re[k] * f_re[k] + im[k] * f_im[k]);
-        im[k] = scale * (im[k] * f_re[k] - re[k] * f_im[k]);
-        re[k] = real;
-    }
-    fft_inverse(fft, re, im, x);
-    fft_close(fft);
+        sum += p->f[k];
     j->response = ARENA_TAKE(j->arena, double, j->length);
-    memcpy(j->response, x, (size_t)j->length * sizeof *x);
-    arena_close(a);
+    deconvolve(j->residual, j->length, p->f, p->n, MODES_EXTRACT_REACH, j->response);
+    for (long i = 0; i < j->length; i++)
+        j->response[i] *= sum;
 }
 
 /* ------------------------------------------------------------------ the folder */
@@ -419,6 +399,8 @@ static void yaml_write(FILE *f, const struct job *j, const struct figures *g)
     yaml_number(f, j->x.given.force_channel ? "momentum" : "peak", j->x.given.force_channel ? v->momentum : v->peak);
     if (j->place->placed) fprintf(f, "place_m: [%.9g, %.9g]\n", j->place->x, j->place->y);
     fprintf(f, "domain: %s\nnoise: %s\n", j->domain == BY_POWER ? "power" : "time", j->noise ? "taken off" : "kept");
+    if (divided(j))
+        fprintf(f, "force_divided_out_to_hz: %.6g  # where the force is 40 dB below its strongest\n", j->place->high);
     fprintf(f, "modes: %d\n", j->table.n);
     yaml_number(f, "match_ratio_mean", g->mean);
     yaml_number(f, "match_ratio_least", g->least);
@@ -502,6 +484,9 @@ static void report(const struct job *j, const struct figures *g, bool json, stru
                              ? "the table's modes take less than a fifth of the sound off: is the table of "
                                "this object, and the recording one of a strike?"
                              : NULL;
+    const char *doubled = v->doubled && !divided(j)
+                              ? "the strike is doubled, and no other can be used: its second blow is in the residual"
+                              : NULL;
     struct report r = report_open(stdout, json);
     double seconds = (double)j->length / j->x.rate, onset = (double)v->onset / j->x.rate;
     report_set(
@@ -511,12 +496,14 @@ static void report(const struct job *j, const struct figures *g, bool json, stru
         j->folder, j->place->shown, j->table.file, j->estimated.file, stretch_of(j)->strike + 1, onset,
         (double)j->start / j->x.rate, v->momentum, v->peak, modes_quantity_name(j->x.given.quantity), per(j), !lacks,
         seconds, j->table.n, j->outside);
+    report_set(&r, "force_divided_out_to_hz:n", divided(j) ? j->place->high : NAN);
     report_set(&r, "noise_removed:b match_ratio_mean:n match_ratio_least:n match_ratio_by_energy:n match_score:n",
                j->noise != NULL, g->mean, g->least, j->estimated.file ? j->match.represented : 1.0,
                j->estimated.file ? j->match.score : 1.0);
     report_set(&r, "represented_db:n left_db:n noise_db:n residual_db:n", g->represented, g->left, g->noise,
                g->residual);
     report_list(&r, "warnings");
+    if (doubled) report_set(&r, ":s", doubled);
     if (little) report_set(&r, ":s", little);
     report_end(&r);
     report_list(&r, "match_ratios");
@@ -526,7 +513,7 @@ static void report(const struct job *j, const struct figures *g, bool json, stru
     if (!j->x.given.impulse) strike = arena_format(j->arena, ", strike %d at %.4f s", stretch_of(j)->strike + 1, onset);
     report_text(&r, "%s%s: %d modes of %s\n", j->place->shown, strike, j->table.n, j->table.file);
     if (j->outside)
-        report_text(&r, "%d of them outside of what the strike holds, %.5g to %.5g Hz, and in the residual\n",
+        report_text(&r, "%d of them outside of %.5g to %.5g Hz, the band that is fitted: they stay in the residual\n",
                     j->outside, j->x.low, j->x.high);
     if (j->estimated.file)
         report_text(&r, "matched by %s: ratio %.3f by energy, %.3f in the mean, %.3f at least; score %.3f\n",
@@ -539,6 +526,12 @@ static void report(const struct job *j, const struct figures *g, bool json, stru
                                  : " with its noise: there is no silence before the strike that shows it");
     report_text(&r, "%s: %.3g s of %s, per %s%s%s\n", j->folder, seconds, modes_quantity_name(j->x.given.quantity),
                 per(j), lacks ? "; relative: " : "", lacks ? lacks : "");
+    if (divided(j))
+        report_text(&r,
+                    "the strike's force is divided out up to %.5g Hz, where it is 40 dB below its strongest; above, "
+                    "the residual fades\n",
+                    j->place->high);
+    if (doubled) report_note(&r, "warning: ", doubled);
     if (little) report_note(&r, "warning: ", little);
     report_close(&r, 12, e);
 }

@@ -11,6 +11,7 @@
 
 #include "convolution/overlap_add.h"
 #include "convolution/ring.h"
+#include "num/real.h"
 #include "response/listener.h"
 #include "response/residual.h"
 #include "response/response.h"
@@ -47,7 +48,7 @@ static const struct key keys[] = {
     {ROW_CHOICE(surface_residual, shift, "surface.residual_shift"), KEY_NONE, 0, 0, "difference", RESIDUAL,
      "how what lies about a mode moves to another frequency", shifts},
     {ROW_NUMBER(surface_residual, gain, "surface.residual_gain"), KEY_NONE, 0, 1000, "1", RESIDUAL,
-     "factor on it; 1: as loud beside the modes as in its recording"},
+     "factor on it; 1: for the same force as loud beside the modes as on the object that was recorded"},
     {.path = NULL}};
 
 static void check(const struct scene_part *p, const struct contact *c, const void *own)
@@ -97,7 +98,7 @@ struct residual_run {
 
 static bool wanted(const struct contact *c, const struct scene *s)
 {
-    return given(c) && response_surface_rings(c) && s->output.quantity != QUANTITY_FORCE;
+    return given(c) && given_of(c)->gain > 0 && response_surface_rings(c) && s->output.quantity != QUANTITY_FORCE;
 }
 
 /* As of a recorded response of a second (ring_choice.c): how long it is its file says. */
@@ -193,8 +194,9 @@ static struct stage_report report(const struct stage_run *r, struct arena *a)
 {
     const struct residual_run *s = r->state;
     const struct residual_transferred *t = &s->outputs->sound;
+    double level = t->level + 20.0 * real_log10(given_of(r->contact)->gain);
     json_t *value =
-        json_pack("{s:i s:f s:f}", "pairs", t->pairs, "level_db", t->level, "seconds", (double)t->n / r->board->rate);
+        json_pack("{s:i s:f s:f}", "pairs", t->pairs, "level_db", level, "seconds", (double)t->n / r->board->rate);
     const char *off = "";
     if (isfinite(t->consistency)) {
         json_object_set_new(value, "consistency_db", json_real(t->consistency));
@@ -203,7 +205,7 @@ static struct stage_report report(const struct stage_run *r, struct arena *a)
     return (struct stage_report){"residual",
                                  value,
                                  arena_format(a, "residual by %d pair%s of modes, %.1f dB beside the modes%s", t->pairs,
-                                              t->pairs == 1 ? "" : "s", t->level, off),
+                                              t->pairs == 1 ? "" : "s", level, off),
                                  {NULL}};
 }
 
@@ -211,7 +213,7 @@ const struct stage surface_residual_stage = {
     .name = "surface_residual",
     .does = "what the surface sounds besides its modes: a recording's residual, transferred",
     .paper = "003 D",
-    .idle = "no surface.residual, or the surface does not ring",
+    .idle = "no surface.residual, its gain is 0, or the surface does not ring",
     .params = &surface_residual_params,
     .needs = ITEM_BIT(ITEM_FORCE) | ITEM_BIT(ITEM_SURFACE_SOUND),
     .gives = ITEM_BIT(ITEM_SURFACE_SOUND),
