@@ -2,7 +2,8 @@
 """Strikes on real objects, of which no truth is known: material_measured.py FOLDER OBJECT...
 
 For each FOLDER/OBJECT.wav (channel 1 sound, channel 2 force) prints rows of evidence/materials.md: residual and represented sound,
-their sum beside the recording (of the first strike, with its noise), damping by two laws, and how modes of every other strike predict the rest."""
+their sum beside the recording (of the first strike, with its noise), the residual
+through the recorded force beside what the strike left, damping by two laws, and how modes of every other strike predict the rest."""
 import cmath, json, math, os, struct, subprocess, sys
 
 
@@ -38,9 +39,32 @@ def fft(v):
 
 def octaves(x, n):
     """dB of the third octaves from 100 Hz to 16 kHz."""
-    power = [abs(v) ** 2 for v in fft(list(x) + [0.0] * (n - len(x)))[:n // 2]]
+    return bands([abs(v) ** 2 for v in fft(list(x) + [0.0] * (n - len(x)))[:n // 2]], n)
+
+
+def bands(power, n):
     centres = [1000 * 2 ** (k / 3) for k in range(-10, 13)]
     return [10 * math.log10(sum(power[int(c * n / 44100 / 2 ** (1 / 6)):int(c * n / 44100 * 2 ** (1 / 6)) + 1]) + 1e-30) for c in centres]
+
+
+def through(folder, facts, sound):
+    """The residual through the force of its strike, beside what the strike left: dB of third octaves, and their number, in which the force
+    is within 20 dB of its strongest."""
+    at, pulse = round(facts["onset_s"] * 44100), samples(sound, 1)
+    base = sum(pulse[at - 200:at]) / 200
+    pulse = [v - base for v in pulse[at:at + 900]]
+    if -min(pulse) > max(pulse):
+        pulse = [-v for v in pulse]
+    top = end = pulse.index(max(pulse))
+    while end < len(pulse) and pulse[end] > 0.003 * pulse[top]:
+        end += 1
+    response, left = samples(folder + "/residual.wav", 0), samples(folder + "/strike.wav", 1)
+    n = 2 << (len(left) - 1).bit_length()
+    f, r, y = (fft(list(v) + [0.0] * (n - len(v))) for v in (pulse[:end], response, left))
+    force = bands([abs(v) ** 2 / abs(f[0]) ** 2 * 1000 / max(1, k * 44100 / n) for k, v in enumerate(f[:n // 2])], n)
+    again, whole = bands([abs(v * w / f[0]) ** 2 for v, w in zip(r, f)][:n // 2], n), bands([abs(v) ** 2 for v in y][:n // 2], n)
+    off = [abs(a - b) for a, b, s in zip(again, whole, force) if s > max(force) - 20]
+    return max(off), len(off)
 
 
 def interval(law, key, unit):
@@ -60,11 +84,12 @@ for name in sys.argv[2:]:
     start = round(first["start_s"] * 44100)
     both = [samples(f"{name}_first/strike.wav", k) for k in (0, 1)]
     both = [a + b for a, b in zip(*both)]
+    back, count = through(name + "_residual", left, sound)
     scale, n = first["momentum"], 1 << (len(both) - 1).bit_length()
     recorded, again = octaves(x[start:start + len(both)], n), octaves([scale * v for v in both], n)
     off = [abs(a - b) for a, b in zip(recorded, again) if a > max(recorded) - 40]
     rows["residual"].append(f"| {name} | {left['strike']} | {left['modes']} | {left['represented_db']:.1f} | {left['residual_db']:.1f} | {left['noise_db']:.1f} "
-                            f"| {max(off):.2f} ({len(off)} bands) |")
+                            f"| {max(off):.2f} ({len(off)} bands) | {back:.2f} ({count} bands) |")
     d = rasp("modes", "material", name + ".csv", "--name", "found", "--json", "-f", "-o", "found.yaml")
     law = {one["law"]: one for one in d["damping"]}
     chosen = next(one for one in d["damping"] if one["chosen"])
@@ -84,7 +109,7 @@ for name in sys.argv[2:]:
     middle = [sorted(p[k] for p in pairs)[len(pairs) // 2] for k in (0, 1)]
     rows["halves"].append(f"| {name} | {len(strikes[::2])}, {len(strikes[1::2])} | {len(pairs)} of {len(strong)} | {100 * middle[0]:.2f} % | {100 * middle[1]:.0f} % "
                           f"| {other['left_db']:.1f} dB | {own['left_db']:.1f} dB |")
-print("| object | strike | modes | represented, dB of the recording | residual | noise | the first strike, both added beside its recording, farthest third octave, dB |\n|---|---|---|---|---|---|---|")
+print("| object | strike | modes | represented, dB of the recording | residual | noise | the first strike, both added beside its recording, farthest third octave, dB | the residual through the recorded force beside what was left, dB, where the force is within 20 dB |\n|---|---|---|---|---|---|---|---|")
 print("\n".join(rows["residual"]))
 print("\n| object | modes | Rayleigh (95 %) | scatter | loss factor (95 %) | scatter | likeliest law | warnings |\n|---|---|---|---|---|---|---|---|")
 print("\n".join(rows["damping"]))

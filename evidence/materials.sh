@@ -151,7 +151,8 @@ Too few modes, wrong matches, a hum and a clipped strike, with their warnings: [
 
 By \`scripts/section_e.sh\`: five objects are struck, fitted, and carried over to other sizes (the bowl of 20 cm to 14 and 10 cm) and to an irregular body.
 The size "same" is the recorded object itself, by the material fitted to it. Below the lowest mode and between modes the residual is most of the sound:
-without it third octaves are up to 9 dB too weak. In the metal plate a fitted mode lies on the other side of a band's edge.
+without it third octaves are up to 9 dB too weak. Of bodies alike, all frequencies of which move by one ratio, \`ratio\` is the right map; \`difference\` is the paper's, and
+4 dB off below the lowest mode of a bowl of half the size. In the metal plate a fitted mode lies on the other side of a band's edge.
 
 \`\`\`
 $(cat "$ROOT/irs/fitted/table.txt")
