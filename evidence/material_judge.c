@@ -211,14 +211,21 @@ static int fit(char **argv)
             truth[k] = number_first(rest, &rest);
         double size_error = rest[strspn(rest, " \n")] ? number_first(rest, &rest) : 0.0;
         printf("%s", label);
-        if (!mode_table_read(file, room, &t, &e)) {
+        struct material_set set[2];
+        int sets = 0;
+        bool read = true;
+        for (int k = place ? place : 1; k <= (place ? place : 2); k++) { /* 0: both places, of FILE-1.csv and FILE-2.csv */
+            read = read && mode_table_read(place ? file : arena_format(room, "%s-%d.csv", file, k), room, &t, &e);
+            if (!read) break;
+            set[sets] = material_set_make(&t, 0, room);
+            set[sets++].visible = material_set_visible(&family, points, k - 1, 1, -1, room);
+        }
+        if (!read) {
             printf(" no-table\n");
         } else {
-            struct material_set set = material_set_make(&t, 0, room);
-            set.visible = material_set_visible(&family, points, place - 1, 1, -1, room);
             struct material_problem p = {.object = &family,
-                                         .sets = 1,
-                                         .set = &set,
+                                         .sets = sets,
+                                         .set = set,
                                          .gamma = {1e5, 5e8},
                                          .poisson = NAN,
                                          .model_error = 1e-3,

@@ -36,15 +36,15 @@ def worst(values, form, scale=1.0):
 print("| solid | SNR | fits | with intervals | modes matched (least, median) | E/density, % (median, worst) | nu (median, worst) "
       "| alpha, % | beta, % | intervals hold: E/density | nu | alpha | beta |")
 print("|---|---|---|---|---|---|---|---|---|---|---|---|---|")
-for snr in ("60", "30"):
-    for solid in ("plate", "bar", "ring", "bowl", "mug", "bracket", "all"):
-        all_ = [r for r in rows if r[2] == snr and solid in (r[0], "all")]
+for snr, joint in (("60", False), ("30", False), ("60", True), ("30", True)):
+    for solid in ("all",) if joint else ("plate", "bar", "ring", "bowl", "mug", "bracket", "all"):
+        all_ = [r for r in rows if r[2] == snr and solid in (r[0], "all") and joint == (r[3] == "both")]
         sure = [r for r in all_ if r[6]]
         if not all_:
             continue
         matched = sorted(r[5] for r in all_)
         print("| %s | %s dB | %d | %d | %d, %d | %s | %s | %s | %s | %s |" % (
-            solid, snr, len(all_), len(sure), matched[0], matched[len(matched) // 2],
+            "all, of both places together" if joint else solid, snr, len(all_), len(sure), matched[0], matched[len(matched) // 2],
             worst([r[7][0] for r in sure], "%.3f", 100), worst([r[7][1] for r in sure], "%.4f"),
             worst([r[7][2] for r in sure], "%.1f", 100), worst([r[7][3] for r in sure], "%.1f", 100),
             " | ".join(share([r[8][k] for r in sure]) for k in range(4))))

@@ -91,6 +91,8 @@ if wanted fit; then
                     name=${o[0]}-${m[0]}-$snr-$place
                     echo "$name $name.csv $place $(awk "BEGIN { printf \"%.10g\", ${m[1]} / ${m[3]} }") ${m[2]} ${m[4]} ${m[5]}"
                 done
+                name=${o[0]}-${m[0]}-$snr
+                echo "$name-both $name 0 $(awk "BEGIN { printf \"%.10g\", ${m[1]} / ${m[3]} }") ${m[2]} ${m[4]} ${m[5]}"
             done
         done <<< "$MATERIALS" > "$WORK/lines"
         OPENBLAS_NUM_THREADS=1 "$WORK/judge" fit "${o[1]}" "${o[2]}" "${o[5]}" "${o[6]}" < "$WORK/lines" > "${o[0]}.fits"

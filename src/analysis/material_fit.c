@@ -208,6 +208,8 @@ static void pair(const struct work *w, double log_gamma, struct material_set *s)
 struct row {                  /* a pair */
     double off, slope, sigma; /* half of log lambda less log ratio; d log f/d nu; standard error of off */
     double mesh;              /* what the mesh's error was taken to be */
+    double error;             /* of the measured frequency alone */
+    int object, of;           /* whose mode */
 };
 
 static int rows(struct work *w, struct row *r)
@@ -226,12 +228,37 @@ static int rows(struct work *w, struct row *r)
             int j = s->match[i];
             if (j < 0) continue;
             double mesh = 0.3 * mesh_error(f, j);
-            r[n++] = (struct row){0.5 * (s->log_lambda[i] - w->log_ratio[j]), 0.5 * w->slope[j],
+            r[n++] = (struct row){0.5 * (s->log_lambda[i] - w->log_ratio[j]),
+                                  0.5 * w->slope[j],
                                   sqrt(s->error[i] * s->error[i] + p->model_error * p->model_error + mesh * mesh),
-                                  mesh_error(f, j)};
+                                  mesh_error(f, j),
+                                  s->error[i],
+                                  s->object,
+                                  j};
         }
     }
     return n;
+}
+
+/* One row for each mode of an object: what a computed mode is off by is the same in all its strikes. Returns how many. */
+static int merged(struct row *r, int n, double model_error)
+{
+    int rows = 0;
+    for (int i = 0; i < n; i++) {
+        int k = 0;
+        while (k < rows && (r[k].object != r[i].object || r[k].of != r[i].of))
+            k++;
+        if (k < rows) {
+            double one = 1.0 / (r[k].error * r[k].error + 1e-20), other = 1.0 / (r[i].error * r[i].error + 1e-20),
+                   mesh = 0.3 * r[k].mesh;
+            r[k].off = (one * r[k].off + other * r[i].off) / (one + other);
+            r[k].error = 1.0 / sqrt(one + other);
+            r[k].sigma = sqrt(r[k].error * r[k].error + model_error * model_error + mesh * mesh);
+        } else {
+            r[rows++] = r[i];
+        }
+    }
+    return rows;
 }
 
 struct solution {
@@ -344,15 +371,41 @@ static void warn(struct material_fit *f, struct arena *a, const char *text)
     f->warning = arena_line(a, f->warning, text);
 }
 
+/* One decay for each mode of an object, the mean of its strikes' by their errors: by what it lies beside a law is its
+   own. Returns how many. */
+static int decays(const struct material_set *set, int sets, struct material_decay *d, struct arena *room)
+{
+    struct {
+        int object, mode;
+    } *whose = arena_take(room, (size_t)count_modes(set, sets) + 1, sizeof *whose);
+    int n = 0;
+    for (int k = 0; k < sets; k++)
+        for (int i = 0; i < set[k].n; i++) {
+            struct material_decay one = {real_exp(set[k].log_lambda[i]), real_log(set[k].decay[i]),
+                                         fmax(set[k].decay_error[i], 1e-9)};
+            int at = 0;
+            if (set[k].match[i] < 0) continue;
+            while (at < n && (whose[at].object != set[k].object || whose[at].mode != set[k].match[i]))
+                at++;
+            if (at < n) {
+                double before = 1.0 / (d[at].sigma * d[at].sigma), weight = 1.0 / (one.sigma * one.sigma);
+                d[at].log_decay = (before * d[at].log_decay + weight * one.log_decay) / (before + weight);
+                d[at].sigma = 1.0 / sqrt(before + weight);
+                continue;
+            }
+            whose[n].object = set[k].object;
+            whose[n].mode = set[k].match[i];
+            d[n++] = one;
+        }
+    for (int i = 0; i < n; i++)
+        d[i].sigma = fmax(d[i].sigma, rough);
+    return n;
+}
+
 static void damping(const struct material_set *set, int sets, struct arena *a, struct material_fit *f)
 {
     struct material_decay *d = ARENA_TAKE(a, struct material_decay, count_modes(set, sets) + 1);
-    int n = 0;
-    for (int k = 0; k < sets; k++)
-        for (int i = 0; i < set[k].n; i++)
-            if (set[k].match[i] >= 0)
-                d[n++] = (struct material_decay){real_exp(set[k].log_lambda[i]), real_log(set[k].decay[i]),
-                                                 fmax(set[k].decay_error[i], rough)};
+    int n = decays(set, sets, d, a);
     f->best = MATERIAL_RAYLEIGH;
     for (int law = 0; law < MATERIAL_LAWS; law++)
         material_damping_fit(law, d, n, &f->damping[law]);
@@ -384,9 +437,9 @@ void material_fit_damping(const struct material_set *set, int sets, struct arena
     *f = (struct material_fit){.modes = count_modes(set, sets), .gamma = {NAN, NAN, NAN}, .nu = {NAN, NAN, NAN}};
     f->matched = f->modes;
     f->sure = f->modes >= SURE_MODES;
-    for (int k = 0; k < sets; k++)
+    for (int k = 0, mode = 0; k < sets; k++) /* which modes of two strikes are the same is not known */
         for (int i = 0; i < set[k].n; i++)
-            set[k].match[i] = 0;
+            set[k].match[i] = mode++;
     damping(set, sets, a, f);
     if (f->sure) return;
     unsure(f);
@@ -400,14 +453,18 @@ static void figures(struct work *w, struct row *r, int n, const struct solution 
     const struct material_problem *p = w->p;
     struct arena *room = arena_open();
     const bool free_nu = nu_free(w);
-    double *times = ARENA_TAKE(room, double, n), *gamma = ARENA_TAKE(room, double, MATERIAL_DRAWS),
-           *nu = ARENA_TAKE(room, double, MATERIAL_DRAWS), square = 0.0, t = material_damping_student(n - 1 - free_nu);
+    struct solution once = *x;
+    double square = 0.0;
     for (int i = 0; i < n; i++) {
         double rest = r[i].off - 0.5 * x->log_gamma;
         square += rest * rest;
     }
     f->scatter = sqrt(square / n);
-    f->birge = sqrt(x->chi2 / fmax(n - 1 - free_nu, 1));
+    n = merged(r, n, p->model_error);
+    newton(r, n, NULL, free_nu, &once);
+    double *times = ARENA_TAKE(room, double, n), *gamma = ARENA_TAKE(room, double, MATERIAL_DRAWS),
+           *nu = ARENA_TAKE(room, double, MATERIAL_DRAWS), t = material_damping_student(n - 1 - free_nu);
+    f->birge = sqrt(once.chi2 / fmax(n - 1 - free_nu, 1));
     for (int i = 0; i < MATERIAL_DRAWS; i++) {
         struct solution one = *x;
         material_damping_resample(i, "modes", n, times);
@@ -435,8 +492,8 @@ static void figures(struct work *w, struct row *r, int n, const struct solution 
         }
         newton(there, n, NULL, free_nu, &moved);
     }
-    double half = fmax(t * f->birge * sqrt(x->covariance[0]), material_damping_spread(gamma, x->log_gamma)),
-           half_nu = fmax(t * f->birge * sqrt(x->covariance[2]), material_damping_spread(nu, x->nu)),
+    double half = fmax(t * f->birge * sqrt(once.covariance[0]), material_damping_spread(gamma, x->log_gamma)),
+           half_nu = fmax(t * f->birge * sqrt(once.covariance[2]), material_damping_spread(nu, x->nu)),
            size = 1.96 * 2.0 * p->size_error, mesh = 1.96 * (moved.log_gamma - x->log_gamma),
            mesh_nu = 1.96 * (moved.nu - x->nu);
     half = sqrt(half * half + size * size + mesh * mesh);
@@ -445,7 +502,7 @@ static void figures(struct work *w, struct row *r, int n, const struct solution 
         (struct material_figure){real_exp(x->log_gamma), real_exp(x->log_gamma - half), real_exp(x->log_gamma + half)};
     f->nu = (struct material_figure){x->nu, x->nu - half_nu, x->nu + half_nu};
     if (!free_nu) f->nu.low = f->nu.high = NAN;
-    f->correlation = free_nu ? x->covariance[1] / sqrt(x->covariance[0] * x->covariance[2]) : 0.0;
+    f->correlation = free_nu ? once.covariance[1] / sqrt(once.covariance[0] * once.covariance[2]) : 0.0;
     f->nu_known = free_nu && half_nu < 0.2;
     f->nu_at_bound = free_nu && (x->nu <= 0.0 || x->nu >= highest_nu);
     arena_close(room);

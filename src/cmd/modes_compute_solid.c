@@ -107,6 +107,7 @@ static bool entry_of_file(struct compute *k, const char *word, struct err *e)
     char *file = arena_text(a, word), *name = strstr(file, ".yaml:");
     struct yaml *y = yaml_open(a);
     struct scene s = {0};
+    double density = NAN;
     if (name) {
         name += 5;
         *name++ = '\0';
@@ -118,7 +119,12 @@ static bool entry_of_file(struct compute *k, const char *word, struct err *e)
     scene_materials_read(y, map, &s);
     if (y->diag->n) return err_set(e, y->missing ? ERR_INPUT : ERR_SCENE, "--material: %s", diag_first(y->diag));
     for (int i = 0; i < s.n_materials; i++)
-        if (name ? !strcmp(name, s.materials[i].m.name) : s.n_materials == 1) k->material.named = &s.materials[i].m;
+        if (name ? !strcmp(name, s.materials[i].m.name) : s.n_materials == 1) {
+            if (!cmd_quantity(k->c, "density", KEY_DENSITY, &density, e)) return false;
+            k->material.named = isnan(s.materials[i].m.youngs_modulus) && !isnan(density)
+                                    ? scene_materials_dense(&s.materials[i], density, a)
+                                    : &s.materials[i].m;
+        }
     const struct material *m = k->material.named;
     if (!m)
         return err_set(e, ERR_USAGE,
@@ -126,8 +132,7 @@ static bool entry_of_file(struct compute *k, const char *word, struct err *e)
                             : "--material: %s has several materials: write %s:NAME",
                        file, name ? name : file);
     return !isnan(m->youngs_modulus) ||
-           err_set(e, ERR_USAGE, "--material: '%s' has a wave_speed and no density: give it a density in %s", m->name,
-                   file);
+           err_set(e, ERR_USAGE, "--material: '%s' has a wave_speed and no density: give --density", m->name);
 }
 
 bool modes_compute_solid_named(struct compute *k, struct err *e)

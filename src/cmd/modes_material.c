@@ -49,6 +49,10 @@ static bool read_strike(struct modes_material *j, const char *text, int object, 
                        "%s: a strike is a mode table (.csv), as rasp modes extract RECORDING -o FILE.csv writes it",
                        name);
     if (!mode_table_read(name, j->c->arena, &s->table, e) || !hash_file(name, s->hash, e)) return false;
+    for (int i = 0; i < j->strikes; i++)
+        if (!strcmp(j->strike[i].hash, s->hash))
+            return err_set(e, ERR_USAGE, "%s: the same table as %s; a strike that counts twice looks surer than it is",
+                           text, j->strike[i].shown);
     if (!s->table.shared)
         return err_set(e, ERR_SCENE, "%s: its poles differ from place to place; those of an object are one set", name);
     if (s->placed && s->table.places > 1)
@@ -298,14 +302,19 @@ static bool compute_family(struct modes_material *j, int o, struct err *e)
     return solid_family_make(&ask, j->c->arena, &j->family[o], e);
 }
 
-static void find_density(struct modes_material *j)
+static bool find_density(struct modes_material *j, struct err *e)
 {
     double mass = 0.0, volume = 0.0;
     for (int o = 0; o < j->n; o++) {
         mass += j->thing[o].mass;
         volume += j->thing[o].solid.boundary.volume;
     }
-    if (!isnan(mass)) j->density = mass / volume;
+    if (isnan(mass)) return true;
+    j->density = mass / volume;
+    return (j->density >= 1.0 && j->density <= 1e5) ||
+           err_set(e, ERR_USAGE,
+                   "--mass: %g kg in %.4g m^3 is %.4g kg/m^3, not from 1 to 100000: are mass and sizes right?", mass,
+                   volume, j->density);
 }
 
 /* ------------------------------------------------------------------ metrics and the search of papers/003 */
@@ -471,6 +480,7 @@ static int damping_only(struct modes_material *j, struct err *e)
     static const char *const others[] = {"density",  "mass",   "poisson", "gamma",
                                          "material", "method", "polish",  "size-error"};
     struct outfile o;
+    int modes = 0;
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (args_given(&j->c->args, others[i]))
             return err_set(e, ERR_USAGE,
@@ -483,6 +493,11 @@ static int damping_only(struct modes_material *j, struct err *e)
         if (j->set[i].n == 0)
             return err_set(e, ERR_SCENE, "%s: has no mode that decays", j->strike[i].file), (int)e->kind;
     }
+    for (int i = 0; i < j->strikes; i++)
+        modes += j->set[i].n;
+    if (modes <= 2)
+        return err_set(e, ERR_SCENE, "%d mode%s: a law of damping needs 3 or more", modes, modes == 1 ? "" : "s"),
+               (int)e->kind;
     material_fit_damping(j->set, j->strikes, j->c->arena, &j->fit);
     if (!outfile_open(&o, j->file, e)) return (int)e->kind;
     modes_material_write_damping(o.stream, j);
@@ -503,11 +518,10 @@ int modes_material_run(struct cmd_call *c, struct err *e)
     for (int i = 0; i < j.n; i++)
         if (!read_object(&j, &j.thing[i], e)) return (int)e->kind;
     if (j.n == 0) return damping_only(&j, e);
-    if (!read_places(&j, e)) return (int)e->kind;
+    if (!find_density(&j, e) || !read_places(&j, e)) return (int)e->kind;
     j.family = ARENA_TAKE(c->arena, struct solid_family, j.n);
     for (int i = 0; i < j.n; i++)
         if (!compute_family(&j, i, e)) return (int)e->kind;
-    find_density(&j);
     for (int i = 0; i < j.strikes; i++) {
         const struct modes_material_strike *one = &j.strike[i];
         const struct modes_material_object *t = &j.thing[j.set[i].object];

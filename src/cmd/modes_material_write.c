@@ -92,6 +92,7 @@ static void report_damping(struct report *r, const struct modes_material *j)
     report_list(r, "damping");
     for (int law = 0; law < MATERIAL_LAWS; law++) {
         const struct material_damping *d = &f->damping[law];
+        if (!isfinite(d->bic)) continue; /* as many terms as modes, or more */
         report_object(r, NULL);
         report_set(r, "law:s bic:n scatter:n chosen:b", d->name, d->bic, d->scatter, law == f->best);
         report_text(r, "  damping %-16s BIC %8.1f, scatter %4.1f %%%s", d->name, d->bic, 100.0 * d->scatter,

@@ -141,6 +141,22 @@ static void choose(struct job *j)
     j->gains = response ? 1.0 : force ? j->x.rate : 1.0 / v->peak;
 }
 
+/* Seconds by which the sound sets in before the residual begins: 30 ms before, half of its peak or more, where it was half
+   as loud 30 ms earlier; 0: it does not. */
+static double before_start(const struct job *j)
+{
+    const double *x = j->place->recording.sound.x;
+    long ms = (long)(0.001 * j->x.rate), from = j->start > 30 * ms ? j->start - 30 * ms : 0, first = j->start;
+    double peak = 0.0, earlier = 0.0;
+    for (long i = j->start; i < j->start + j->length && i < j->start + 50 * ms; i++)
+        peak = fmax(peak, fabs(x[i]));
+    for (long i = from > 30 * ms ? from - 30 * ms : 0; i < from; i++)
+        earlier = fmax(earlier, fabs(x[i]));
+    for (long i = j->start - 1; i >= from; i--)
+        if (fabs(x[i]) > 0.1 * peak && fabs(x[i]) > 2.0 * earlier) first = i;
+    return (double)(j->start - first) / j->x.rate;
+}
+
 /* What strike s makes of a mode, times `factor`, is added to y[n], whose first sample is j->start. */
 static void ring(const struct job *j, int s, cplx pole, cplx gain, double *y)
 {
@@ -476,17 +492,27 @@ static const char *shown(const struct job *j, double x, const char *otherwise)
     return isnan(x) ? otherwise : arena_format(j->arena, "%.2f dB", x);
 }
 
+static void warn(struct job *j, const struct figures *g)
+{
+    double early = before_start(j);
+    if (early > 0.0)
+        modes_extract_note(&j->x, NULL,
+                           arena_format(j->arena, "the sound sets in %.2g s before the %s%s: what is there is lost",
+                                        early, j->x.given.force_channel ? "force" : "onset",
+                                        j->x.given.force_channel && j->place->delay > 0.0 ? " and its delay" : ""));
+    if (strike_of(j)->doubled && !divided(j))
+        modes_extract_note(&j->x, NULL,
+                           "the strike is doubled, and no other can be used: its second blow is in the residual");
+    if (g->left > LITTLE)
+        modes_extract_note(&j->x, NULL,
+                           "the table's modes take less than a fifth of the sound off: is the table of this object, "
+                           "and the recording one of a strike?");
+}
+
 static void report(const struct job *j, const struct figures *g, bool json, struct err *e)
 {
     const struct strikes_one *v = strike_of(j);
-    const char *lacks = why_not(j), *strike = "",
-               *little = g->left > LITTLE
-                             ? "the table's modes take less than a fifth of the sound off: is the table of "
-                               "this object, and the recording one of a strike?"
-                             : NULL;
-    const char *doubled = v->doubled && !divided(j)
-                              ? "the strike is doubled, and no other can be used: its second blow is in the residual"
-                              : NULL;
+    const char *lacks = why_not(j), *strike = "";
     struct report r = report_open(stdout, json);
     double seconds = (double)j->length / j->x.rate, onset = (double)v->onset / j->x.rate;
     report_set(
@@ -502,10 +528,7 @@ static void report(const struct job *j, const struct figures *g, bool json, stru
                j->estimated.file ? j->match.score : 1.0);
     report_set(&r, "represented_db:n left_db:n noise_db:n residual_db:n", g->represented, g->left, g->noise,
                g->residual);
-    report_list(&r, "warnings");
-    if (doubled) report_set(&r, ":s", doubled);
-    if (little) report_set(&r, ":s", little);
-    report_end(&r);
+    report_set(&r, "warnings:t", j->x.note, j->x.notes);
     report_list(&r, "match_ratios");
     for (int i = 0; i < j->table.n; i++)
         report_set(&r, ":n", j->ratio[i]);
@@ -531,8 +554,8 @@ static void report(const struct job *j, const struct figures *g, bool json, stru
                     "the strike's force is divided out up to %.5g Hz, where it is 40 dB below its strongest; above, "
                     "the residual fades\n",
                     j->place->high);
-    if (doubled) report_note(&r, "warning: ", doubled);
-    if (little) report_note(&r, "warning: ", little);
+    for (int k = 0; k < j->x.notes; k++)
+        report_note(&r, "warning: ", j->x.note[k]);
     report_close(&r, 12, e);
 }
 
@@ -542,7 +565,7 @@ static void report(const struct job *j, const struct figures *g, bool json, stru
 static bool folder_free(const struct job *j, struct err *e)
 {
     struct stat s;
-    if (!j->folder) return err_set(e, ERR_USAGE, "-o FOLDER is needed: the folder to write");
+    if (!j->folder || !*j->folder) return err_set(e, ERR_USAGE, "-o FOLDER is needed: the folder to write");
     if (lstat(j->folder, &s) != 0) return true;
     const char *wrong = residual_is_folder(j->folder, j->arena);
     if (S_ISLNK(s.st_mode)) wrong = "is a symbolic link";
@@ -581,6 +604,7 @@ int modes_residual_run(struct cmd_call *c, struct err *e)
     compensate(j);
     divide(j);
     struct figures g = figures(j, length);
+    warn(j, &g);
     if (write_folder(j, &g, e) && (args_given(&c->args, "json") || !args_given(&c->args, "quiet")))
         report(j, &g, args_given(&c->args, "json"), e);
     return (int)e->kind;

@@ -124,7 +124,9 @@ static void entry_read(struct yaml *y, const struct yaml_node *entry, struct sce
     if (y->diag->n != before) return;
     if (isnan(t->m.youngs_modulus) == isnan(t->wave_speed))
         diag_add(y->diag, entry->key->at, EXAMPLE,
-                 "%s needs youngs_modulus, or wave_speed where its density is not known", label);
+                 isnan(t->wave_speed) ? "%s needs youngs_modulus, or wave_speed where its density is not known"
+                                      : "%s has youngs_modulus and wave_speed, which is sqrt(E/density): leave one out",
+                 label);
     else if (t->like ? !isnan(t->m.poisson) : isnan(t->m.poisson))
         diag_add(y->diag, entry->key->at, EXAMPLE,
                  t->like ? "%s is like a wood, which has its own Poisson's ratios: leave poisson out"
@@ -161,6 +163,16 @@ static struct object_given *body(struct contact *c, const char *path)
                             : &c->scraper.response.object;
 }
 
+const struct material *scene_materials_dense(const struct scene_material *t, double density, struct arena *a)
+{
+    struct scene_material *own = ARENA_TAKE(a, struct scene_material, 1);
+    *own = *t;
+    own->m.density = density;
+    own->m.youngs_modulus = density * t->wave_speed * t->wave_speed;
+    moduli(own);
+    return &own->m;
+}
+
 static const char *const keys[] = {"surface.material", "scraper.material", "ball.material"};
 
 void scene_materials_assign(const struct scene_part *p, const struct scene *s, struct contact *c)
@@ -174,12 +186,7 @@ void scene_materials_assign(const struct scene_part *p, const struct scene *s, s
             if (strcmp(node->text, t->m.name) != 0) continue;
             o->own = &t->m;
             if (!isnan(t->m.youngs_modulus)) continue;
-            struct scene_material *own = ARENA_TAKE(a, struct scene_material, 1);
-            *own = *t;
-            own->m.density = o->density;
-            own->m.youngs_modulus = o->density * t->wave_speed * t->wave_speed;
-            moduli(own);
-            o->own = &own->m;
+            o->own = scene_materials_dense(t, o->density, a);
             if (isnan(o->density) && o->given && !isnan(t->wave_speed))
                 scene_part_missing(p, arena_format(a, "%.*s.object.density", (int)strcspn(keys[i], "."), keys[i]),
                                    "2500 kg/m^3",

@@ -16,6 +16,9 @@ struct scene_material {
 /* [s->n_materials] of the tree's `materials`; errors are reported there. */
 void scene_materials_read(struct yaml *y, const struct yaml_node *map, struct scene *s);
 
+/* Of a material whose modulus follows from its wave_speed: the one of that density (kg/m^3). */
+const struct material *scene_materials_dense(const struct scene_material *t, double density, struct arena *a);
+
 /* Into the three bodies of a contact that was filled: the material of the scene's that each names, with the modulus
    that follows from the body's own density where the material has none (without that: reported). */
 void scene_materials_assign(const struct scene_part *p, const struct scene *s, struct contact *c);

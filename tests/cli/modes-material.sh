@@ -60,6 +60,12 @@ try rasp modes material $bar bar.csv --name steel -o x.yaml
 try rasp modes material $bar bar.csv --name '2 panes' -o x.yaml
 try rasp modes material $bar bar.csv --mass 1kg --density 2500 -o x.yaml
 try rasp modes material $bar bar.csv --mass 1kg --mass 2kg -o x.yaml
+try rasp modes material $bar bar.csv --mass 50kg -o x.yaml
+try rasp modes material $bar bar.csv bar.csv -o x.yaml
+awk -F, '/^#/ || /^place/ || $4 <= 2' bar.csv > two.csv
+try rasp modes material two.csv -o x.yaml
+rasp modes compute --shape $bar --order 2 --modes 3 --material size.yaml:size --density 2500 --at 1cm,5mm -o again.csv | tail -1
+try rasp modes compute --shape $bar --order 2 --modes 3 --material size.yaml:size --at 1cm,5mm -o again.csv
 try rasp modes material $bar bar.csv --gamma 1e8,1e6 -o x.yaml
 try rasp modes material $bar bar.csv --material glass -o x.yaml
 try rasp modes material $bar bar.csv --polish perceptual --method paper -o x.yaml

@@ -111,6 +111,10 @@ awk -F, -v OFS=, '/^1,/ { $6 *= 1.13 } { print }' all.csv > near.csv
 awk -F, -v OFS=, '/^1,/ { $5 *= 1.2 } { print }' all.csv > far.csv
 residual click.wav all.csv --estimated near.csv -o near | sed -n 2p
 residual click.wav all.csv --estimated far.csv --keep-noise -o far | sed -n 's/[.][0-9]* dB/ dB/g; 2,3p'
+python3 make.py force.wav 1 force
+residual force.wav all.csv --force-channel 2 --delay 20ms -o late | grep -o 'warning: the sound sets in .*'
+try residual force.wav all.csv --force-channel 2 -o ''
+python3 make.py click.wav 3 click
 residual click.wav far.csv -o other | grep -o 'warning: .* off'
 echo "the same bytes"
 residual click.wav all.csv -q -o again
