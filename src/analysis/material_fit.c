@@ -240,7 +240,8 @@ static int rows(struct work *w, struct row *r)
     return n;
 }
 
-/* One row for each mode of an object: what a computed mode is off by is the same in all its strikes. Returns how many. */
+/* One row for each mode of an object: what a computed mode is off by is the same in all its strikes. Returns how
+   many. */
 static int merged(struct row *r, int n, double model_error)
 {
     int rows = 0;

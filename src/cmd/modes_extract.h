@@ -85,7 +85,7 @@ bool modes_extract_find_strikes(struct modes_extract *x, struct modal_options *o
 bool modes_extract_find(struct modes_extract *x, struct err *e);
 
 /* The lines of a text, each once, among x->note; of a place (NULL: of none). */
-void modes_extract_note(struct modes_extract *x, const struct modes_extract_place *p, const char *text);
+void modes_extract_find_note(struct modes_extract *x, const struct modes_extract_place *p, const char *text);
 
 /* |X|^2 of y[n], padded with 0: [size/2 + 1]. */
 double *modes_extract_find_power(const double *y, long n, long size, struct arena *a);

@@ -34,7 +34,7 @@ static const double fastest[2] = {600.0, 0.05}; /* 1/s, and of the rate: what de
                                                    no mode unless one asks for it */
 static const double air_density = 1.204, air_speed = 343.2; /* kg/m^3, m/s: as output.listen has them by default */
 
-void modes_extract_note(struct modes_extract *x, const struct modes_extract_place *p, const char *text)
+void modes_extract_find_note(struct modes_extract *x, const struct modes_extract_place *p, const char *text)
 {
     for (const char *line = text; line && *line; line = strchr(line, '\n') ? strchr(line, '\n') + 1 : NULL) {
         const char *one =
@@ -46,7 +46,7 @@ void modes_extract_note(struct modes_extract *x, const struct modes_extract_plac
     }
 }
 
-#define NOTE(x, ...) modes_extract_note(x, NULL, arena_format((x)->arena, __VA_ARGS__))
+#define NOTE(x, ...) modes_extract_find_note(x, NULL, arena_format((x)->arena, __VA_ARGS__))
 
 /* ------------------------------------------------------------------ strikes */
 
@@ -82,7 +82,7 @@ static bool strikes(struct modes_extract *x, struct modes_extract_place *p, stru
     if (!(g->impulse ? strikes_response(&p->recording, g->delay, x->arena, s, e)
                      : strikes_find(&p->recording, g->threshold, x->arena, s, e)))
         return false;
-    modes_extract_note(x, p, s->note);
+    modes_extract_find_note(x, p, s->note);
     if (g->only && !only(x, s, e)) return false;
     if (!s->used)
         return err_set(e, ERR_SCENE, "%s: --strikes %s leaves no strike that can be fitted", p->shown, g->only);
@@ -407,7 +407,7 @@ static void level(struct modes_extract *x)
                      "has the peak 1 and the onset 0, and hold the hammer's spectrum: places cannot be compared with "
                      "each other; --force-channel, or impulse responses with --impulse and one --delay for all, keep "
                      "what is between them";
-    if (air && !force) modes_extract_note(x, NULL, air_note);
+    if (air && !force) modes_extract_find_note(x, NULL, air_note);
     if (x->why_not) NOTE(x, "the level is relative: %s", x->why_not);
 }
 
@@ -463,7 +463,7 @@ bool modes_extract_find(struct modes_extract *x, struct err *e)
         return err_set(e, ERR_SCENE, "%s: no mode stands out of the noise between %.6g and %.6g Hz", x->place[0].shown,
                        x->low, x->high);
     if (!explains(x, e)) return false;
-    modes_extract_note(x, NULL, x->found.note);
+    modes_extract_find_note(x, NULL, x->found.note);
     for (int k = 0; k < x->n; k++)
         compare(x, &x->place[k]);
     gains(x);

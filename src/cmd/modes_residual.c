@@ -141,8 +141,8 @@ static void choose(struct job *j)
     j->gains = response ? 1.0 : force ? j->x.rate : 1.0 / v->peak;
 }
 
-/* Seconds by which the sound sets in before the residual begins: 30 ms before, half of its peak or more, where it was half
-   as loud 30 ms earlier; 0: it does not. */
+/* Seconds by which the sound sets in before the residual begins: in the 30 ms before it reaches a tenth of its peak, and
+   twice what it was in the 30 ms before these; 0: it does not. */
 static double before_start(const struct job *j)
 {
     const double *x = j->place->recording.sound.x;
@@ -496,17 +496,19 @@ static void warn(struct job *j, const struct figures *g)
 {
     double early = before_start(j);
     if (early > 0.0)
-        modes_extract_note(&j->x, NULL,
-                           arena_format(j->arena, "the sound sets in %.2g s before the %s%s: what is there is lost",
-                                        early, j->x.given.force_channel ? "force" : "onset",
-                                        j->x.given.force_channel && j->place->delay > 0.0 ? " and its delay" : ""));
+        modes_extract_find_note(
+            &j->x, NULL,
+            arena_format(j->arena, "the sound sets in %.2g s before the %s%s: what is there is lost", early,
+                         j->x.given.force_channel ? "force" : "onset",
+                         j->x.given.force_channel && j->place->delay > 0.0 ? " and its delay" : ""));
     if (strike_of(j)->doubled && !divided(j))
-        modes_extract_note(&j->x, NULL,
-                           "the strike is doubled, and no other can be used: its second blow is in the residual");
+        modes_extract_find_note(&j->x, NULL,
+                                "the strike is doubled, and no other can be used: its second blow is in the residual");
     if (g->left > LITTLE)
-        modes_extract_note(&j->x, NULL,
-                           "the table's modes take less than a fifth of the sound off: is the table of this object, "
-                           "and the recording one of a strike?");
+        modes_extract_find_note(
+            &j->x, NULL,
+            "the table's modes take less than a fifth of the sound off: is the table of this object, "
+            "and the recording one of a strike?");
 }
 
 static void report(const struct job *j, const struct figures *g, bool json, struct err *e)
