@@ -141,8 +141,8 @@ static void choose(struct job *j)
     j->gains = response ? 1.0 : force ? j->x.rate : 1.0 / v->peak;
 }
 
-/* Seconds by which the sound sets in before the residual begins: in the 30 ms before it reaches a tenth of its peak, and
-   twice what it was in the 30 ms before these; 0: it does not. */
+/* Seconds by which the sound sets in before the residual begins: in the 30 ms before it reaches a tenth of its peak,
+   and twice what it was in the 30 ms before these; 0: it does not. */
 static double before_start(const struct job *j)
 {
     const double *x = j->place->recording.sound.x;
