@@ -156,6 +156,9 @@ static const struct args_option render_options[] = {
     {"verify", 0, NULL, false,
      "render the reference, too, and measure what accuracy was kept; exit code 1 if that is less than accuracy.error "
      "asks for"},
+    {"traps", 0, NULL, false,
+     "stop at the first invalid operation (0/0, a division by 0, an overflow) of a stage, and name it, also where it "
+     "comes to nothing in the sound"},
     {"force", 'f', NULL, false, "replaces files that rasp did not write, and writes through symbolic links"},
     {"quiet", 'q', NULL, false, "print only warnings and errors"},
     {0},
@@ -210,6 +213,7 @@ static int render_run(struct cmd_call *c, struct err *e)
     int n = c->args.n_operands, done = 0;
     if (n > 1) message_group(c);
     bool array = n > 1 && args_given(&c->args, "json");
+    if (args_given(&c->args, "traps")) run_traps();
     const struct outputs *all = render_read(c, e);
     bool ok = all != NULL;
     for (int i = 0; ok && i < n; i++) {

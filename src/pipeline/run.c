@@ -9,6 +9,7 @@
 #include "pipeline/run.h"
 
 #include <assert.h>
+#include <fenv.h>
 #include <limits.h>
 #include <math.h>
 #include <string.h>
@@ -218,6 +219,21 @@ static bool run_finite(const struct stage_run *r, long from, long to, struct err
     return true;
 }
 
+static bool traps;
+
+void run_traps(void) { traps = true; }
+
+static bool run_valid(const struct stage_run *r, long from, long to, struct err *e)
+{
+    int raised = fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+    return !raised || err_set(e, ERR_NUMBERS, "contact '%s': stage '%s' %s between %.9g and %.9g s", r->contact->name,
+                              r->stage->name,
+                              raised & FE_INVALID     ? "did an operation that has no result"
+                              : raised & FE_DIVBYZERO ? "divided by 0"
+                                                      : "overflowed",
+                              (double)from / r->board->rate, (double)to / r->board->rate);
+}
+
 /* *clock: CPU time when the stage before was done. A reading asks the system: two for each block were 2 % of a draft.
  */
 static bool stage_block(struct stage_run *st, long to, double *clock, struct err *e)
@@ -233,7 +249,10 @@ static bool stage_block(struct stage_run *st, long to, double *clock, struct err
                 if (st->stage->gives & ITEM_BIT(i))
                     st->board->signals[i].worked = st->board->signals[i].first + st->board->signals[i].capacity;
             st->blocks++;
-            if (!st->stage->run(st, st->done, until, e) || !run_finite(st, st->done, until, e)) return false;
+            if (traps) feclearexcept(FE_ALL_EXCEPT);
+            if (!st->stage->run(st, st->done, until, e) || (traps && !run_valid(st, st->done, until, e)) ||
+                !run_finite(st, st->done, until, e))
+                return false;
         }
         st->done = end;
         double now = stopwatch_cpu();

@@ -154,15 +154,15 @@ INLINE void rest(const struct disc *d, struct rest_lanes *at, const struct searc
 #pragma omp simd
     for (int l = 0; l < n; l++) {
         double q = s->q[l], u = at->y[l] - q * d->half, square = (d->radius - u) * (d->radius + u);
-        double side = sqrt(lanes_select(square > 0, square, 0)), arc = d->radius * d->radius / (side * side * side);
+        int off = square > 0, inside = fabs(q) < 1; /* off the rim, where the slope is infinite */
+        double side = sqrt(lanes_select(off, square, 1)), arc = d->radius * d->radius / (side * side * side);
         double z = at->terms[0][l] +
                    q * (at->terms[1][l] +
                         q * (at->terms[2][l] + q * (at->terms[3][l] + q * (at->terms[4][l] + q * at->terms[5][l]))));
-        int inside = fabs(q) < 1;
         double bend = lanes_select(inside, bend_at(at, l, q) * d->over * d->over, 0);
-        at->z[l] = z - u * u / (d->radius + side);
-        at->slope[l] = -u / side;
-        at->bend[l] = lanes_select(inside, arc * bend / (arc - bend), -arc);
+        at->z[l] = z - u * u / (d->radius + lanes_select(off, side, 0));
+        at->slope[l] = lanes_select(off, -u / side, lanes_select(u > 0, -HUGE_VAL, HUGE_VAL));
+        at->bend[l] = lanes_select(off, lanes_select(inside, arc * bend / (arc - bend), -arc), -HUGE_VAL);
     }
 }
 

@@ -216,7 +216,7 @@ class Judge:
 
     def render(self, check, options):
         (self.folder / "out").mkdir()
-        end = self.run("render", "--json", "--diagnostics=json", *options, "-o", "out/", "scene.yaml")
+        end = self.run("render", "--traps", "--json", "--diagnostics=json", *options, "-o", "out/", "scene.yaml")
         rows = self.told(end, "render")
         made = state_of(self.folder / "out")
         if end.slow or end.code < 0:
