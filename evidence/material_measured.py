@@ -3,7 +3,7 @@
 
 For each FOLDER/OBJECT.wav (channel 1 sound, channel 2 force) prints rows of evidence/materials.md: residual and represented sound,
 their sum beside the recording (of the first strike, with its noise), the residual
-through the recorded force beside what the strike left, damping by two laws, and how modes of every other strike predict the rest."""
+through the recorded force beside what the strike left, and of a scene beside its modes, damping by two laws, and how modes of every other strike predict the rest."""
 import cmath, json, math, os, struct, subprocess, sys
 
 
@@ -47,6 +47,25 @@ def bands(power, n):
     return [10 * math.log10(sum(power[int(c * n / 44100 / 2 ** (1 / 6)):int(c * n / 44100 * 2 ** (1 / 6)) + 1]) + 1e-30) for c in centres]
 
 
+def in_scene(name, facts, pulse):
+    """The residual beside the modes, dB: in the strike, and of a scene with the table, the residual and the force of the strike."""
+    with open("force.wav", "wb") as f:
+        flat = struct.pack(f"<{len(pulse) + 1000}f", *([0.0] * 1000 + pulse))
+        f.write(b"RIFF" + struct.pack("<I", 36 + len(flat)) + b"WAVEfmt " + struct.pack("<IHHIIHH", 16, 3, 1, 44100, 44100 * 4, 4, 32) + b"data" + struct.pack("<I", len(flat)) + flat)
+    with open("given.yaml", "w") as f:
+        f.write(f"rasp: 1\nsurface: {{response: {name}.csv, residual: {name}_residual/residual.yaml}}\nmotion: {{path: still, duration: 0.5 s}}\n"
+                "contact: {model: given, given: {file: force.wav, scale: 1 N}}\n"
+                "output: {sample_rate: 44.1 kHz, quantity: acceleration, encoding: float32, level: {full_scale: 1000}, duration: 1 s, ramp: 0}\n")
+    rasp("render", "given.yaml", "-f", "--json", "-o", "given.wav")
+    rasp("render", "given.yaml", "-f", "--json", "--set", "surface.residual_gain=0", "-o", "modes.wav")
+    both, modes = samples("given.wav", 0), samples("modes.wav", 0)
+    strike = [samples(f"{name}_residual/strike.wav", k) for k in (0, 1)]
+    energy = lambda v: sum(w * w for w in v)
+    n = len(strike[0])
+    return [10 * math.log10(energy(strike[1]) / energy(strike[0])),
+            10 * math.log10(energy(a - b for a, b in zip(both[1000:1000 + n], modes[1000:1000 + n])) / energy(modes[1000:1000 + n]))]
+
+
 def through(folder, facts, sound):
     """The residual through the force of its strike, beside what the strike left: dB of third octaves, and their number, in which the force
     is within 20 dB of its strongest."""
@@ -59,12 +78,13 @@ def through(folder, facts, sound):
     while end < len(pulse) and pulse[end] > 0.003 * pulse[top]:
         end += 1
     response, left = samples(folder + "/residual.wav", 0), samples(folder + "/strike.wav", 1)
+    response[0] /= 2
     n = 2 << (len(left) - 1).bit_length()
     f, r, y = (fft(list(v) + [0.0] * (n - len(v))) for v in (pulse[:end], response, left))
     force = bands([abs(v) ** 2 / abs(f[0]) ** 2 * 1000 / max(1, k * 44100 / n) for k, v in enumerate(f[:n // 2])], n)
-    again, whole = bands([abs(v * w / f[0]) ** 2 for v, w in zip(r, f)][:n // 2], n), bands([abs(v) ** 2 for v in y][:n // 2], n)
+    again, whole = bands([abs(v * w / 44100) ** 2 for v, w in zip(r, f)][:n // 2], n), bands([abs(v) ** 2 for v in y][:n // 2], n)
     off = [abs(a - b) for a, b, s in zip(again, whole, force) if s > max(force) - 20]
-    return max(off), len(off)
+    return max(off), len(off), pulse[:end]
 
 
 def interval(law, key, unit):
@@ -84,12 +104,13 @@ for name in sys.argv[2:]:
     start = round(first["start_s"] * 44100)
     both = [samples(f"{name}_first/strike.wav", k) for k in (0, 1)]
     both = [a + b for a, b in zip(*both)]
-    back, count = through(name + "_residual", left, sound)
-    scale, n = first["momentum"], 1 << (len(both) - 1).bit_length()
-    recorded, again = octaves(x[start:start + len(both)], n), octaves([scale * v for v in both], n)
+    back, count, pulse = through(name + "_residual", left, sound)
+    beside = in_scene(name, left, pulse)
+    n = 1 << (len(both) - 1).bit_length()
+    recorded, again = octaves(x[start:start + len(both)], n), octaves(both, n)
     off = [abs(a - b) for a, b in zip(recorded, again) if a > max(recorded) - 40]
     rows["residual"].append(f"| {name} | {left['strike']} | {left['modes']} | {left['represented_db']:.1f} | {left['residual_db']:.1f} | {left['noise_db']:.1f} "
-                            f"| {max(off):.2f} ({len(off)} bands) | {back:.2f} ({count} bands) |")
+                            f"| {max(off):.2f} ({len(off)} bands) | {back:.2f} ({count} bands) | {beside[0]:.1f}, {beside[1]:.1f} |")
     d = rasp("modes", "material", name + ".csv", "--name", "found", "--json", "-f", "-o", "found.yaml")
     law = {one["law"]: one for one in d["damping"]}
     chosen = next(one for one in d["damping"] if one["chosen"])
@@ -109,7 +130,7 @@ for name in sys.argv[2:]:
     middle = [sorted(p[k] for p in pairs)[len(pairs) // 2] for k in (0, 1)]
     rows["halves"].append(f"| {name} | {len(strikes[::2])}, {len(strikes[1::2])} | {len(pairs)} of {len(strong)} | {100 * middle[0]:.2f} % | {100 * middle[1]:.0f} % "
                           f"| {other['left_db']:.1f} dB | {own['left_db']:.1f} dB |")
-print("| object | strike | modes | represented, dB of the recording | residual | noise | the first strike, both added beside its recording, farthest third octave, dB | the residual through the recorded force beside what was left, dB, where the force is within 20 dB |\n|---|---|---|---|---|---|---|---|")
+print("| object | strike | modes | represented, dB of the recording | residual | noise | the first strike, both added beside its recording, farthest third octave, dB | the residual through the recorded force beside what was left, dB, where the force is within 20 dB | the residual beside the modes, dB: of the strike, of a scene with its force |\n|---|---|---|---|---|---|---|---|---|")
 print("\n".join(rows["residual"]))
 print("\n| object | modes | Rayleigh (95 %) | scatter | loss factor (95 %) | scatter | likeliest law | warnings |\n|---|---|---|---|---|---|---|---|")
 print("\n".join(rows["damping"]))

@@ -20,6 +20,8 @@
 
 enum { OBJECTS = 32, STRIKES = 200, PLACES = 1000 };
 
+static const double unlike = 0.5; /* of the metrics of papers/003 */
+
 /* ------------------------------------------------------------------ operands */
 
 static bool is_shape(const char *text)
@@ -159,12 +161,13 @@ static bool read_options(struct modes_material *j, struct err *e)
             *p = *p == '-' || *p == ' ' ? '_' : *p;
         j->name = stem;
     }
+    const char *from = args_given(g, "name") ? "--name" : "-o names the material, too, without --name";
     if (!word_of_material(j->name))
-        return err_set(e, ERR_USAGE, "--name: '%s' is not a name of letters, digits and _ that begins with a letter",
+        return err_set(e, ERR_USAGE, "%s: '%s' is not a name of letters, digits and _ that begins with a letter", from,
                        j->name);
     for (const struct material *m = material_table; m->name; m++)
         if (!strcmp(m->name, j->name) || !strcmp(j->name, "custom"))
-            return err_set(e, ERR_USAGE, "--name: rasp has a material '%s'; give another name", j->name);
+            return err_set(e, ERR_USAGE, "%s: rasp has a material '%s'; give another name", from, j->name);
     j->poisson = NAN;
     j->model_error = 1e-3;
     if (!read_range(j, e) || !args_number(g, "poisson", ratios, &j->poisson, e) ||
@@ -387,6 +390,7 @@ static bool measure(struct modes_material *j, struct err *e)
     if (j->polish) {
         const double step[MATERIAL_UNKNOWNS] = {0.002, 0.1, 0.1, 0.1};
         struct material_damping *d = &j->fit.damping[j->fit.best];
+        j->fit.nu.low = j->fit.nu.high = NAN;
         j->evaluations = material_metric_descend(s, x, step, damping[2]);
         j->fit.gamma = (struct material_figure){real_exp(x[MATERIAL_GAMMA]), NAN, NAN};
         for (int k = 0; k < d->n; k++)
@@ -425,6 +429,11 @@ static bool search(struct modes_material *j, struct err *e)
     }
     material_metric_close(s);
     j->metric = best->metric;
+    if (best->metric.image > unlike || best->metric.feature > unlike)
+        f->warning = arena_format(a,
+                                  "the best start's sound is unlike the strike's (metrics %.2g and %.2g, 0: alike): it "
+                                  "has not landed; more --starts, a narrower --gamma, or --method scan",
+                                  best->metric.image, best->metric.feature);
     f->gamma = (struct material_figure){real_exp(best->x[MATERIAL_GAMMA]), NAN, NAN};
     f->nu = (struct material_figure){nu, NAN, NAN};
     f->best = MATERIAL_RAYLEIGH;
@@ -448,7 +457,6 @@ static void strength(const struct modes_material *j, struct modes_material_strik
     const struct mode_table *table = &s->table;
     double sum = 0.0, square = 0.0;
     int n = 0, node = nearest_node(f, j->fit.nu.value);
-    if (isnan(j->density)) return;
     for (int p = 0; p < s->places; p++) {
         const double *phi = f->phi + ((size_t)node * t->points + (size_t)(s->first + p)) * f->n,
                      *ear = t->ear >= 0 ? f->phi + ((size_t)node * t->points + (size_t)t->ear) * f->n : phi;
@@ -459,7 +467,7 @@ static void strength(const struct modes_material *j, struct modes_material_strik
                 i++;
             if (i == set->n || set->match[i] < 0 || entry->slope[0].gain == 0.0) continue;
             double w = 2.0 * REAL_PI * entry->frequency,
-                   unit = fabs(phi[set->match[i]] * ear[set->match[i]]) / j->density;
+                   unit = fabs(phi[set->match[i]] * ear[set->match[i]]) / (isnan(j->density) ? 1.0 : j->density);
             unit *= table->quantity == MODES_DISPLACEMENT ? 1.0 / w : table->quantity == MODES_ACCELERATION ? w : 1.0;
             if (!(unit > 1e-6 * fabs(phi[set->match[i]]))) continue;
             double x = real_log(fabs(entry->slope[0].gain) / unit);
@@ -469,7 +477,7 @@ static void strength(const struct modes_material *j, struct modes_material_strik
         }
     }
     if (n < 3) return;
-    s->strength = real_exp(sum / n);
+    if (!isnan(j->density)) s->strength = real_exp(sum / n);
     s->spread = sqrt(fmax(square / n - sum / n * (sum / n), 0.0));
 }
 

@@ -17,9 +17,22 @@ static void put(FILE *f, const char *key, const struct material_figure *x, const
     fputc('\n', f);
 }
 
-static struct material_figure times(const struct material_figure *x, double factor)
+/* The density, and Young's modulus: where the mass was weighed, lengths that are all too long by a share s make the
+   density 3 s too low and E/density 2 s too high, so that of E it is s. */
+static void modulus_of(const struct modes_material *j, struct material_figure *e, struct material_figure *density)
 {
-    return (struct material_figure){factor * x->value, factor * x->low, factor * x->high};
+    const struct material_figure *g = &j->fit.gamma;
+    bool weighed = j->size_error > 0.0 && args_given(&j->c->args, "mass");
+    double size = 1.96 * j->size_error, half = real_log(g->high / g->value),
+           own =
+               weighed ? sqrt(fmax(half * half - 3.0 * size * size, 0.0)) : half; /* of (2 size)^2 there stays size^2 */
+    *e = (struct material_figure){g->value * j->density, g->value * j->density * real_exp(-own),
+                                  g->value * j->density * real_exp(own)};
+    *density = (struct material_figure){j->density, NAN, NAN};
+    if (weighed && !isnan(g->low)) {
+        density->low = j->density * real_exp(-3.0 * size);
+        density->high = j->density * real_exp(3.0 * size);
+    }
 }
 
 void modes_material_write(FILE *f, const struct modes_material *j)
@@ -27,8 +40,8 @@ void modes_material_write(FILE *f, const struct modes_material *j)
     const struct material_fit *t = &j->fit;
     struct arena *a = j->c->arena;
     double damping[3];
-    struct material_figure e = times(&t->gamma, j->density),
-                           speed = {sqrt(t->gamma.value), sqrt(t->gamma.low), sqrt(t->gamma.high)};
+    struct material_figure e, density, speed = {sqrt(t->gamma.value), sqrt(t->gamma.low), sqrt(t->gamma.high)};
+    modulus_of(j, &e, &density);
     fprintf(f, "# A material by rasp modes material: include this file in a scene and write material: %s\n", j->name);
     for (int o = 0; o < j->n; o++)
         fprintf(f, "# object %d: %s, %.6g m^3\n", o + 1, text_shown(a, j->thing[o].text),
@@ -52,7 +65,7 @@ void modes_material_write(FILE *f, const struct modes_material *j)
         put(f, "wave_speed", &speed, "m/s"); /* sqrt(E/density) */
     else {
         put(f, "youngs_modulus", &e, "Pa");
-        fprintf(f, "    density: %.6g kg/m^3\n", j->density);
+        put(f, "density", &density, "kg/m^3");
     }
     if (j->wood)
         fprintf(f, "    like: %s # moduli across the grain keep their ratios to that along it\n", j->wood->name);
@@ -149,8 +162,8 @@ static void report_matches(struct report *r, const struct modes_material *j)
         report_end(r);
         report_end(r);
         report_text(r, "  %s: %d of %d modes match", s->file, matched, set->n);
-        if (!isnan(s->strength))
-            report_text(r, "; strength %.4g, gains %.3g dB (rms) beside it", s->strength, decibel(s->spread));
+        if (!isnan(s->strength)) report_text(r, "; strength %.4g", s->strength);
+        if (!isnan(s->spread)) report_text(r, "; gains %.3g dB (rms) beside computed ones", decibel(s->spread));
         report_text(r, "\n");
     }
     report_end(r);
@@ -189,7 +202,8 @@ bool modes_material_write_report(const struct modes_material *j, struct err *e)
 {
     struct report r = report_open(stdout, args_given(&j->c->args, "json"));
     const struct material_fit *f = &j->fit;
-    struct material_figure modulus = times(&f->gamma, j->density);
+    struct material_figure modulus, density;
+    modulus_of(j, &modulus, &density);
     report_set(&r, "material:s name:s method:s", j->file, j->name, j->paper ? "paper" : "scan");
     report_text(&r, "%s: ", j->name);
     if (j->paper) {
@@ -204,7 +218,7 @@ bool modes_material_write_report(const struct modes_material *j, struct err *e)
     report_figure_of(&r, "youngs_modulus_per_density", "E/density at these sizes", &f->gamma, "m^2/s^2");
     if (!isnan(j->density)) {
         report_figure_of(&r, "youngs_modulus", "Young's modulus", &modulus, "Pa");
-        report_figure(&r, "density", j->density, "density", "%.6g kg/m^3", j->density);
+        report_figure_of(&r, "density", "density", &density, "kg/m^3");
     }
     if (!j->wood) report_figure_of(&r, "poisson", "Poisson's ratio", &f->nu, "");
     report_set(&r, "metric_image:n metric_feature:n evaluations:i", j->metric.image, j->metric.feature, j->evaluations);

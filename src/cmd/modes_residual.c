@@ -8,13 +8,14 @@
 
    By time, the represented sound is subtracted as it is, for its phases are known; then noise is taken off, as the lead
    before the strike shows it: each pixel of the spectrogram (num/stft.h) times sqrt(1 - P_noise/P), P the mean of 3 x
-   3, and what is not 6 dB above the noise is 0: of noise alone chance then leaves 23 dB less than there was, with 3 dB
-   it was 10. By power, as printed: P_recording - P_represented, where the paper does not say that it falls below 0, as
-   it does wherever phases differ; here it stops there, and has the recording's phases.
+   3, and what is not 6 dB above the noise is 0, nor 3 dB in the mean of 9 x 9: of noise alone chance leaves nothing,
+   where 3 dB in 3 x 3 left a tenth, which the division by the force made a hiss. By power, as printed: P_recording -
+   P_represented, where the paper does not say that it falls below 0, as it does wherever phases differ; here it stops
+   there, and has the recording's phases.
 
    That is the sound of the strike's own force. What scenes take is a response, as the modes are: where the force was
    recorded, it is divided out (num/deconvolve.h), as far as it reaches. Where it is 40 dB below its strongest the
-   response is half of what it was, at 30 dB 1 dB less, and fades beyond. */
+   response is half of what it was, and fades beyond; how far it holds is measured, and told. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -29,8 +30,11 @@
 #include "base/text.h"
 #include "cmd/modes_extract.h"
 #include "cmd/report.h"
+#include "convolution/alias.h"
 #include "file/wav.h"
 #include "num/deconvolve.h"
+#include "num/fft.h"
+#include "num/real.h"
 #include "num/scaled.h"
 #include "num/stft.h"
 #include "response/mode_table.h"
@@ -42,6 +46,8 @@ enum { LEAD_FRAMES = 4 }; /* that show the noise */
 
 static const double fade = 0.005;   /* s at the end */
 static const double nothing = 1e-8; /* of the energy: a tail of less is cut */
+#define THIRD_LOWEST 100.0          /* Hz */
+#define THIRD 1.2599210498948732    /* 2^(1/3) */
 #define LITTLE (-1.0)               /* dB that are left: a table of another object */
 
 struct table { /* features of a mode table */
@@ -68,9 +74,11 @@ struct job {
     long start, length;                               /* samples of the recording, of the strike's sound */
     double *recorded, *represented, *left, *residual; /* [length] */
     double *response;                                 /* [length] the residual by the strike's force */
+    double reach;                                     /* Hz, up to which that is the residual's; NAN: no force */
     double *noise;                                    /* [bins] power; NULL: no lead shows it, or it is kept */
     double variance;                                  /* of the lead; NAN: there is none */
-    double sounds, gains;                             /* factors of the sounds and gains, for the unit */
+    double sounds, gains;                             /* factors of the response and gains, for the unit */
+    double recorded_as;                               /* factor of what the strike sounds, to be as its file is */
     char hashes[4][HASH_TEXT];
     const char *temporary;
 };
@@ -138,6 +146,7 @@ static void choose(struct job *j)
     j->start = v->onset + (force ? (long)rint(j->place->delay * j->x.rate) : 0);
     j->length = st->first + st->n - j->start;
     j->sounds = response ? 1.0 : 1.0 / (force ? v->momentum : v->peak);
+    j->recorded_as = isnan(j->x.given.scale) ? 1.0 : 1.0 / (j->x.given.scale * j->place->gain);
     j->gains = response ? 1.0 : force ? j->x.rate : 1.0 / v->peak;
 }
 
@@ -175,12 +184,43 @@ static void ring(const struct job *j, int s, cplx pole, cplx gain, double *y)
     }
 }
 
+/* What a scene makes of the modes besides that, added to y: half of a jump, the direct term of an acceleration or
+   pressure, and what sampling folds back is taken out (convolution/resonators.c, alias.c); of an impulse response, of
+   which the first sample counts half, the direct term. gain: of the strike. */
+static void ring_exactly(const struct job *j, int n, const cplx *pole, const cplx *gain, double *y)
+{
+    const struct modal_pulse *p = &stretch_of(j)->pulse;
+    struct arena *a = arena_open();
+    const double per = j->x.given.impulse ? 1.0 : j->x.rate;
+    struct alias *alias = alias_make(a, 1, j->x.rate);
+    struct modes_point at = modes_point_make(a, n);
+    double tap[ALIAS_TAPS] = {0};
+    for (int i = 0; i < n; i++) {
+        at.frequency[i] = pole[i].im / (2.0 * REAL_PI);
+        at.decay[i] = -pole[i].re;
+        at.re[i] = gain[i].re * per;
+        at.im[i] = gain[i].im * per;
+        tap[ALIAS_REACH] -= 0.5 * gain[i].im;
+        alias_add(alias, at.frequency[i], at.decay[i], (const double[2]){at.re[i], at.im[i]}, tap);
+    }
+    double direct = modes_direct(j->x.given.quantity, n, at.frequency, at.decay, &at);
+    if (j->x.given.impulse) y[0] += 2.0 * j->x.rate * direct;
+    tap[ALIAS_REACH] += direct;
+    for (long i = 0; i < p->n && !j->x.given.impulse; i++)
+        for (int k = 0; k < ALIAS_TAPS; k++) {
+            long at_sample = p->at + i + k - ALIAS_REACH - j->start;
+            if (at_sample >= 0 && at_sample < j->length) y[at_sample] += tap[k] * p->f[i];
+        }
+    arena_close(a);
+}
+
 /* Gains of the table's modes, the represented sound, and what it leaves; what earlier strikes left ringing is no
    residual, and is taken off whole. */
 static bool subtract(struct job *j, struct modal_options *o, struct err *e)
 {
     int n = j->table.n, stretches = j->x.data.stretches, inside = 0, *of = ARENA_TAKE(j->arena, int, n);
-    cplx *pole = ARENA_TAKE(j->arena, cplx, n), *gain = ARENA_TAKE(j->arena, cplx, n * stretches);
+    cplx *pole = ARENA_TAKE(j->arena, cplx, n), *gain = ARENA_TAKE(j->arena, cplx, n * stretches),
+         *own = ARENA_TAKE(j->arena, cplx, n);
     for (int i = 0; i < n; i++) {
         const struct feature *f = &j->table.feature[i];
         if (f->frequency < j->x.low || f->frequency > j->x.high) continue;
@@ -213,8 +253,11 @@ static bool subtract(struct job *j, struct modal_options *o, struct err *e)
         feature_match(j->table.feature, n, j->estimated.feature, j->estimated.n, NULL, j->arena, &j->match);
     for (int i = 0; i < inside; i++)
         j->ratio[of[i]] = j->estimated.file ? j->match.reference[of[i]] : 1.0;
-    for (int i = 0; i < inside; i++)
-        ring(j, j->stretch, pole[i], cplx_scale(j->ratio[of[i]], gain[i * stretches + j->stretch]), j->represented);
+    for (int i = 0; i < inside; i++) {
+        own[i] = cplx_scale(j->ratio[of[i]], gain[i * stretches + j->stretch]);
+        ring(j, j->stretch, pole[i], own[i], j->represented);
+    }
+    if (j->x.given.force_channel || j->x.given.impulse) ring_exactly(j, inside, pole, own, j->represented);
     for (long i = 0; i < j->length; i++)
         j->left[i] = j->recorded[i] - j->represented[i];
     return true;
@@ -245,12 +288,13 @@ static void listen(struct job *j)
     arena_close(a);
 }
 
-static double mean_of_nine(const double *power, const struct stft *s, int m, int k)
+/* Of the pixels up to `far` frames and bins away. */
+static double mean_about(const double *power, const struct stft *s, int m, int k, int far)
 {
     double sum = 0.0;
     int terms = 0;
-    for (int i = m > 0 ? m - 1 : 0; i <= m + 1 && i < s->frames; i++)
-        for (int l = k > 0 ? k - 1 : 0; l <= k + 1 && l < s->bins; l++, terms++)
+    for (int i = m > far ? m - far : 0; i <= m + far && i < s->frames; i++)
+        for (int l = k > far ? k - far : 0; l <= k + far && l < s->bins; l++, terms++)
             sum += power[(long)i * s->bins + l];
     return sum / terms;
 }
@@ -274,8 +318,9 @@ static void compensate(struct job *j)
     for (int m = 0; m < s->frames; m++)
         for (int k = 0; k < s->bins; k++) {
             long i = (long)m * s->bins + k;
-            double mean = mean_of_nine(power, s, m, k), noise = j->noise ? j->noise[k] : 0.0,
-                   gain = mean > 4.0 * noise && whole[i] > 0.0 ? sqrt((1.0 - noise / mean) * power[i] / whole[i]) : 0.0;
+            double mean = mean_about(power, s, m, k, 1), noise = j->noise ? j->noise[k] : 0.0;
+            bool sounds = mean > 4.0 * noise && whole[i] > 0.0 && mean_about(power, s, m, k, 4) > 2.0 * noise;
+            double gain = sounds ? sqrt((1.0 - noise / mean) * power[i] / whole[i]) : 0.0;
             re[i] *= gain;
             im[i] *= gain;
         }
@@ -294,17 +339,52 @@ static void compensate(struct job *j)
 /* Is there a force to divide by? */
 static bool divided(const struct job *j) { return j->x.given.force_channel && stretch_of(j)->pulse.n; }
 
+/* |X|^2 of y[n] in third octaves from 100 Hz, up to half the rate; returns how many. */
+static int thirds(const struct job *j, const double *y, long n, long size, double *power)
+{
+    struct arena *a = arena_open();
+    const double *bin = modes_extract_find_power(y, n, size, a);
+    int bands = 0;
+    for (double low = THIRD_LOWEST; low * THIRD < 0.5 * j->x.rate; low *= THIRD, bands++) {
+        power[bands] = 0.0;
+        for (long k = (long)ceil(low * (double)size / j->x.rate); k < low * THIRD * (double)size / j->x.rate; k++)
+            power[bands] += bin[k];
+    }
+    arena_close(a);
+    return bands;
+}
+
+/* Hz: up to there what the force makes of the response lacks 3 dB at most, in third octaves, of the residual. */
+static double reach(const struct job *j, const double *response)
+{
+    const struct modal_pulse *p = &stretch_of(j)->pulse;
+    struct arena *a = arena_open();
+    long size = (long)fft_good_size((size_t)(j->length + p->n));
+    double *again = ARENA_TAKE(a, double, j->length), found[64], wanted[64], top = THIRD_LOWEST;
+    for (long k = 0; k < p->n; k++)
+        if (k < j->length) scaled_add(again + k, p->f[k], response, j->length - k);
+    int n = thirds(j, again, j->length, size, found);
+    thirds(j, j->residual, j->length, size, wanted);
+    for (int i = 0; i < n && found[i] >= 0.5 * wanted[i]; i++)
+        top *= THIRD;
+    arena_close(a);
+    return top;
+}
+
 /* The residual as a response: by the force, of amplitude 1 at 0 Hz. Without a force it is as it is. */
 static void divide(struct job *j)
 {
     const struct modal_pulse *p = &stretch_of(j)->pulse;
     j->response = j->residual;
+    j->reach = NAN;
     if (!divided(j)) return;
     double sum = 0.0;
     for (long k = 0; k < p->n; k++)
         sum += p->f[k];
     j->response = ARENA_TAKE(j->arena, double, j->length);
     deconvolve(j->residual, j->length, p->f, p->n, MODES_EXTRACT_REACH, j->response);
+    j->reach = reach(j, j->response);
+    j->response[0] *= 2.0; /* the first sample of a response counts half (response/ir.h) */
     for (long i = 0; i < j->length; i++)
         j->response[i] *= sum;
 }
@@ -332,7 +412,8 @@ static const char *at(const struct job *j, const char *name)
 }
 
 /* other: a second channel, or NULL. */
-static bool write_sound(struct job *j, const char *name, const double *x, const double *other, struct err *e)
+static bool write_sound(struct job *j, const char *name, double factor, const double *x, const double *other,
+                        struct err *e)
 {
     int channels = other ? 2 : 1;
     struct wav_format f = {
@@ -340,8 +421,8 @@ static bool write_sound(struct job *j, const char *name, const double *x, const 
     double *scaled = ARENA_TAKE(j->arena, double, channels * j->length);
     struct wav_out *w = wav_create(at(j, name), &f, e);
     for (long i = 0; i < j->length; i++) {
-        scaled[channels * i] = j->sounds * x[i];
-        if (other) scaled[channels * i + 1] = j->sounds * other[i];
+        scaled[channels * i] = factor * x[i];
+        if (other) scaled[channels * i + 1] = factor * other[i];
     }
     if (!w) return false;
     if (wav_write(w, scaled, (size_t)j->length, e)) return wav_commit(w, e);
@@ -349,16 +430,31 @@ static bool write_sound(struct job *j, const char *name, const double *x, const 
     return false;
 }
 
+/* Of a mode, in the strike's sound, times 4. */
+static double strike_energy(const struct job *j, int i)
+{
+    const struct modal_pulse *p = &stretch_of(j)->pulse;
+    double turn = 2.0 * REAL_PI * j->table.feature[i].frequency / j->x.rate, re = 0.0, im = 0.0;
+    for (long k = 0; k < p->n; k++) {
+        re += p->f[k] * real_cos(turn * (double)k);
+        im += p->f[k] * real_sin(turn * (double)k);
+    }
+    return cplx_square(j->gain[i * j->x.data.stretches + j->stretch]) / j->table.feature[i].decay * (re * re + im * im);
+}
+
 static void modes_write(FILE *f, const struct job *j)
 {
+    double all = 0.0;
+    for (int i = 0; i < j->table.n; i++)
+        all += strike_energy(j, i);
     fprintf(f, "# quantity: %s per %s\n# source: %s, sha256 %s\n", modes_quantity_name(j->x.given.quantity), per(j),
             text_shown(j->arena, j->table.name), j->table.hash);
-    fputs("frequency_hz,decay_per_s,gain,phase_rad,match_ratio\n", f);
+    fputs("frequency_hz,decay_per_s,gain,phase_rad,match_ratio,strike_energy\n", f);
     for (int i = 0; i < j->table.n; i++) {
         const struct feature *m = &j->table.feature[i];
         cplx a = cplx_scale(j->gains, j->gain[i * j->x.data.stretches + j->stretch]);
-        fprintf(f, "%.9g,%.9g,%.9g,%.9g,%.9g\n", m->frequency, m->decay, cplx_abs(a),
-                cplx_abs(a) > 0.0 ? real_atan2(a.im, a.re) : 0.0, j->ratio[i]);
+        fprintf(f, "%.9g,%.9g,%.9g,%.9g,%.9g,%.6g\n", m->frequency, m->decay, cplx_abs(a),
+                cplx_abs(a) > 0.0 ? real_atan2(a.im, a.re) : 0.0, j->ratio[i], strike_energy(j, i) / all);
     }
 }
 
@@ -415,8 +511,7 @@ static void yaml_write(FILE *f, const struct job *j, const struct figures *g)
     yaml_number(f, j->x.given.force_channel ? "momentum" : "peak", j->x.given.force_channel ? v->momentum : v->peak);
     if (j->place->placed) fprintf(f, "place_m: [%.9g, %.9g]\n", j->place->x, j->place->y);
     fprintf(f, "domain: %s\nnoise: %s\n", j->domain == BY_POWER ? "power" : "time", j->noise ? "taken off" : "kept");
-    if (divided(j))
-        fprintf(f, "force_divided_out_to_hz: %.6g  # where the force is 40 dB below its strongest\n", j->place->high);
+    if (divided(j)) fprintf(f, "force_divided_out_to_hz: %.6g  # above, it is more than 3 dB too soft\n", j->reach);
     fprintf(f, "modes: %d\n", j->table.n);
     yaml_number(f, "match_ratio_mean", g->mean);
     yaml_number(f, "match_ratio_least", g->least);
@@ -439,8 +534,9 @@ static bool write_files(struct job *j, const struct figures *g, struct err *e)
 {
     static const char *const names[] = {RESIDUAL_WAV, RESIDUAL_MODES, RESIDUAL_STRIKE};
     struct outfile *o = ARENA_TAKE(j->arena, struct outfile, 1);
-    if (!write_sound(j, RESIDUAL_WAV, j->response, NULL, e) ||
-        !write_sound(j, RESIDUAL_STRIKE, j->represented, j->residual, e) || !outfile_open(o, at(j, RESIDUAL_MODES), e))
+    if (!write_sound(j, RESIDUAL_WAV, j->sounds, j->response, NULL, e) ||
+        !write_sound(j, RESIDUAL_STRIKE, j->recorded_as, j->represented, j->residual, e) ||
+        !outfile_open(o, at(j, RESIDUAL_MODES), e))
         return false;
     modes_write(o->stream, j);
     if (!outfile_commit(o, e)) return false;
@@ -524,7 +620,7 @@ static void report(const struct job *j, const struct figures *g, bool json, stru
         j->folder, j->place->shown, j->table.file, j->estimated.file, stretch_of(j)->strike + 1, onset,
         (double)j->start / j->x.rate, v->momentum, v->peak, modes_quantity_name(j->x.given.quantity), per(j), !lacks,
         seconds, j->table.n, j->outside);
-    report_set(&r, "force_divided_out_to_hz:n", divided(j) ? j->place->high : NAN);
+    report_set(&r, "force_divided_out_to_hz:n", j->reach);
     report_set(&r, "noise_removed:b match_ratio_mean:n match_ratio_least:n match_ratio_by_energy:n match_score:n",
                j->noise != NULL, g->mean, g->least, j->estimated.file ? j->match.represented : 1.0,
                j->estimated.file ? j->match.score : 1.0);
@@ -544,18 +640,16 @@ static void report(const struct job *j, const struct figures *g, bool json, stru
         report_text(&r, "matched by %s: ratio %.3f by energy, %.3f in the mean, %.3f at least; score %.3f\n",
                     j->estimated.file, j->match.represented, g->mean, g->least, j->match.score);
     report_text(&r, "energy beside the recording's: represented %s, left over %s, noise %s, residual %s%s\n",
-                shown(j, g->represented, "nothing"), shown(j, g->left, "nothing"), shown(j, g->noise, "not known"),
-                shown(j, g->residual, "nothing"),
+                shown(j, g->represented, "nothing"), shown(j, g->left, "nothing"),
+                shown(j, g->noise, j->variance == 0.0 ? "none" : "not known"), shown(j, g->residual, "nothing"),
                 j->noise         ? ""
                 : j->keeps_noise ? " with its noise"
                                  : " with its noise: there is no silence before the strike that shows it");
     report_text(&r, "%s: %.3g s of %s, per %s%s%s\n", j->folder, seconds, modes_quantity_name(j->x.given.quantity),
                 per(j), lacks ? "; relative: " : "", lacks ? lacks : "");
     if (divided(j))
-        report_text(&r,
-                    "the strike's force is divided out up to %.5g Hz, where it is 40 dB below its strongest; above, "
-                    "the residual fades\n",
-                    j->place->high);
+        report_text(&r, "the strike's force is divided out: the residual holds up to %.5g Hz, and fades above\n",
+                    j->reach);
     for (int k = 0; k < j->x.notes; k++)
         report_note(&r, "warning: ", j->x.note[k]);
     report_close(&r, 12, e);

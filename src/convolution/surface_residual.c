@@ -124,7 +124,7 @@ static struct residual_modes modes_of(const struct stage_run *r, const struct ri
     }
     for (int i = 0; i < v->n; i++)
         square[i] = sqrt(square[i]);
-    return (struct residual_modes){v->n, first.frequency, first.decay, square};
+    return (struct residual_modes){v->n, first.frequency, first.decay, square, NULL};
 }
 
 /* The first sample counts half, as of any response (response/ir.h). */

@@ -17,8 +17,8 @@ static const char *const files[] = {RESIDUAL_YAML, RESIDUAL_WAV, RESIDUAL_MODES,
 
 enum { FILES = sizeof files / sizeof *files };
 
-/* The top of residual.yaml; NULL: it is none. */
-static struct yaml_node *top_of(const char *path, struct arena *a, struct err *e)
+/* The top of residual.yaml; NULL: it is none, or not of this format unless any will do. */
+static struct yaml_node *top_of(const char *path, bool any, struct arena *a, struct err *e)
 {
     struct yaml *y = yaml_open(a);
     size_t size;
@@ -31,8 +31,10 @@ static struct yaml_node *top_of(const char *path, struct arena *a, struct err *e
     const struct yaml_node *version = top && top->kind == YAML_MAP ? yaml_get(top, RESIDUAL_FORMAT) : NULL;
     if (!version || version->kind != YAML_SCALAR)
         err_set(e, ERR_SCENE, "%s: is not the " RESIDUAL_YAML " of a folder that rasp modes residual wrote", path);
-    else if (strcmp(version->text, RESIDUAL_VERSION) != 0)
-        err_set(e, ERR_SCENE, "%s: is of format %s, and this rasp reads format " RESIDUAL_VERSION, path, version->text);
+    else if (!any && strcmp(version->text, RESIDUAL_VERSION) != 0)
+        err_set(e, ERR_SCENE,
+                "%s: is of format %s, and this rasp reads format " RESIDUAL_VERSION ": make the folder again", path,
+                version->text);
     return e->kind ? NULL : top;
 }
 
@@ -62,16 +64,17 @@ static bool check_hashes(const char *yaml, const char *folder, const struct yaml
 
 static bool read_modes(const char *path, struct arena *a, struct residual_modes *m, struct err *e)
 {
-    static const char *const names[] = {"frequency_hz", "decay_per_s", "gain", "match_ratio"};
+    static const char *const names[] = {"frequency_hz", "decay_per_s", "gain", "match_ratio", "strike_energy"};
     struct csv t;
     if (!csv_read_file(path, a, &t, e)) return false;
     *m = (struct residual_modes){.n = (int)t.rows,
                                  .frequency = ARENA_TAKE(a, double, t.rows),
                                  .decay = ARENA_TAKE(a, double, t.rows),
-                                 .gain = ARENA_TAKE(a, double, t.rows)};
+                                 .gain = ARENA_TAKE(a, double, t.rows),
+                                 .energy = ARENA_TAKE(a, double, t.rows)};
     for (size_t row = 0; row < t.rows; row++) {
-        double value[4];
-        for (int k = 0; k < 4; k++) {
+        double value[5];
+        for (int k = 0; k < 5; k++) {
             int column = csv_column(&t, names[k]);
             if (column < 0) return err_set(e, ERR_SCENE, "%s: no column %s", path, names[k]);
             if (!csv_number(&t, row, column, &value[k], e)) return false;
@@ -81,6 +84,7 @@ static bool read_modes(const char *path, struct arena *a, struct residual_modes 
         m->frequency[row] = value[0];
         m->decay[row] = value[1];
         m->gain[row] = fabs(value[2]) * value[3];
+        m->energy[row] = value[4];
     }
     return true;
 }
@@ -88,7 +92,7 @@ static bool read_modes(const char *path, struct arena *a, struct residual_modes 
 bool residual_read(const char *yaml, double rate, struct arena *a, struct residual *r, struct err *e)
 {
     const char *folder = relpath_folder(yaml, a), *path = arena_format(a, "%s/" RESIDUAL_WAV, folder);
-    const struct yaml_node *top = top_of(yaml, a, e);
+    const struct yaml_node *top = top_of(yaml, false, a, e);
     struct wav w;
     *r = (struct residual){.rate = rate};
     if (!top || !check_hashes(yaml, folder, top, a, e) || !wav_read(path, a, &w, e) ||
@@ -119,7 +123,7 @@ const char *residual_is_folder(const char *folder, struct arena *a)
     }
     closedir(d);
     if (other) return arena_format(a, "holds %s, which is no file of a residual", other);
-    return top_of(arena_format(a, "%s/" RESIDUAL_YAML, folder), a, &e)
+    return top_of(arena_format(a, "%s/" RESIDUAL_YAML, folder), true, a, &e)
                ? NULL
                : "is not a folder that rasp modes residual wrote";
 }

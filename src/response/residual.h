@@ -3,9 +3,9 @@
 
    A folder FOLDER/residual.yaml names, with their hashes, residual.wav and modes.csv: the residual as an impulse
    response, and the modes that were taken off, both of one strike and in one unit, whatever that is. Its third file,
-   strike.wav, is for who looks: the strike's sound in two channels, represented and residual. The transfer takes the
-   ratio of the two over to the modes of the target, per N s. So a residual of a recording whose level is relative, or
-   of another quantity than the scene's, keeps its level relative to its modes. */
+   strike.wav, is for who looks: the strike's sound in two channels, represented and residual, as loud as recorded. The
+   transfer takes the ratio of the two over to the modes of the target, per N s. So a residual of a recording whose
+   level is relative, or of another quantity than the scene's, keeps its level relative to its modes. */
 #ifndef RESPONSE_RESIDUAL_H
 #define RESPONSE_RESIDUAL_H
 #include <stdbool.h>
@@ -15,7 +15,7 @@
 #include "num/noise.h"
 
 #define RESIDUAL_FORMAT "rasp_residual" /* key of residual.yaml; its value is RESIDUAL_VERSION */
-#define RESIDUAL_VERSION "2"
+#define RESIDUAL_VERSION "3"
 #define RESIDUAL_YAML "residual.yaml"
 #define RESIDUAL_WAV "residual.wav"
 #define RESIDUAL_MODES "modes.csv"
@@ -24,6 +24,7 @@
 struct residual_modes { /* as heard; gain: |h| at t = 0 */
     int n;
     double *frequency, *decay, *gain; /* [n] Hz, 1/s */
+    double *energy;                   /* [n] of the source's, in the sound of its strike; NULL: as gain^2/decay */
 };
 
 struct residual {
@@ -63,7 +64,7 @@ struct residual_transferred {
         int source, target;
     } pair[RESIDUAL_PAIRS]; /* by the target's frequency */
     double consistency;     /* dB: how far the spectrogram of x is from the one that was asked for; -INFINITY: equal */
-    double level;           /* dB, energy over that of the modes, the source's and the target's alike */
+    double level;           /* dB, energy over that of the target's modes */
     int written[2];         /* least and greatest number of times that a bin was written */
 };
 
