@@ -202,14 +202,16 @@ static bool gsf_line(struct gsf *g, char *s, int line)
         return err_set(g->e, ERR_SCENE, "%s: GSF header, line %d: the line ends in CR LF; the format wants LF alone",
                        g->path, line);
     if (!equals)
-        return err_set(g->e, ERR_SCENE, "%s: GSF header, line %d: '%.40s' is not of the form name = value", g->path,
+        return err_set(g->e, ERR_SCENE,
+                       "%s: GSF header, line %d: '%.40s' is not of the form name = value: the file is damaged", g->path,
                        line, s);
     *equals = '\0';
     for (int i = 0; i < GSF_NAMES; i++) {
         if (strcmp(bytes_trim(s), gsf_names[i]) != 0) continue;
         if (g->value[i])
-            return err_set(g->e, ERR_SCENE, "%s: GSF header, line %d: %s is there already, in line %d", g->path, line,
-                           gsf_names[i], g->line[i]);
+            return err_set(g->e, ERR_SCENE,
+                           "%s: GSF header, line %d: %s is there already, in line %d: the file is damaged", g->path,
+                           line, gsf_names[i], g->line[i]);
         g->value[i] = bytes_trim(equals + 1);
         g->line[i] = line;
     }
@@ -223,7 +225,9 @@ static bool gsf_header(struct gsf *g, char *at)
     g->end = at;
     for (char *s = at, *stop; *s; s = stop + 1, line++) {
         stop = strchr(s, '\n');
-        if (!stop) return err_set(g->e, ERR_SCENE, "%s: GSF header, line %d: the line has no end", g->path, line);
+        if (!stop)
+            return err_set(g->e, ERR_SCENE, "%s: GSF header, line %d: the line has no end: the file is damaged",
+                           g->path, line);
         *stop = '\0';
         if (*bytes_trim(s) && !gsf_line(g, s, line)) return false;
         g->end = stop + 1;
@@ -240,7 +244,8 @@ static bool gsf_bad(const struct gsf *g, int name, const char *wants)
 static bool gsf_resolution(const struct gsf *g, int name, size_t *n)
 {
     const char *s = g->value[name];
-    if (!s) return err_set(g->e, ERR_SCENE, "%s: the GSF header has no %s", g->path, gsf_names[name]);
+    if (!s)
+        return err_set(g->e, ERR_SCENE, "%s: the GSF header has no %s: the file is damaged", g->path, gsf_names[name]);
     if (!*s || strspn(s, "0123456789") != strlen(s) || strlen(s) > 9 || strtol(s, NULL, 10) == 0)
         return gsf_bad(g, name, "a whole number from 1 to 999999999");
     *n = (size_t)strtol(s, NULL, 10);

@@ -226,12 +226,13 @@ void run_traps(void) { traps = true; }
 static bool run_valid(const struct stage_run *r, long from, long to, struct err *e)
 {
     int raised = fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
-    return !raised || err_set(e, ERR_NUMBERS, "contact '%s': stage '%s' %s between %.9g and %.9g s", r->contact->name,
-                              r->stage->name,
-                              raised & FE_INVALID     ? "did an operation that has no result"
-                              : raised & FE_DIVBYZERO ? "divided by 0"
-                                                      : "overflowed",
-                              (double)from / r->board->rate, (double)to / r->board->rate);
+    return !raised ||
+           err_set(e, ERR_NUMBERS, "contact '%s': stage '%s' %s, between %.9g and %.9g s", r->contact->name,
+                   r->stage->name,
+                   raised & FE_INVALID     ? "did an operation that has no result, a fault of rasp's own"
+                   : raised & FE_DIVBYZERO ? "divided by 0, a fault of rasp's own"
+                                           : "overflowed: lower the forces, heights or gains that make such numbers",
+                   (double)from / r->board->rate, (double)to / r->board->rate);
 }
 
 /* *clock: CPU time when the stage before was done. A reading asks the system: two for each block were 2 % of a draft.

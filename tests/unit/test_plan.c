@@ -191,6 +191,61 @@ START_TEST(the_rest_is_not_touched)
 }
 END_TEST
 
+/* ------------------------------------------------------------------ traps */
+
+static const double planted[3] = {0, -1, 1e300};
+static int plants; /* which of them a stage works with, in its third block; -1: none */
+
+static bool faulty_run(struct stage_run *r, long from, long to, struct err *e)
+{
+    static volatile double nowhere; /* what is planted comes to nothing in the sound */
+    if (ran[spy_index(r)]++ == 2 && plants >= 0 && !strcmp(r->stage->name, "smooth")) {
+        volatile double x = planted[plants];
+        nowhere = plants == 0 ? 1 / x : plants == 1 ? sqrt(x) : x * x;
+    }
+    (void)nowhere;
+    return stages_table[spy_index(r)]->run(r, from, to, e);
+}
+
+/* Operations without a result in one stage's third block: with traps the run ends there and names it, without it goes on.
+ */
+START_TEST(traps_name_the_stage)
+{
+    const struct stage *table[MOST + 1] = {0};
+    struct arena *a = arena_open();
+    struct scene s = scene_of(a, "", "", "load: {constant: 1 N}\noutput: {diagnostics: {columns: [force_rms_n]}}");
+    struct table_sink sink = {tmpfile()};
+    static const char *const words[] = {"divided by 0", "no result", "overflowed"};
+    for (int i = 0; stages_table[i]; i++) {
+        spied[i] = *stages_table[i];
+        spied[i].run = spied[i].run ? faulty_run : NULL;
+        table[i] = &spied[i];
+    }
+    for (int on = 0; on < 2; on++) {
+        if (on) run_traps();
+        for (plants = -1; plants < 3; plants++) {
+            struct plan p;
+            struct run r;
+            struct err e = {0};
+            bool ok = true;
+            memset(ran, 0, sizeof ran);
+            ck_assert(plan_make(table, &s.contacts[0], &s, a, &p, &e));
+            ck_assert(run_open(&r, &p, &s, &(struct run_sinks){&sink, NULL}, &e));
+            for (int k = 1; ok && k <= 8; k++)
+                ok = run_block(&r, k * 1000, &e);
+            ck_assert_msg(ok == (!on || plants < 0), "%s", e.text);
+            if (!ok) {
+                ck_assert(e.kind == ERR_NUMBERS && strstr(e.text, "'smooth'") && strstr(e.text, words[plants]));
+                ck_assert_msg(strstr(e.text, "between 0.04"), "%s", e.text);
+            }
+            run_close(&r);
+        }
+    }
+    fclose(sink.stream);
+    arena_close(a);
+}
+END_TEST
+
 /* ------------------------------------------------------------------ one file, one line */
 
 static const struct stage *const with_toy[] = {
@@ -236,5 +291,5 @@ START_TEST(a_toy_stage_takes_one_file_and_one_line)
 }
 END_TEST
 
-UNIT("plan", only_what_a_scene_calls_for, wrong_tables_are_refused, the_rest_is_not_touched,
+UNIT("plan", only_what_a_scene_calls_for, wrong_tables_are_refused, the_rest_is_not_touched, traps_name_the_stage,
      a_toy_stage_takes_one_file_and_one_line)
