@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "cmd/cmd.h"
 #include "cmd/message.h"
+#include "cmd/plan_without.h"
 #include "cmd/report.h"
 #include "pipeline/error_budget.h"
 #include "pipeline/plan.h"
@@ -30,6 +31,11 @@ static const struct args_option plan_options[] = {
     {"json", 'j', NULL, false,
      "print the plans as JSON, an array with an object for each scene: contacts, their stages, costs in cycles per "
      "audio sample"},
+    {"without", 0, NULL, false,
+     "print, in place of the plan, what each effect of the scene costs: predicted with and without, and the setting "
+     "that "
+     "leaves it out"},
+    {"measure", 0, NULL, false, "with --without: renders a second at most of each, too, and measures it"},
     {0},
 };
 
@@ -72,15 +78,20 @@ static bool plan_one(struct cmd_call *c, const char *file, struct report *r, str
             report_set(r, "}");
         }
         report_set(r, "] }");
-        if (!r->json) plan_print(p, r->out);
+        if (!r->json && !args_given(&c->args, "without")) plan_print(p, r->out);
     }
-    report_set(r, "] }");
+    report_set(r, "]");
+    if (args_given(&c->args, "without") && !plan_without(c, file, &chosen, args_given(&c->args, "measure"), r, e))
+        return false;
+    report_set(r, "}");
     if (error_budget.text) report_text(r, "%s\n", text_shown(c->arena, error_budget.text));
     return true;
 }
 
 static int plan_run(struct cmd_call *c, struct err *e)
 {
+    if (args_given(&c->args, "measure") && !args_given(&c->args, "without"))
+        return err_set(e, ERR_USAGE, "--measure is for --without"), (int)e->kind;
     struct report r = report_open_list(stdout, args_given(&c->args, "json"));
     bool ok = true;
     for (int i = 0; ok && i < c->args.n_operands; i++)
@@ -106,6 +117,7 @@ const struct command plan_command = {
     .options = plan_options,
     .examples = "rasp plan scenes/basswood_scrape.yaml\n"
                 "rasp plan scenes/basswood_scrape.yaml --set scraper.weight=0\n"
-                "rasp plan --json scenes/basswood_scrape.yaml\n",
+                "rasp plan --json scenes/basswood_scrape.yaml\n"
+                "rasp plan --without scenes/basswood_scrape.yaml\n",
     .run = plan_run,
 };

@@ -1,0 +1,23 @@
+# rasp plan --without: each effect of a scene, with the cost of the scene without it, which is that of the plan with its setting.
+command -v python3 > /dev/null || { echo "no python3"; exit 77; }
+scenes=$ROOT/scenes
+rasp plan --without "$scenes/rubbing.yaml" | sed 's/^.*rubbing/rubbing/'
+for scene in basswood_scrape two_contacts residual_strike eccentric_ball rubbing marble_drop nodal_lines; do
+    rasp plan --without --json "$scenes/$scene.yaml" --set output.sample_rate='44.1 kHz' > without.json
+    python3 - "$scenes/$scene.yaml" << 'END'
+import json, subprocess, sys
+def cycles(settings):
+    words = [w for s in settings for w in ("--set", s)]
+    plan = json.loads(subprocess.run(["rasp", "plan", "--json", sys.argv[1], "--set", "output.sample_rate=44.1 kHz", *words], capture_output=True, text=True, check=True).stdout)
+    return sum(c["cycles_per_sample"] for c in plan[0]["contacts"])
+whole, rows = cycles([]), json.load(open("without.json"))[0]["without"]
+off = [r["effect"] for r in rows if abs(cycles(r["without"].split("; ")) - r["cycles_per_sample"]) > 1e-9 * whole or abs(whole - r["cycles_per_sample"] - r["more_cycles_per_sample"]) > 1e-9 * whole]
+print(sys.argv[1].split("/")[-1] + ":", len(rows), "effects; not as planned:", off)
+END
+done
+# What is measured are times, of which nothing is held but their order.
+rasp plan --without --measure --json "$scenes/porcelain_scrape_fitted.yaml" > measured.json
+python3 -c 'import json; r = [w for w in json.load(open("measured.json"))[0]["without"] if w["effect"] == "residual"][0]; print(r["effect"], r["more_s"] < 1, r["more_quartiles_s"][0] <= r["more_s"] <= r["more_quartiles_s"][1])'
+code=0
+rasp plan --measure "$scenes/rubbing.yaml" || code=$?
+echo "exit code $code"
