@@ -7,7 +7,7 @@
      fit OBJECT ORDER FACE X,Y;... [MODES] < LINES
                                            one family of computed modes (80); each line: label table place-number
                                            E/density nu alpha beta [size-error]; printed: label, what was found, law of
-                                           damping, the limits of the four intervals, and the warning behind |
+                                           damping, the limits of the four intervals, the fit's CPU time in s, and the warning behind |
 
    The family is what `rasp modes material` computes: the same code, so that one does for many tables. */
 #include <math.h>
@@ -17,6 +17,7 @@
 #include <string.h>
 
 #include "analysis/material_set.h"
+#include "base/stopwatch.h"
 #include "cmd/modes_compute.h"
 #include "fem/mesh_check.h"
 #include "fem/shapes.h"
@@ -230,6 +231,7 @@ static int fit(char **argv)
                                          .poisson = NAN,
                                          .model_error = 1e-3,
                                          .size_error = size_error};
+            double before = stopwatch_cpu();
             if (!material_fit(&p, room, &f, &e)) {
                 printf(" refused: %s\n", e.text);
             } else {
@@ -243,7 +245,7 @@ static int fit(char **argv)
                 const struct material_figure *figures[] = {&f.gamma, &f.nu, &d->figure[0], &d->figure[1]};
                 for (int k = 0; k < 4; k++)
                     printf(" %.6g %.6g", figures[k]->low, figures[k]->high);
-                printf(" | ");
+                printf(" %.2f | ", stopwatch_cpu() - before);
                 for (const char *p = f.warning ? f.warning : ""; *p; p++)
                     putchar(*p == '\n' ? ';' : *p);
                 printf("\n");

@@ -461,7 +461,7 @@ static void figures(struct work *w, struct row *r, int n, const struct solution 
         square += rest * rest;
     }
     f->scatter = sqrt(square / n);
-    n = merged(r, n, p->model_error);
+    f->distinct = n = merged(r, n, p->model_error);
     newton(r, n, NULL, free_nu, &once);
     double *times = ARENA_TAKE(room, double, n), *gamma = ARENA_TAKE(room, double, MATERIAL_DRAWS),
            *nu = ARENA_TAKE(room, double, MATERIAL_DRAWS), t = material_damping_student(n - 1 - free_nu);
@@ -512,10 +512,10 @@ static void figures(struct work *w, struct row *r, int n, const struct solution 
 static void certainty(const struct work *w, struct arena *a, struct material_fit *f)
 {
     double edge[2] = {real_log(w->p->gamma[0]), real_log(w->p->gamma[1])}, at = real_log(f->gamma.value);
-    f->sure = f->matched >= SURE_MODES && f->unique && !f->nu_at_bound;
-    if (f->matched < SURE_MODES)
+    f->sure = f->distinct >= SURE_MODES && f->unique && !f->nu_at_bound;
+    if (f->distinct < SURE_MODES)
         warn(f, a,
-             arena_format(a, "%d modes match computed ones, and %d are needed for intervals", f->matched, SURE_MODES));
+             arena_format(a, "%d modes match computed ones, and %d are needed for intervals", f->distinct, SURE_MODES));
     if (!f->unique)
         warn(f, a,
              arena_format(a,

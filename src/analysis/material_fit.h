@@ -35,6 +35,7 @@ struct material_problem {
 
 struct material_fit {
     int modes, matched, missing; /* of all sets; missing: branches that should show and do not, in the sets' bands */
+    int distinct;                /* modes of the objects that are matched, each once however many strikes show it */
     struct material_figure gamma, nu;
     double correlation;    /* of log gamma and nu */
     double scatter, birge; /* rms of log(f/f_model); root of chi^2 by its freedoms */

@@ -1,5 +1,6 @@
 """The files that a scene names: height maps, responses, motions, forces, densities; each a function of the generator's
 random numbers."""
+import hashlib
 import math
 import struct
 import subprocess
@@ -219,6 +220,22 @@ def mode_table(scene, field, kind, drives=False):
     where = {"one": "one place", "line": "a line", "plane": "the plane"}[kind]
     scene.note(f"mode table: {form}, {'shared' if shared else 'separate'} poles, {where}")
     return table(scene, "modes", header, rows, before), shared
+
+
+def residual(scene):
+    """A folder as rasp modes residual writes it; the name of its residual.yaml."""
+    rng, name = scene.rng, scene.name("residual", "")
+    (scene.folder / name).mkdir()
+    rate = rng.choice([16000, 44100, 48000])
+    burst = [math.exp(-rng.uniform(50, 500) * n / rate) * rng.gauss(0, 1) for n in range(int(rate * rng.uniform(0.005, 0.2)))]
+    wav(scene.folder / name / "residual.wav", [burst], rate, "float32")
+    wav(scene.folder / name / "strike.wav", [burst, burst], rate, "float32")
+    rows = sorted([math.exp(rng.uniform(math.log(80), math.log(9000))), math.exp(rng.uniform(math.log(3), math.log(300))), rng.uniform(0, 1), 1.57,
+        rng.choice([0, rng.random(), 1]), rng.random()] for _ in range(rng.randint(1, 12)))
+    text(scene, name + "/modes.csv", ["frequency_hz,decay_per_s,gain,phase_rad,match_ratio,strike_energy", *(",".join(map(cell, row)) for row in rows)])
+    files = [f'  - {{file: {f}, sha256: "{hashlib.sha256((scene.folder / name / f).read_bytes()).hexdigest()}"}}' for f in ("residual.wav", "modes.csv", "strike.wav")]
+    text(scene, name + "/residual.yaml", ["rasp_residual: 3", f"sample_rate: {rate}", "files:", *files])
+    return name + "/residual.yaml"
 
 
 # ------------------------------------------------------------------ what goes over time

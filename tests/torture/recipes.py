@@ -420,6 +420,10 @@ def response(part, model):
         part.field = (0, 0, 0.1, 0.05)
         part.say("surface.response", quoted(inputs.folder_of_responses(scene, part.field)))
         part.say("surface.extrapolate", "nearest")
+    if kind in ("table", "object", "space") and part.chance(0.15):
+        scene.note("residual")
+        part.say("surface.residual", quoted(inputs.residual(scene)))
+        part.sprinkle(("surface.residual",), p=0.4)
 
 
 def within(part, layout):
