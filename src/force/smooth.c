@@ -3,6 +3,12 @@
 
      sigma(t) = contact.smoothing alpha(t) / 0.03 m        s
 
+   or, of an average over the contact's patch, by its speed: what goes faster is smoothed less,
+
+     sigma(t) = contact.smoothing_length / |v(t)|, 1 ms at most     s
+
+   (papers/000 has no such thing; at a constant width in seconds a light scrape gets duller the faster it goes.)
+
    Directional force: each element of force spreads with its own sigma, y(t) = integral f(t') G(t - t'; sigma(t')) dt',
    so that momentum is kept. Paper: the same on each limited curvature, sigma in proportion to its own alpha. The
    paper's "average half window size of 5 samples at a sampling rate of 44.1kHz" is read as an 11-sample window of 5
@@ -12,7 +18,7 @@
    its own (force/decimate.c): 4 smoothed sub-samples of which one sample is made cost 4 times as much, and behind a
    low-pass so smooth another one hardly needs its own length.
 
-   Kernels are sampled at the sub-rate, cut at 6.5 sigma, and have sum 1. While alpha varies, they are made at nodes
+   Kernels are sampled at the sub-rate, cut at 6.5 sigma, and have sum 1. While sigma varies, they are made at nodes
    every 64 sub-samples and an element between two nodes spreads with both kernels, linearly weighted (error of second
    order in sigma's change over 64 sub-samples).
 
@@ -42,12 +48,19 @@
 /* ------------------------------------------------------------------ parameters */
 
 struct smooth_width {
-    double sigma; /* s at alpha = 0.03 m; 0: none */
+    double sigma;  /* s at alpha = 0.03 m; 0: none */
+    double length; /* m, in place of it; 0: not given */
 };
+
+static const double slowest = 1e-3; /* s, of a length */
 
 static const struct key keys[] = {
     {ROW_NUMBER(smooth_width, sigma, "contact.smoothing"), KEY_TIME, 0, 0.01, "50 us", "contact.model=scrape|roll",
      "standard deviation of the Gaussian smoothing at alpha = 3 cm, in proportion to alpha; 0: none"},
+    {ROW_NUMBER(smooth_width, length, "contact.smoothing_length"), KEY_LENGTH, 0, 1e-3, "0",
+     "contact.model=scrape|roll",
+     "standard deviation of the Gaussian smoothing along the way, in place of contact.smoothing: an average over the "
+     "contact's patch, which takes less time the faster it goes (1 ms at most); 0: not so"},
     {.path = NULL}};
 
 /* m: without a limiter the width is that of 3 cm. */
@@ -80,7 +93,14 @@ static double alpha_widest(const struct contact *c)
 static void smooth_check(const struct scene_part *p, const struct contact *c, const void *own)
 {
     const char *path = "contact.smoothing";
-    double width = ((const struct smooth_width *)own)->sigma;
+    const struct smooth_width *w = own;
+    double width = w->sigma;
+    if (w->length > 0) {
+        if (yaml_find(p->map, path))
+            scene_part_contradiction(p, path, "contact.smoothing_length", "must not be given beside",
+                                     "leave one of them out");
+        return;
+    }
     double sigma = width * smooth_alpha(c, alpha_widest(c)) / 0.03;
     if (width > 0 && width < NARROWEST)
         scene_part_refuse(p, path, path, "0 turns it off; or write for instance: smoothing: 50 us",
@@ -97,7 +117,8 @@ static void smooth_check(const struct scene_part *p, const struct contact *c, co
 /* Left out with the limiter, after which the paper has it, against the harmonics that the non-linearity makes. */
 static void smooth_derive(struct contact *c, void *own)
 {
-    if (c->ablation.nonlinearity == ABLATED_NONLINEARITY_OMITTED) ((struct smooth_width *)own)->sigma = 0;
+    if (c->ablation.nonlinearity == ABLATED_NONLINEARITY_OMITTED)
+        *(struct smooth_width *)own = (struct smooth_width){0, 0};
 }
 
 static const struct params smooth_params = {
@@ -109,10 +130,11 @@ static const struct params smooth_params = {
     .given = contact_pressed,
 };
 
-static double smooth_width(const struct contact *c)
-{
-    return ((const struct smooth_width *)params_of(c, &smooth_params))->sigma;
-}
+static const struct smooth_width *width_of(const struct contact *c) { return params_of(c, &smooth_params); }
+
+static double smooth_width(const struct contact *c) { return width_of(c)->sigma; }
+
+static bool smooths(const struct contact *c) { return width_of(c)->sigma > 0 || width_of(c)->length > 0; }
 
 /* s, standard deviation for an alpha in m. */
 static double sigma_of(const struct contact *c, double alpha)
@@ -196,6 +218,8 @@ struct smooth {
     bool varies;
     int reach;              /* sub-samples to each side                          */
     double per_alpha;       /* sigma in sub-samples per metre of alpha           */
+    double length;          /* sigma in sub-samples at 1 m/s; 0: by alpha        */
+    double slowest;         /* ... at most, by length                            */
     struct smoothing still; /* the kernel when alpha does not vary               */
     double *kernel[2];      /* at the nodes around the segment, 2 reach + 1 taps, between SPREAD_WIDE zeros */
     double *raw;            /* unsmoothed values from sub-sample raw_first on    */
@@ -208,10 +232,19 @@ struct smooth {
 static bool smooth_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return contact_pressed(c) && smooth_width(c) > 0 && scrape_law(c)->force == FORCE_DIRECTIONAL;
+    return contact_pressed(c) && smooths(c) && scrape_law(c)->force == FORCE_DIRECTIONAL;
 }
 
-static bool smooth_varies(const struct contact *c) { return load_varies(c) && limiter_of(c)->curve == LIMITER_TANH; }
+static bool smooth_varies(const struct contact *c)
+{
+    return width_of(c)->length > 0 || (load_varies(c) && limiter_of(c)->curve == LIMITER_TANH);
+}
+
+static unsigned smooth_asks(const struct contact *c, const struct scene *s)
+{
+    (void)s;
+    return width_of(c)->length > 0 ? ITEM_BIT(ITEM_VELOCITY) : 0;
+}
 
 double smooth_still(const struct contact *c)
 {
@@ -222,7 +255,7 @@ double smooth_still(const struct contact *c)
 static bool smooth_curvature_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return contact_pressed(c) && smooth_width(c) > 0 && scrape_law(c)->force == FORCE_PAPER;
+    return contact_pressed(c) && smooths(c) && scrape_law(c)->force == FORCE_PAPER;
 }
 
 static bool smooth_curvature_y_wanted(const struct contact *c, const struct scene *s)
@@ -235,7 +268,8 @@ static double smooth_work(const struct contact *c, const struct scene *s)
     bool varies = smooth_varies(c);
     double over = s->accuracy.oversampling,
            alpha = varies ? limiter_of(c)->alpha_max : smooth_alpha(c, limiter_constant(c));
-    double taps = 13 * smooth_width(c) * alpha / 0.03 * s->output.sample_rate * over + 1;
+    double sigma = width_of(c)->length > 0 ? slowest : smooth_width(c) * alpha / 0.03,
+           taps = 13 * sigma * s->output.sample_rate * over + 1;
     return taps * over * (varies ? 0.65 : 0.35);
 }
 
@@ -261,11 +295,14 @@ static bool smooth_open_item(struct stage_run *r, enum item item, double ratio, 
     struct board *b = r->board;
     const struct contact *c = r->contact;
     s->item = item;
-    s->varies = b->limiter != NULL;
+    s->length = width_of(c)->length * b->rate * b->over;
+    s->slowest = slowest * b->rate * b->over;
+    s->varies = b->limiter != NULL || s->length > 0;
     s->per_alpha = ratio * smooth_width(c) / 0.03 * b->rate * b->over;
-    double widest = s->varies ? fmax(b->limiter->alpha_max, b->limiter->fixed) : smooth_alpha(c, limiter_constant(c));
-    if (ratio * sigma_of(c, widest) > WIDEST) return smooth_too_wide(r, ratio * sigma_of(c, widest), e);
-    s->still.kernel = filter_gaussian(r->arena, s->per_alpha * widest);
+    double widest = b->limiter ? fmax(b->limiter->alpha_max, b->limiter->fixed) : smooth_alpha(c, limiter_constant(c));
+    if (s->length == 0 && ratio * sigma_of(c, widest) > WIDEST)
+        return smooth_too_wide(r, ratio * sigma_of(c, widest), e);
+    s->still.kernel = filter_gaussian(r->arena, s->length > 0 ? s->slowest : s->per_alpha * widest);
     s->reach = s->still.kernel.reach;
     r->ahead = (s->reach + (s->varies ? SPREAD_SEGMENT : 0)) / b->over + 2;
     s->room = (size_t)((STAGE_BLOCK + 2 * r->ahead + 4) * b->over + 2 * s->reach);
@@ -326,9 +363,12 @@ static void kernel_divided(int taps, double sum, double *k)
 }
 
 /* The second half mirrors the first. */
-static void smooth_kernel(const struct smooth *s, double alpha, double *k)
+static void smooth_kernel(const struct smooth *s, const struct board *b, long at, double *k)
 {
-    double sigma = s->per_alpha * alpha, sum = 0;
+    const double *x = board_at(b, s->length > 0 ? ITEM_VELOCITY : ITEM_ALPHA, at / b->over) + at % b->over;
+    double sigma = s->length > 0 ? (fabs(*x) * s->slowest > s->length ? s->length / fabs(*x) : s->slowest)
+                                 : s->per_alpha * *x,
+           sum = 0;
     kernel_exponents(s->reach, sigma * sigma, k);
     vecmath_exp((size_t)(s->reach + 1), k, k);
     for (int t = 0; t < s->reach; t++)
@@ -346,7 +386,7 @@ static void smooth_segments(struct smooth *s, const struct board *b, long end)
         double *swap = s->kernel[0];
         s->kernel[0] = s->kernel[1];
         s->kernel[1] = swap;
-        smooth_kernel(s, *(board_at(b, ITEM_ALPHA, next / b->over) + next % b->over), s->kernel[1]);
+        smooth_kernel(s, b, next, s->kernel[1]);
         if (s->node >= s->start)
             spread_segment(s->raw + (s->node - s->raw_first), s->kernel, s->sum + (s->node - s->reach - s->sum_first),
                            2 * s->reach + 1);
@@ -416,6 +456,7 @@ const struct stage smooth_stage = {
     .idle = "contact.model is neither scrape nor roll, contact.smoothing is 0, or contact.force is paper",
     .needs = ITEM_BIT(ITEM_SUBFORCE),
     .takes = ITEM_BIT(ITEM_ALPHA),
+    .asks = smooth_asks,
     .gives = ITEM_BIT(ITEM_SUBFORCE),
     .spreads = true,
     .knobs = KNOB_BIT(oversampling),
@@ -433,6 +474,7 @@ const struct stage smooth_curvature_stage = {
     .idle = "contact.model is neither scrape nor roll, contact.smoothing is 0, or contact.force is directional",
     .needs = ITEM_BIT(ITEM_CURVATURE),
     .takes = ITEM_BIT(ITEM_ALPHA),
+    .asks = smooth_asks,
     .gives = ITEM_BIT(ITEM_CURVATURE),
     .spreads = true,
     .knobs = KNOB_BIT(oversampling),
@@ -451,6 +493,7 @@ const struct stage smooth_curvature_y_stage = {
             "surface has one axis",
     .needs = ITEM_BIT(ITEM_CURVATURE_Y),
     .takes = ITEM_BIT(ITEM_ALPHA),
+    .asks = smooth_asks,
     .gives = ITEM_BIT(ITEM_CURVATURE_Y),
     .spreads = true,
     .knobs = KNOB_BIT(oversampling),
