@@ -272,7 +272,8 @@ static const struct args_option options[] = {
     {"body", 0, "surface|scraper|ball", false, "of a scene: whose modes; default: surface"},
     CMD_SCENE_OPTIONS,
     {"quiet", 'q', NULL, false,
-     "object, compute, extract, material: prints nothing; what would be warned of stands in the table's comments all "
+     "object, compute, extract, material, residual: prints nothing; what would be warned of stands in the table's "
+     "comments all "
      "the same"},
     {0}};
 

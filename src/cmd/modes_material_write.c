@@ -22,14 +22,14 @@ static void put(FILE *f, const char *key, const struct material_figure *x, const
 static void modulus_of(const struct modes_material *j, struct material_figure *e, struct material_figure *density)
 {
     const struct material_figure *g = &j->fit.gamma;
-    bool weighed = j->size_error > 0.0 && args_given(&j->c->args, "mass");
+    bool weighed = j->size_error > 0.0 && args_given(&j->c->args, "mass") && !isnan(g->low);
     double size = 1.96 * j->size_error, half = real_log(g->high / g->value),
            own =
                weighed ? sqrt(fmax(half * half - 3.0 * size * size, 0.0)) : half; /* of (2 size)^2 there stays size^2 */
     *e = (struct material_figure){g->value * j->density, g->value * j->density * real_exp(-own),
                                   g->value * j->density * real_exp(own)};
     *density = (struct material_figure){j->density, NAN, NAN};
-    if (weighed && !isnan(g->low)) {
+    if (weighed) {
         density->low = j->density * real_exp(-3.0 * size);
         density->high = j->density * real_exp(3.0 * size);
     }

@@ -8,15 +8,16 @@
 
    By time, the represented sound is subtracted as it is, for its phases are known; then noise is taken off, as the lead
    before the strike shows it: each pixel of the spectrogram (num/stft.h) times sqrt(1 - P_noise/P), P the mean of 3 x
-   3, and what is not 6 dB above the noise is 0, nor 3 dB in the mean of 9 x 9: of noise alone chance leaves nothing,
-   where 3 dB in 3 x 3 left a tenth, which the division by the force made a hiss. By power, as printed: P_recording -
-   P_represented, where the paper does not say that it falls below 0, as it does wherever phases differ; here it stops
-   there, and has the recording's phases.
+   3, and what is not 6 dB above the noise is 0, nor 3 dB in the mean of 9 x 9: of noise alone chance leaves next to
+   nothing (a hundredth where the lead is 0.1 s), where 3 dB in 3 x 3 left a tenth, which the division by the force made
+   a hiss. By power, as printed: P_recording - P_represented, where the paper does not say that it falls below 0, as it
+   does wherever phases differ; here it stops there, and has the recording's phases.
 
    That is the sound of the strike's own force. What scenes take is a response, as the modes are: where the force was
    recorded, it is divided out (num/deconvolve.h), as far as it reaches. Where it is 40 dB below its strongest the
    response is half of what it was, and fades beyond; how far it holds is measured, and told. */
 #include <errno.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -354,19 +355,25 @@ static int thirds(const struct job *j, const double *y, long n, long size, doubl
     return bands;
 }
 
-/* Hz: up to there what the force makes of the response lacks 3 dB at most, in third octaves, of the residual. */
+/* Hz: up to there what the force makes of the response lacks 3 dB at most, in third octaves, of the residual; of those
+   within 40 dB of the loudest. NAN: there is none. */
 static double reach(const struct job *j, const double *response)
 {
     const struct modal_pulse *p = &stretch_of(j)->pulse;
     struct arena *a = arena_open();
     long size = (long)fft_good_size((size_t)(j->length + p->n));
-    double *again = ARENA_TAKE(a, double, j->length), found[64], wanted[64], top = THIRD_LOWEST;
+    double *again = ARENA_TAKE(a, double, j->length), found[64], wanted[64], top = NAN, edge = THIRD_LOWEST;
     for (long k = 0; k < p->n; k++)
         if (k < j->length) scaled_add(again + k, p->f[k], response, j->length - k);
     int n = thirds(j, again, j->length, size, found);
     thirds(j, j->residual, j->length, size, wanted);
-    for (int i = 0; i < n && found[i] >= 0.5 * wanted[i]; i++)
-        top *= THIRD;
+    double least = n > 0 ? 1e-4 * gsl_stats_max(wanted, 1, (size_t)n) : 0.0;
+    for (int i = 0; i < n; i++) {
+        edge *= THIRD;
+        if (!(wanted[i] > least)) continue;
+        if (found[i] < 0.5 * wanted[i]) break;
+        top = edge;
+    }
     arena_close(a);
     return top;
 }
@@ -511,7 +518,8 @@ static void yaml_write(FILE *f, const struct job *j, const struct figures *g)
     yaml_number(f, j->x.given.force_channel ? "momentum" : "peak", j->x.given.force_channel ? v->momentum : v->peak);
     if (j->place->placed) fprintf(f, "place_m: [%.9g, %.9g]\n", j->place->x, j->place->y);
     fprintf(f, "domain: %s\nnoise: %s\n", j->domain == BY_POWER ? "power" : "time", j->noise ? "taken off" : "kept");
-    if (divided(j)) fprintf(f, "force_divided_out_to_hz: %.6g  # above, it is more than 3 dB too soft\n", j->reach);
+    if (!isnan(j->reach))
+        fprintf(f, "force_divided_out_to_hz: %.6g  # above, it is more than 3 dB too soft\n", j->reach);
     fprintf(f, "modes: %d\n", j->table.n);
     yaml_number(f, "match_ratio_mean", g->mean);
     yaml_number(f, "match_ratio_least", g->least);
@@ -647,7 +655,7 @@ static void report(const struct job *j, const struct figures *g, bool json, stru
                                  : " with its noise: there is no silence before the strike that shows it");
     report_text(&r, "%s: %.3g s of %s, per %s%s%s\n", j->folder, seconds, modes_quantity_name(j->x.given.quantity),
                 per(j), lacks ? "; relative: " : "", lacks ? lacks : "");
-    if (divided(j))
+    if (!isnan(j->reach))
         report_text(&r, "the strike's force is divided out: the residual holds up to %.5g Hz, and fades above\n",
                     j->reach);
     for (int k = 0; k < j->x.notes; k++)

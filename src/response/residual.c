@@ -83,7 +83,7 @@ static bool read_modes(const char *path, struct arena *a, struct residual_modes 
             return err_set(e, ERR_SCENE, "%s:%d: frequency and decay are above 0", path, t.lines[row]);
         m->frequency[row] = value[0];
         m->decay[row] = value[1];
-        m->gain[row] = fabs(value[2]) * value[3];
+        m->gain[row] = value[3] > 0.0 ? fabs(value[2]) : 0.0; /* its own, however much of it was represented */
         m->energy[row] = value[4];
     }
     return true;

@@ -31,7 +31,7 @@ struct residual {
     double rate; /* Hz, that was asked for */
     long n;
     double *x;                   /* [n] from the strike on */
-    struct residual_modes modes; /* its source's, weighted by their match ratios */
+    struct residual_modes modes; /* its source's, without those of which nothing was represented */
     const char *note;            /* that it was resampled; NULL: it was not */
 };
 
