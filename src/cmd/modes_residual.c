@@ -348,7 +348,8 @@ static int thirds(const struct job *j, const double *y, long n, long size, doubl
     int bands = 0;
     for (double low = THIRD_LOWEST; low * THIRD < 0.5 * j->x.rate; low *= THIRD, bands++) {
         power[bands] = 0.0;
-        for (long k = (long)ceil(low * (double)size / j->x.rate); k < low * THIRD * (double)size / j->x.rate; k++)
+        for (long k = (long)ceil(low * (double)size / j->x.rate); (double)k < low * THIRD * (double)size / j->x.rate;
+             k++)
             power[bands] += bin[k];
     }
     arena_close(a);
