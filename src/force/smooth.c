@@ -60,7 +60,7 @@ static const struct key keys[] = {
     {ROW_NUMBER(smooth_width, length, "contact.smoothing_length"), KEY_LENGTH, 0, 1e-3, "0",
      "contact.model=scrape|roll",
      "standard deviation of the Gaussian smoothing along the way, in place of contact.smoothing: an average over the "
-     "contact's patch, which takes less time the faster it goes (1 ms at most); 0: not so"},
+     "contact's patch, which takes less time the faster it goes (1 ms at most); 0: contact.smoothing counts"},
     {.path = NULL}};
 
 /* m: without a limiter the width is that of 3 cm. */
@@ -95,12 +95,7 @@ static void smooth_check(const struct scene_part *p, const struct contact *c, co
     const char *path = "contact.smoothing";
     const struct smooth_width *w = own;
     double width = w->sigma;
-    if (w->length > 0) {
-        if (yaml_find(p->map, path))
-            scene_part_contradiction(p, path, "contact.smoothing_length", "must not be given beside",
-                                     "leave one of them out");
-        return;
-    }
+    if (w->length > 0) return; /* which then counts */
     double sigma = width * smooth_alpha(c, alpha_widest(c)) / 0.03;
     if (width > 0 && width < NARROWEST)
         scene_part_refuse(p, path, path, "0 turns it off; or write for instance: smoothing: 50 us",
