@@ -229,9 +229,10 @@ static bool run_valid(const struct stage_run *r, long from, long to, struct err 
     return !raised ||
            err_set(e, ERR_NUMBERS, "contact '%s': stage '%s' %s, between %.9g and %.9g s", r->contact->name,
                    r->stage->name,
-                   raised & FE_INVALID     ? "did an operation that has no result, a fault of rasp's own"
-                   : raised & FE_DIVBYZERO ? "divided by 0, a fault of rasp's own"
-                                           : "overflowed: lower the forces, heights or gains that make such numbers",
+                   raised & FE_OVERFLOW /* of which what has no result may follow */
+                       ? "overflowed: lower the forces, heights or gains that make such numbers"
+                       : raised & FE_DIVBYZERO ? "divided by 0, a fault of rasp's own"
+                                               : "did an operation that has no result, a fault of rasp's own",
                    (double)from / r->board->rate, (double)to / r->board->rate);
 }
 
