@@ -273,8 +273,7 @@ static const struct args_option options[] = {
     CMD_SCENE_OPTIONS,
     {"quiet", 'q', NULL, false,
      "object, compute, extract, material, residual: prints nothing; what would be warned of stands in the table's "
-     "comments all "
-     "the same"},
+     "comments all the same"},
     {0}};
 
 const struct command modes_command = {
@@ -327,12 +326,10 @@ const struct command modes_command = {
         "modes of TABLE, which extract made of it: for surface.residual of a scene. RECORDING, channels, scales, "
         "--quantity, --impulse and --strikes are as for extract. With --estimated a mode is taken off only as far as a "
         "mode of that table matches it (0.1 Bark, a factor of 1.28 in damping): the rest stays. Noise before the "
-        "strike "
-        "is taken off, and where the force was recorded it is divided out, up to the frequency that is told. "
-        "strike.wav in the folder has the "
-        "represented sound and what is left of the strike, in two channels, as loud as the recording. residual.wav is "
-        "a response, in the sound's unit per N s (without a force, of a strike whose peak is 1): floats that may lie "
-        "far beyond full scale.\n"
+        "strike is taken off, and where the force was recorded it is divided out, up to a frequency that the report "
+        "states. strike.wav in the folder has the represented sound and what is left of the strike, in two channels, "
+        "as loud as the recording. residual.wav is a response, in the sound's unit per N s (without a force, of a "
+        "strike whose peak is 1): floats that may lie far beyond full scale.\n"
         "rasp modes material OBJECT STRIKE... -o FILE.yaml: what an object is made of. OBJECT is a mesh, or a shape as "
         "of --shape; each STRIKE a table of rasp modes extract, FILE.csv@X,Y where the place that was struck is known; "
         "several objects of one material stand one after the other, each with its strikes. Found are E/density, "

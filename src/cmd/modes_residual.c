@@ -6,16 +6,17 @@
    (--estimated) match it in frequency and damping: amplitude times R_i (analysis/feature_match.h), all of it without
    --estimated.
 
-   By time, the represented sound is subtracted as it is, for its phases are known; then noise is taken off, as the lead
-   before the strike shows it: each pixel of the spectrogram (num/stft.h) times sqrt(1 - P_noise/P), P the mean of 3 x
-   3, and what is not 6 dB above the noise is 0, nor 3 dB in the mean of 9 x 9: of noise alone chance leaves next to
-   nothing (a hundredth where the lead is 0.1 s), where 3 dB in 3 x 3 left a tenth, which the division by the force made
-   a hiss. By power, as printed: P_recording - P_represented, where the paper does not say that it falls below 0, as it
-   does wherever phases differ; here it stops there, and has the recording's phases.
+   By time, the represented sound is subtracted as a scene makes it (direct term and all), for its phases are known;
+   then noise is taken off, as the lead before the strike shows it: each pixel of the spectrogram (num/stft.h) times
+   sqrt(1 - P_noise/P), P the mean of 3 x 3, and what is not 6 dB above the noise is 0, nor 3 dB in the mean of 9 x 9:
+   of noise alone chance leaves next to nothing (a hundredth where the lead is 0.1 s), where 3 dB in 3 x 3 left a tenth,
+   which the division by the force made a hiss. By power, as printed: P_recording - P_represented, where the paper does
+   not say that it falls below 0, as it does wherever phases differ; here it stops there, and has the recording's
+   phases.
 
    That is the sound of the strike's own force. What scenes take is a response, as the modes are: where the force was
    recorded, it is divided out (num/deconvolve.h), as far as it reaches. Where it is 40 dB below its strongest the
-   response is half of what it was, and fades beyond; how far it holds is measured, and told. */
+   response is half of what it was, and fades beyond; how far it holds is measured and reported. */
 #include <errno.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
@@ -609,6 +610,8 @@ static void warn(struct job *j, const struct figures *g)
     if (strike_of(j)->doubled && !divided(j))
         modes_extract_find_note(&j->x, NULL,
                                 "the strike is doubled, and no other can be used: its second blow is in the residual");
+    if (isnan(g->residual))
+        modes_extract_find_note(&j->x, NULL, "nothing is left above the noise: the residual is silent");
     if (g->left > LITTLE)
         modes_extract_find_note(
             &j->x, NULL,

@@ -33,8 +33,7 @@ static const struct args_option plan_options[] = {
      "audio sample"},
     {"without", 0, NULL, false,
      "print, in place of the plan, what each effect of the scene costs: predicted with and without, and the setting "
-     "that "
-     "leaves it out"},
+     "that leaves it out"},
     {"measure", 0, NULL, false, "with --without: renders a second at most of each, too, and measures it"},
     {0},
 };

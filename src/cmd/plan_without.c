@@ -201,6 +201,6 @@ bool plan_without(struct cmd_call *c, const char *file, const struct scene *chos
         if (!costs) free_of = free_of ? arena_format(c->arena, "%s; %s", free_of, all[i].name) : all[i].name;
     }
     report_set(r, "]");
-    if (free_of) report_note(r, "  no cost foretold: ", free_of);
+    if (free_of) report_note(r, "  no predicted cost: ", free_of);
     return true;
 }

@@ -11,6 +11,7 @@
 
 #include "convolution/overlap_add.h"
 #include "convolution/ring.h"
+#include "file/json_value.h"
 #include "num/real.h"
 #include "response/listener.h"
 #include "response/residual.h"
@@ -195,18 +196,18 @@ static struct stage_report report(const struct stage_run *r, struct arena *a)
     const struct residual_run *s = r->state;
     const struct residual_transferred *t = &s->outputs->sound;
     double level = t->level + 20.0 * real_log10(given_of(r->contact)->gain);
-    json_t *value =
-        json_pack("{s:i s:f s:f}", "pairs", t->pairs, "level_db", level, "seconds", (double)t->n / r->board->rate);
-    const char *off = "";
+    json_t *value = json_object();
+    json_value_set(value, "pairs:i level_db:n seconds:n", t->pairs, level, (double)t->n / r->board->rate);
+    const char *off = "", *loud = isfinite(level) ? arena_format(a, "%.1f dB beside the modes", level) : "silent";
     if (isfinite(t->consistency)) {
         json_object_set_new(value, "consistency_db", json_real(t->consistency));
         off = arena_format(a, ", its spectrogram %.1f dB off what was transferred", t->consistency);
     }
-    return (struct stage_report){"residual",
-                                 value,
-                                 arena_format(a, "residual by %d pair%s of modes, %.1f dB beside the modes%s", t->pairs,
-                                              t->pairs == 1 ? "" : "s", level, off),
-                                 {NULL}};
+    return (struct stage_report){
+        "residual",
+        value,
+        arena_format(a, "residual by %d pair%s of modes, %s%s", t->pairs, t->pairs == 1 ? "" : "s", loud, off),
+        {NULL}};
 }
 
 const struct stage surface_residual_stage = {

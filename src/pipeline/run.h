@@ -34,7 +34,7 @@ void run_close(struct run *r);
 
 /* From now on a block in which a stage does an operation that has no result (0/0, the root of a negative number, a
    number compared with none), divides by 0 or overflows ends with ERR_NUMBERS, wherever that goes. Without it a run
-   ends where a signal is not finite. Of the calling thread. */
+   ends where a signal is not finite. */
 void run_traps(void);
 
 #endif

@@ -4,8 +4,8 @@
    A folder FOLDER/residual.yaml names, with their hashes, residual.wav and modes.csv: the residual as an impulse
    response, and the modes that were taken off, both of one strike and in one unit, whatever that is. Its third file,
    strike.wav, is for who looks: the strike's sound in two channels, represented and residual, as loud as recorded. The
-   transfer takes the ratio of the two over to the modes of the target, per N s. So a residual of a recording whose
-   level is relative, or of another quantity than the scene's, keeps its level relative to its modes. */
+   transfer takes the residual's level beside the modes over to the target's, which are per N s. So a recording may be
+   of a relative level, or of another quantity than the scene's. */
 #ifndef RESPONSE_RESIDUAL_H
 #define RESPONSE_RESIDUAL_H
 #include <stdbool.h>

@@ -12,7 +12,7 @@
 
    e is 1e-4 of the greatest power of a frame of P^s, all bins together. c is by what the pairs' modes are stronger in
    the target: the mean of their log powers by the energy that each has in the strike, so that a mode that was hardly
-   struck, and whose gain is noise, does not set the level. (Energies of all modes made residuals 4 to 8 dB too loud or
+   struck, and whose gain is noise, does not set the level. (Energies of all modes made residuals up to 7 dB too loud or
    too soft on the very object that was recorded.) Of a body unlike the source, whose pairs' gains scatter, the residual
    comes out louder: by 8 dB of the bracket of scripts/section_e.sh.
 

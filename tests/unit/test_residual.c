@@ -242,17 +242,25 @@ START_TEST(louder)
 }
 END_TEST
 
+/* Noise beside three modes alike, `apart` Hz from each other, and a target of the same. */
+static void three_modes(struct arena *a, int seed, double apart, struct residual *source, struct residual_modes *target)
+{
+    *source = (struct residual){RATE, N, noise(a, seed, 6, 0, RATE), modes(a, 3), NULL};
+    *target = modes(a, 3);
+    for (int i = 0; i < 3; i++) {
+        source->modes.frequency[i] = target->frequency[i] = 1000.0 + apart * i;
+        source->modes.decay[i] = target->decay[i] = 6.0;
+        source->modes.gain[i] = target->gain[i] = 1.0;
+    }
+}
+
 /* One mode alone 12 dB louder: the residual around it, and nowhere else. */
 START_TEST(louder_mode)
 {
     struct arena *a = arena_open();
-    struct residual source = {RATE, N, noise(a, 1, 6, 0, RATE), modes(a, 3), NULL};
-    struct residual_modes target = modes(a, 3);
-    for (int i = 0; i < 3; i++) {
-        source.modes.frequency[i] = target.frequency[i] = 1000.0 + 2000.0 * i;
-        source.modes.decay[i] = target.decay[i] = 6.0;
-        source.modes.gain[i] = target.gain[i] = 1.0;
-    }
+    struct residual source;
+    struct residual_modes target;
+    three_modes(a, 1, 2000.0, &source, &target);
     target.gain[1] = 4.0;
     struct residual_transferred t = transfer(a, &source, &target, RESIDUAL_PHASES, 0);
     for (int i = 0; i < 3; i++) {
@@ -280,13 +288,9 @@ START_TEST(level_by_the_strike)
     for (int struck = 0; struck < 2; struck++) {
         struct arena *a = arena_open();
         double energy_of[3] = {1.0, struck ? 1.0 : 1e-9, 1.0}, power[2] = {0};
-        struct residual source = {RATE, N, noise(a, 2, 6, 0, RATE), modes(a, 3), NULL};
-        struct residual_modes target = modes(a, 3);
-        for (int i = 0; i < 3; i++) {
-            source.modes.frequency[i] = target.frequency[i] = 1000.0 + 1000.0 * i;
-            source.modes.decay[i] = target.decay[i] = 6.0;
-            source.modes.gain[i] = target.gain[i] = 1.0;
-        }
+        struct residual source;
+        struct residual_modes target;
+        three_modes(a, 2, 1000.0, &source, &target);
         source.modes.energy = energy_of;
         target.gain[1] = 10.0;
         struct residual_transferred t = transfer(a, &source, &target, RESIDUAL_PHASES, 0);
