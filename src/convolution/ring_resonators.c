@@ -5,16 +5,23 @@
 
    A surface whose poles differ from place to place, every force sample launching the response of its own place
    (`launch`), by resonators at nodes along the motion (convolution/launch.h). */
+#include <math.h>
 #include <string.h>
 
 #include "convolution/gammatone.h"
 #include "convolution/launch.h"
 #include "convolution/resonators.h"
 #include "convolution/ring.h"
+#include "num/real.h"
 
-/* Nodes that ring out are dropped when they have fallen by 100 dB where gain_ramp is 64, by 12 dB more for each
-   halving, as the error of the nodes falls. */
-#define FLOOR 2.44e-9
+/* Nodes that ring out are dropped when they have fallen by 100 dB, and where gain_ramp is less than 64 by 12 dB more for
+   each halving, as the error of the nodes falls. Where an error is asked for, they fall 20 dB below it: the end of a
+   sound is beyond what pilot runs compare. */
+static double node_floor(const struct accuracy *a, double ramp)
+{
+    double floor = 1e-5 * fmin(ramp * ramp / (64 * 64), 1);
+    return isnan(a->error) ? floor : fmin(floor, 0.1 * real_exp10(a->error / 20));
+}
 
 struct bank {
     struct resonators *bank; /* or, of a soft onset,                       */
@@ -151,7 +158,7 @@ static bool ring_launch_open(struct stage_run *r, struct err *e)
         struct launch_ask ask = {.n = v->n,
                                  .rate = r->board->rate,
                                  .hop = ring_choice_hop(s->ring.choice, &r->scene->accuracy),
-                                 .floor = FLOOR * s->ring.ramp * s->ring.ramp,
+                                 .floor = node_floor(&r->scene->accuracy, s->ring.ramp),
                                  .quantity = listener_quantity(v->listener)};
         s->outputs[k].engine = launch_open(&ask, launching_point, &s->outputs[k]);
     }
