@@ -14,9 +14,9 @@
 #include "convolution/ring.h"
 #include "num/real.h"
 
-/* Nodes that ring out are dropped when they have fallen by 100 dB, and where gain_ramp is less than 64 by 12 dB more for
-   each halving, as the error of the nodes falls. Where an error is asked for, they fall 20 dB below it: the end of a
-   sound is beyond what pilot runs compare. */
+/* Nodes that ring out are dropped when they have fallen by 100 dB, and where gain_ramp is less than 64 by 12 dB more
+   for each halving, as the error of the nodes falls. Where an error is asked for, they fall 20 dB below it: the end of
+   a sound is beyond what pilot runs compare. */
 static double node_floor(const struct accuracy *a, double ramp)
 {
     double floor = 1e-5 * fmin(ramp * ramp / (64 * 64), 1);

@@ -141,7 +141,7 @@ static bool begin(struct budgeting *m, int i, struct err *e)
         before = p->some;
         if (!error_pilot_make(m->chosen, c, some, moves, m->arena, p, e)) return false;
         bool over_used = p->knobs & KNOB_BIT(oversampling) && c->contact.model != CONTACT_ROLL_COUPLED;
-        if (!error_pilot_whole(p, &set, over_used && finer > over ? &next : NULL, false, e)) return false;
+        if (!error_pilot_run(p, &set, over_used && finer > over ? &next : NULL, false, e)) return false;
         if (p->energy > 0) break;
     }
     m->energy += p->energy;
@@ -225,7 +225,7 @@ static bool knob_distance(struct budgeting *m, int knob, const double value[2], 
         bool begun = knob == KNOB_oversampling && !going && p->contact.contact.model != CONTACT_ROLL_COUPLED &&
                      value[0] == m->chosen->accuracy.oversampling && value[1] == 2 * value[0] &&
                      set.tip_heights == m->chosen->accuracy.tip_heights && p->runs == 1; /* by begin */
-        if (!begun && !error_pilot_whole(p, &set, &finer, going, e)) return false;
+        if (!begun && !error_pilot_run(p, &set, &finer, going, e)) return false;
         distance[0] += error_pilot_distance(p, going);
         distance[1] += error_pilot_distance(p, false);
     }

@@ -1,9 +1,19 @@
 /* A kink of the force (a rest, a reversal, a corner, a jump of alpha) makes most of the error of a motion in one block,
    and around it the error is erratic in the knob: what agrees at two settings may differ at the next. So the whole
-   motion is run, and a block's difference is believed to fall by 12 dB at most from one doubling to the next. */
+   motion is run at three settings, and a block's difference is believed to fall by 12 dB at most from one doubling to
+   the next.
+
+   At kinks the difference falls slowly, by 6 to 12 dB a doubling, elsewhere by 18. So between three settings each block
+   shows its own order. Carried on with that order, the blocks that will matter are those of the greatest d q,
+
+     q = d(2K,4K) / d(K,2K), within [1/64, 1].
+
+   They are run at finer settings, and with them some spread evenly, by which the others are scaled: d of those is
+   d q c, where c is the ratio of what the spread ones gave to what their d q promised, at least 1. */
 #include "pipeline/error_pilot.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "convolution/ring_choice.h"
@@ -123,6 +133,14 @@ static bool audible_power(const struct scene *s, const struct contact *c, const 
 
 /* ------------------------------------------------------------------ making */
 
+/* Is the force read from the ground wherever the contact is, so that it can begin anywhere? */
+static bool begins_anywhere(const struct contact *c)
+{
+    return (c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL ||
+            c->contact.model == CONTACT_PLAYBACK) &&
+           c->motion.path != PATH_STILL;
+}
+
 bool error_pilot_make(const struct scene *s, const struct contact *c, double some, bool moves, struct arena *a,
                       struct error_pilot *p, struct err *e)
 {
@@ -157,6 +175,9 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
     p->last = p->some > FORCE_MOST ? NULL : ARENA_TAKE(a, double, p->some);
     p->distance = ARENA_TAKE(a, double, p->blocks);
     p->older = ARENA_TAKE(a, double, p->blocks);
+    p->falls = ARENA_TAKE(a, double, p->blocks);
+    p->follows = begins_anywhere(c) && p->blocks > 2 * PILOT_FOLLOWED; /* else as dear */
+    p->block = p->follows ? ARENA_TAKE(a, struct pilot_block, PILOT_FOLLOWED) : NULL;
     if (!plan_make(stages_table, &p->contact, &p->scene, a, &p->plan, e)) return false;
     p->knobs = plan_knobs(&p->plan);
     for (int k = 0; k < p->places; k++) { /* of a response that moves, those in the middle of each third */
@@ -242,24 +263,25 @@ static void learn(struct error_pilot *p, const struct run *r)
     p->lift_offs = r->board.roll.lift_offs > p->lift_offs ? r->board.roll.lift_offs : p->lift_offs;
 }
 
-bool error_pilot_whole(struct error_pilot *p, const struct accuracy *set, const struct accuracy *finer, bool going,
-                       struct err *e)
+/* Both settings over the whole motion, the first only where it is not the one of the last run. */
+static bool run_whole(struct error_pilot *p, const struct accuracy *set, const struct accuracy *finer, bool going,
+                      struct err *e)
 {
     const struct accuracy *sets[2] = {going && p->last ? NULL : set, finer}; /* NULL: not run */
     struct scene scene[2] = {p->scene, p->scene};
     struct run r[2];
     bool open[2] = {false, false}, ok = true;
     struct hearing h = hearing_open();
-    double x[2][PILOT_WINDOW] = {{0}}, *older = p->older, *now = x[finer != NULL];
-    p->older = p->distance;
-    p->distance = older;
+    double x[2][PILOT_WINDOW] = {{0}}, *now = x[finer != NULL];
     p->energy = 0;
-    p->runs++;
     for (int k = 0; ok && k < 2; k++) {
         if (!sets[k]) continue;
         scene[k].accuracy = *sets[k];
         ok = open[k] = run_open(&r[k], &p->plan, &scene[k], NULL, e);
     }
+    /* Where a block begins the limited trajectory begins, too: where the first, coarsest run has it, for all. */
+    for (int i = 0; p->lead == 0 && open[0] && i < r[0].n; i++)
+        p->lead += (i == 0 ? SETTLED : 0) + r[0].stages[i].back + r[0].stages[i].ahead;
     for (long number = 0; ok && number < p->blocks; number++) {
         long from = number * PILOT_HOP, left = p->some - from, frames = left < PILOT_HOP ? left : PILOT_HOP;
         for (int k = 0; k < 2; k++) {
@@ -284,6 +306,122 @@ bool error_pilot_whole(struct error_pilot *p, const struct accuracy *set, const 
     }
     fft_close(h.fft);
     return ok;
+}
+
+/* ------------------------------------------------------------------ some blocks */
+
+static int by_number(const void *a, const void *b)
+{
+    long x = ((const struct pilot_block *)a)->number, y = ((const struct pilot_block *)b)->number;
+    return (x > y) - (x < y);
+}
+
+static bool is_spread(const struct error_pilot *p, long number)
+{
+    for (int k = 0; k < PILOT_SPREAD; k++)
+        if (number == p->blocks * (2 * k + 1) / (2 * PILOT_SPREAD)) return true;
+    return false;
+}
+
+/* Those spread evenly, and of the others the worst by what is expected of them. */
+static void choose_blocks(struct error_pilot *p)
+{
+    int n = 0;
+    for (long b = 0; b < p->blocks; b++) {
+        double falls = p->older[b] > 0 ? p->distance[b] / p->older[b] : 1;
+        p->falls[b] = fmin(fmax(falls, 1.0 / 64), 1);
+        if (is_spread(p, b)) p->block[PILOT_WORST + n++].number = b;
+    }
+    for (int k = 0; k < PILOT_WORST; k++) {
+        long worst = -1;
+        for (long b = 0; b < p->blocks; b++) {
+            bool taken = is_spread(p, b);
+            for (int i = 0; i < k; i++)
+                taken = taken || p->block[i].number == b;
+            if (!taken && (worst < 0 || p->distance[b] * p->falls[b] > p->distance[worst] * p->falls[worst])) worst = b;
+        }
+        p->block[k].number = worst;
+    }
+    qsort(p->block, PILOT_FOLLOWED, sizeof *p->block, by_number);
+}
+
+/* The force of the chosen blocks at a setting, to x. */
+static bool run_blocks(struct error_pilot *p, const struct accuracy *set, struct pilot_block *to, struct err *e)
+{
+    struct scene scene = p->scene;
+    struct run r;
+    scene.accuracy = *set;
+    if (!run_open(&r, &p->plan, &scene, NULL, e)) return false;
+    bool ok = true;
+    long at = 0;
+    for (int k = 0; k < PILOT_FOLLOWED; k++) {
+        to[k].number = p->block[k].number;
+        memset(to[k].x, 0, sizeof to[k].x);
+    }
+    for (int k = 0; ok && k < PILOT_FOLLOWED; k++) {
+        long from = (p->block[k].number - 1) * PILOT_HOP, end = from + PILOT_WINDOW;
+        end = end < p->some ? end : p->some;
+        if (from - p->lead > at) run_skip(&r, at = from - p->lead);
+        for (long next; ok && at < end; at = next) {
+            next = at + STAGE_BLOCK < end ? at + STAGE_BLOCK : end;
+            ok = run_block(&r, next, e);
+            const double *force = ok ? board_at(&r.board, ITEM_FORCE, at) : NULL;
+            for (int i = 0; ok && i < PILOT_FOLLOWED; i++) {
+                long begin = (p->block[i].number - 1) * PILOT_HOP, first = at > begin ? at : begin,
+                     last = next < begin + PILOT_WINDOW ? next : begin + PILOT_WINDOW;
+                if (first < last)
+                    memcpy(to[i].x + (first - begin), force + (first - at), (size_t)(last - first) * sizeof(double));
+            }
+        }
+    }
+    learn(p, &r);
+    run_close(&r);
+    return ok;
+}
+
+static bool run_some(struct error_pilot *p, const struct accuracy *set, const struct accuracy *finer, struct err *e)
+{
+    struct arena *a = arena_open();
+    struct pilot_block *now = ARENA_TAKE(a, struct pilot_block, PILOT_FOLLOWED);
+    bool ok = true;
+    if (p->pairs == 3) ok = run_blocks(p, set, p->block, e);
+    ok = ok && run_blocks(p, finer, now, e);
+    struct hearing h = hearing_open();
+    double spread = 0, expected = 0;
+    for (long b = 0; b < p->blocks; b++)
+        p->distance[b] = p->older[b] * p->falls[b];
+    for (int k = 0; ok && k < PILOT_FOLLOWED; k++) {
+        struct pilot_block *b = &p->block[k];
+        double own = block_distance(p, &h, b->number, now[k].x, b->x);
+        if (is_spread(p, b->number)) {
+            spread += own;
+            expected += p->distance[b->number];
+        }
+        p->distance[b->number] = own;
+    }
+    double scale = expected > 0 ? fmax(spread / expected, 1) : 1;
+    for (long b = 0, k = 0; ok && b < p->blocks; b++)
+        if (k < PILOT_FOLLOWED && p->block[k].number == b)
+            k++;
+        else
+            p->distance[b] *= scale;
+    memcpy(p->block, now, PILOT_FOLLOWED * sizeof *now);
+    fft_close(h.fft);
+    arena_close(a);
+    return ok;
+}
+
+bool error_pilot_run(struct error_pilot *p, const struct accuracy *set, const struct accuracy *finer, bool going,
+                     struct err *e)
+{
+    double *older = p->older;
+    p->runs++;
+    p->pairs = going ? p->pairs + 1 : 1;
+    bool some = p->follows && finer && p->pairs > 2;
+    if (some && p->pairs == 3) choose_blocks(p);
+    p->older = p->distance;
+    p->distance = older;
+    return some ? run_some(p, set, finer, e) : run_whole(p, set, finer, going, e);
 }
 
 double error_pilot_distance(const struct error_pilot *p, bool history)

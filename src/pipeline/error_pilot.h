@@ -4,12 +4,21 @@
    A block is a window of PILOT_WINDOW frames, sin^2, one each PILOT_HOP. Its energy is that of the sound that the force
    makes of it:
 
-     E(x) = sum over bins of |FFT(w x)|^2 |H|^2        H  the contact's response (audible_power) */
+     E(x) = sum over bins of |FFT(w x)|^2 |H|^2        H  the contact's response (audible_power)
+
+   The three coarsest settings of a knob are run over the whole motion. From there on only some blocks are: those whose
+   difference will be greatest, if it goes on to fall as it fell between these three, and some spread evenly. */
 #ifndef PIPELINE_ERROR_PILOT_H
 #define PIPELINE_ERROR_PILOT_H
 #include "pipeline/plan.h"
 
 enum { PILOT_WINDOW = 1024, PILOT_HOP = PILOT_WINDOW / 2, PILOT_BINS = PILOT_HOP + 1, PILOT_PLACES = 3 };
+enum { PILOT_WORST = 16, PILOT_SPREAD = 16, PILOT_FOLLOWED = PILOT_WORST + PILOT_SPREAD };
+
+struct pilot_block {
+    long number;            /* -1: none */
+    double x[PILOT_WINDOW]; /* the force at the last setting */
+};
 
 struct error_pilot {        /* of one contact */
     struct scene scene;     /* that asks for the force alone */
@@ -21,21 +30,26 @@ struct error_pilot {        /* of one contact */
     double *power;      /* [PILOT_PLACES][PILOT_BINS] |H|^2 */
     int places;
     long blocks;
+    bool follows; /* the force can begin anywhere, and the motion is long enough for that */
+    long lead;    /* frames before a block that is begun with */
     int runs;     /* so far */
+    int pairs;    /* of settings that were compared, one going on where the other ended */
     double *last; /* [some] the force at the last setting of a survey; NULL: it is too long, and run again */
-    double *distance, *older; /* [blocks] between the last two settings, and between the two before: of a survey */
-    double energy;            /* of the whole */
-    long bounces, lift_offs;  /* of a coupled ball, as far as it was run */
+    double *distance, *older;  /* [blocks] between the last two settings, and between the two before: of a survey */
+    double *falls;             /* [blocks] by which the distance is taken to fall at the next doubling */
+    double energy;             /* of the whole */
+    struct pilot_block *block; /* [PILOT_FOLLOWED] those followed, in order of their numbers */
+    long bounces, lift_offs;   /* of a coupled ball, as far as it was run */
 };
 
 /* some: s that are run of a coupled ball. moves: the response changes on the way. */
 bool error_pilot_make(const struct scene *s, const struct contact *c, double some, bool moves, struct arena *a,
                       struct error_pilot *p, struct err *e);
 
-/* The whole motion at a setting and at a finer one (NULL: there is none, and distances are the energies): distances and
-   energy. going: the last run ended with `set`. */
-bool error_pilot_whole(struct error_pilot *p, const struct accuracy *set, const struct accuracy *finer, bool going,
-                       struct err *e);
+/* The motion at a setting and at a finer one (NULL: there is none, and distances are the energies): distances and
+   energy. going: the last run ended with `set`, so that after two pairs only some blocks need be run. */
+bool error_pilot_run(struct error_pilot *p, const struct accuracy *set, const struct accuracy *finer, bool going,
+                     struct err *e);
 
 /* Energy of the difference between the two settings; of a block at least a sixteenth of that between the two before,
    where there were such (history): what agrees by accident is not believed. */

@@ -90,12 +90,20 @@ void envelope_prepare(struct envelope *e)
     e->seed_x = e->seed_y = 0;
 }
 
-static void try(struct envelope *e, long x, long y)
+/* What the ball reaches over a height; -HUGE_VAL beyond its radius. */
+static double reached_over(const struct envelope *e, long x, long y)
 {
     const struct level *l = &e->levels[0];
     double dx = (double)x - e->x, dy = (double)y - e->y, square = (dx * dx + dy * dy) * e->unit;
-    double reached = l->most[y * l->columns + x] - square / (e->radius + sqrt(e->square - square));
-    if (reached > e->best) {
+    if (square > e->square) return -HUGE_VAL;
+    return l->most[y * l->columns + x] - square / (e->radius + sqrt(e->square - square));
+}
+
+/* Of two that reach alike the first row's and column's counts, so that the refinement depends on nothing else. */
+static void try(struct envelope *e, long x, long y)
+{
+    double reached = reached_over(e, x, y);
+    if (reached > e->best || (reached == e->best && (y < e->seed_y || (y == e->seed_y && x < e->seed_x)))) {
         e->best = reached;
         e->seed_x = x;
         e->seed_y = y;
@@ -129,7 +137,7 @@ static int promising(const struct envelope *e, const struct level *l, long x, lo
         for (int i = 0; i < FACTOR; i++) {
             double square = (left[i] + below[j]) * e->unit, b = most[i] - square * e->loose;
             bound[j * FACTOR + i] = b;
-            found[i] += lanes_select((b > e->best) & (square <= e->square), bits[j * FACTOR + i], 0);
+            found[i] += lanes_select((b >= e->best) & (square <= e->square), bits[j * FACTOR + i], 0);
         }
     }
     return (int)((found[0] + found[1]) + (found[2] + found[3]));
@@ -142,7 +150,7 @@ static void search(struct envelope *e, int level, long column, long row)
     long x = column * FACTOR, y = row * e->tall;
     for (int left = promising(e, &e->levels[level], x, y, bound); left; left &= left - 1) {
         int k = __builtin_ctz((unsigned)left);
-        if (bound[k] <= e->best) continue;
+        if (bound[k] < e->best) continue;
         if (level == 0)
             try(e, x + k % FACTOR, y + k / FACTOR);
         else
@@ -150,7 +158,29 @@ static void search(struct envelope *e, int level, long column, long row)
     }
 }
 
-double envelope_at(struct envelope *e, long column, long row)
+/* Where the ball touches, between samples: at the top of the paraboloid through the nine about the best one, where that
+   is a top no further than a sample away. */
+static void touched(const struct envelope *e, double place[2])
+{
+    const struct level *l = &e->levels[0];
+    double f[3][3];
+    long x = e->seed_x, y = e->seed_y;
+    place[0] = (double)x;
+    place[1] = (double)y;
+    if (x < 1 || y < 1 || x + 1 >= l->columns || y + 1 >= l->rows) return;
+    for (int j = 0; j < 3; j++)
+        for (int i = 0; i < 3; i++)
+            f[j][i] = reached_over(e, x - 1 + i, y - 1 + j) - e->best;
+    double gx = 0.5 * (f[1][2] - f[1][0]), gy = 0.5 * (f[2][1] - f[0][1]), xx = f[1][2] + f[1][0],
+           yy = f[2][1] + f[0][1], xy = 0.25 * ((f[2][2] - f[2][0]) - (f[0][2] - f[0][0])), all = xx * yy - xy * xy;
+    if (!(xx < 0 && all > 0 && isfinite(all))) return;
+    double u = (xy * gy - yy * gx) / all, v = (xy * gx - xx * gy) / all;
+    if (!(fabs(u) <= 1 && fabs(v) <= 1)) return;
+    place[0] += u;
+    place[1] += v;
+}
+
+double envelope_at(struct envelope *e, long column, long row, double place[2])
 {
     const struct level *l = &e->levels[0];
     long x = e->seed_x, y = e->seed_y;
@@ -165,5 +195,6 @@ double envelope_at(struct envelope *e, long column, long row)
     for (long j = 0; j < top->rows / e->tall; j++)
         for (long i = 0; i < top->columns / FACTOR; i++)
             search(e, e->top, i, j);
+    if (place) touched(e, place);
     return e->best;
 }

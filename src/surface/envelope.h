@@ -16,7 +16,8 @@ double *envelope_heights(struct envelope *e, long *stride);
 void envelope_prepare(struct envelope *e);
 
 /* E at a lattice point, m, over the heights there are. The very same number whatever was asked before. Fast when
-   neighbours are asked for one after the other. */
-double envelope_at(struct envelope *e, long column, long row);
+   neighbours are asked for one after the other. place (or NULL): where the ball touches, in samples, as far as the
+   heights about the highest one say. */
+double envelope_at(struct envelope *e, long column, long row, double place[2]);
 
 #endif

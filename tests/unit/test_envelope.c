@@ -41,7 +41,7 @@ static void check_piece(long columns, long rows, int kind, double radius)
         for (int k = 0; k < 400; k++) {
             long x = k < 200 ? k % columns : (long)(drand48() * (double)columns),
                  y = k < 200 ? k / 40 % rows : (long)(drand48() * (double)rows);
-            ck_assert(envelope_at(e, x, y) == plain(z, columns, rows, x, y, radius, 5e-6));
+            ck_assert(envelope_at(e, x, y, NULL) == plain(z, columns, rows, x, y, radius, 5e-6));
         }
     }
     arena_close(a);
@@ -74,7 +74,7 @@ START_TEST(a_slope)
             z[j * stride + i] = pitch * (gx * (double)i + gy * (double)j);
     envelope_prepare(e);
     for (long k = 90; k < 110; k++) {
-        double more = envelope_at(e, k, 100) - z[100 * stride + k] - radius * (sqrt(1 + s2) - 1);
+        double more = envelope_at(e, k, 100, NULL) - z[100 * stride + k] - radius * (sqrt(1 + s2) - 1);
         ck_assert(more <= 1e-18 && more >= -2 * pitch * pitch / 8 * pow(1 + s2, 1.5) / radius);
     }
     arena_close(a);
@@ -96,7 +96,7 @@ START_TEST(a_spike_is_the_ball)
         for (long i = 0; i < 301; i += 3) {
             double d2 = ((double)((i - 150) * (i - 150)) + (double)((j - 150) * (j - 150))) * pitch * pitch;
             double want = d2 <= radius * radius * (1 + 1e-15) ? 2e-4 + sqrt(fmax(radius * radius - d2, 0)) - radius : 0;
-            ck_assert_double_eq_tol(envelope_at(e, i, j), want,
+            ck_assert_double_eq_tol(envelope_at(e, i, j, NULL), want,
                                     1e-17 + (fabs(d2 - radius * radius) < 1e-20 ? 1e-9 : 0));
         }
     arena_close(a);

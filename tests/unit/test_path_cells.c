@@ -11,7 +11,7 @@
 #include "trajectory/trajectory.h"
 #include "unit.h"
 
-enum { MOST = 60000, FRAMES = 600 };
+enum { MOST = 120000, FRAMES = 600 };
 
 static struct {
     int n, interval[MOST], heading[MOST], flushes;
