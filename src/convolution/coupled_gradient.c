@@ -61,8 +61,8 @@ static inline double coupled_contact_solve_first(const struct coupled_contact_so
     return guess > 0 ? sqrt(guess) : k->root;
 }
 
-/* The polynomial in b = sqrt(xi+) at x, by Halley's method (of third order): what x has to be lowered by; NAN where the
- * force would be cut off. */
+/* The polynomial in b = sqrt(xi+) at x, by Halley's method (of third order): what x has to be lowered by; all of x where
+ * the force would be cut off, so that x is 0, which settles nothing (NAN would trap where it is compared). */
 static inline double coupled_contact_solve_pass(const struct coupled_contact_solve *k, double a, double b, double x)
 {
     const double r = k->root, square = k->from, cube = square * r, kb = k->stiffness * b, rate = k->rate;
@@ -71,7 +71,7 @@ static inline double coupled_contact_solve_pass(const struct coupled_contact_sol
     double off = (xx - a) * s + kb * n * factor;
     double slope = 2 * x * s + (xx - a) + kb * (n1 * factor + 2 * rate * n * x);
     double bend = 2 * (s + 2 * x) + kb * (n2 * factor + 2 * rate * (2 * n1 * x + n)); /* off's second derivative */
-    return factor > 0 ? off * slope / (slope * slope - 0.5 * off * bend) : NAN;
+    return factor > 0 ? off * slope / (slope * slope - 0.5 * off * bend) : x;
 }
 
 /* x: after the pass that lowered it by change. When that moved it by less than 2^-18 of itself the next one would be
