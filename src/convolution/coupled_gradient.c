@@ -61,8 +61,8 @@ static inline double coupled_contact_solve_first(const struct coupled_contact_so
     return guess > 0 ? sqrt(guess) : k->root;
 }
 
-/* The polynomial in b = sqrt(xi+) at x, by Halley's method (of third order): what x has to be lowered by; all of x where
- * the force would be cut off, so that x is 0, which settles nothing (NAN would trap where it is compared). */
+/* The polynomial in b = sqrt(xi+) at x, by Halley's method (of third order): what x has to be lowered by; all of x
+ * where the force would be cut off, so that x is 0, which settles nothing (NAN would trap where it is compared). */
 static inline double coupled_contact_solve_pass(const struct coupled_contact_solve *k, double a, double b, double x)
 {
     const double r = k->root, square = k->from, cube = square * r, kb = k->stiffness * b, rate = k->rate;
