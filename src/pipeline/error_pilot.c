@@ -9,7 +9,8 @@
      q = d(2K,4K) / d(K,2K), within [1/64, 1].
 
    They are run at finer settings, and with them some spread evenly, by which the others are scaled: d of those is
-   d q c, where c is the ratio of what the spread ones gave to what their d q promised, at least 1. */
+   d q c, where c is the sum of what the spread ones gave over the sum of their d q, at least 1. Beside the whole motion
+   the sum is then within 3 dB where it matters (scenes/circle; with 32 of the worst and none spread 5 dB too low). */
 #include "pipeline/error_pilot.h"
 
 #include <math.h>
@@ -280,8 +281,10 @@ static bool run_whole(struct error_pilot *p, const struct accuracy *set, const s
         ok = open[k] = run_open(&r[k], &p->plan, &scene[k], NULL, e);
     }
     /* Where a block begins the limited trajectory begins, too: where the first, coarsest run has it, for all. */
-    for (int i = 0; p->lead == 0 && open[0] && i < r[0].n; i++)
-        p->lead += (i == 0 ? SETTLED : 0) + r[0].stages[i].back + r[0].stages[i].ahead;
+    bool first = p->lead == 0 && open[0];
+    p->lead = first ? SETTLED : p->lead;
+    for (int i = 0; first && i < r[0].n; i++)
+        p->lead += r[0].stages[i].back + r[0].stages[i].ahead;
     for (long number = 0; ok && number < p->blocks; number++) {
         long from = number * PILOT_HOP, left = p->some - from, frames = left < PILOT_HOP ? left : PILOT_HOP;
         for (int k = 0; k < 2; k++) {

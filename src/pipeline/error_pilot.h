@@ -16,7 +16,7 @@ enum { PILOT_WINDOW = 1024, PILOT_HOP = PILOT_WINDOW / 2, PILOT_BINS = PILOT_HOP
 enum { PILOT_WORST = 16, PILOT_SPREAD = 16, PILOT_FOLLOWED = PILOT_WORST + PILOT_SPREAD };
 
 struct pilot_block {
-    long number;            /* -1: none */
+    long number;
     double x[PILOT_WINDOW]; /* the force at the last setting */
 };
 
@@ -38,7 +38,7 @@ struct error_pilot {        /* of one contact */
     double *distance, *older;  /* [blocks] between the last two settings, and between the two before: of a survey */
     double *falls;             /* [blocks] by which the distance is taken to fall at the next doubling */
     double energy;             /* of the whole */
-    struct pilot_block *block; /* [PILOT_FOLLOWED] those followed, in order of their numbers */
+    struct pilot_block *block; /* [PILOT_FOLLOWED] those that are run, in order of their numbers; NULL: all are */
     long bounces, lift_offs;   /* of a coupled ball, as far as it was run */
 };
 

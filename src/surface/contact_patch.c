@@ -34,10 +34,9 @@ enum { KERNEL = 28, INVERSE = 40, LINE = 1024, SQUARE = 16, EDGE = 3, WIDEST = L
      envelope   E at multiples of h = patch / 4
 
    Errors. In one coordinate those of rolling_envelope.c. In the plane the heights only tell on which asperity the ball
-   rests; the surface itself, read where it touches, bears it (`top`). Left is the error of one step of Newton's method
-   over less than d, of fourth order in d, and within d^2/8 (1/R + |z''|) of a place where two asperities bear it alike
-   the lower one may be taken: the force of scenes/round_tip is off by -75, -84, -103 dB where accuracy.tip_heights is
-   1, 2, 4 (by heights alone -49, -58, -70).
+   rests; the surface itself, read where it touches, bears it (`bears`). Left is what two steps of Newton's method
+   leave; and where two asperities bear it alike to d^2/8 (1/R + |z''|) the lower one may be taken. The force of
+   scenes/round_tip is off by -75, -86, -103 dB where accuracy.tip_heights is 1, 2, 3 (by heights alone -49, -58, -67).
  */
 enum { ENVELOPE = 32, READ = 64, EIGHT = 8 };
 
@@ -104,47 +103,58 @@ long contact_patch_side(const struct rolling_plan *p)
     return (ENVELOPE - 1) * p->finer + 1 + 2 * (long)ceil(p->reach / (p->patch / PATCH_POINTS / p->finer));
 }
 
-/* f at its top, near a place p where the ball touches or nearly so: with the surface's own height and derivatives
-   there, and the ball's centre at -d from it,
+/* What bears the ball at a place of the surface, its centre at -d from it, and a step of Newton's method towards the
+   top of that, `most` long at most:
 
-     f = z + sqrt(R^2 - |d|^2) - R,   f' = z' - d/s,   f'' = z'' - (1 + d d^T/s^2)/s,   s = sqrt(R^2 - |d|^2)
+     f = z + s - R,   f' = z' - d/s,   f'' = z'' - (1 + d d^T/s^2)/s,   s = sqrt(R^2 - |d|^2)
 
-   one step of Newton's method adds -f' f''^-1 f' / 2, unless it leads further away than `most`, as from a kink. */
-static double top(const struct reading *r, long k, const double d[2], double radius, double most)
+   The step is 0 where f has no top near, as at a kink or at the ball's rim. */
+static double bears(const struct reading *r, long k, const double d[2], double radius, double most, double step[2])
 {
-    double square = d[0] * d[0] + d[1] * d[1], s = sqrt(radius * radius - square);
-    double f = r->z[k] - square / (radius + s), gx = r->x[k] - d[0] / s, gy = r->y[k] - d[1] / s;
+    double square = d[0] * d[0] + d[1] * d[1], left = radius * radius - square, s = sqrt(fmax(left, 0)),
+           f = r->z[k] - square / (radius + s);
+    step[0] = step[1] = 0;
+    if (left < 1e-6 * radius * radius) return f;
+    double gx = r->x[k] - d[0] / s, gy = r->y[k] - d[1] / s, xy = r->xy[k] - d[0] * d[1] / (s * s * s);
     double xx = r->xx[k] - (1 + d[0] * d[0] / (s * s)) / s, yy = r->yy[k] - (1 + d[1] * d[1] / (s * s)) / s,
-           xy = r->xy[k] - d[0] * d[1] / (s * s * s), all = xx * yy - xy * xy;
+           all = xx * yy - xy * xy;
     if (!(xx < 0 && all > 0)) return f;
-    double u = (xy * gy - yy * gx) / all, v = (xy * gx - xx * gy) / all;
-    return u * u + v * v <= most * most ? f + 0.5 * (gx * u + gy * v) : f;
+    double u = (xy * gy - yy * gx) / all, v = (xy * gx - xx * gy) / all, x = d[0] + u, y = d[1] + v;
+    if (u * u + v * v > most * most || x * x + y * y > radius * radius) return f;
+    step[0] = u;
+    step[1] = v;
+    return f + 0.5 * (gx * u + gy * v);
 }
 
-/* The lattice of heights tells on which asperity the ball rests, and the surface itself how high that bears it. */
+/* The lattice of heights tells on which asperity the ball rests, and the surface itself how high that bears it: it is
+   read at the lattice's place, and where a step of Newton's method leads from there. */
 static void lattice_square(void *self, long column, long row, double *out)
 {
     struct on_lattice *w = self;
     long finer = w->plan.finer, side = contact_patch_side(&w->plan), stride,
          from[2] = {column * ENVELOPE * finer - w->reach, row * ENVELOPE * finer - w->reach};
-    double *heights = envelope_heights(w->envelope, &stride), x[READ], y[READ], d[READ][2];
+    double *heights = envelope_heights(w->envelope, &stride), x[READ], y[READ], d[READ][2], step[READ][2];
     struct reading r;
     block_cache_gather(&w->heights, from, (long[]){side, side}, heights, stride);
     envelope_prepare(w->envelope);
     for (long at = 0; at < ENVELOPE * ENVELOPE; at += READ) {
         for (long k = 0; k < READ; k++) {
-            long i = w->reach + (at + k) % ENVELOPE * finer, j = w->reach + (at + k) / ENVELOPE * finer;
-            double place[2];
+            long i = w->reach + (at + k) % ENVELOPE * finer, j = w->reach + (at + k) / ENVELOPE * finer, place[2];
             envelope_at(w->envelope, i, j, place);
-            x[k] = ((double)from[0] + place[0]) * w->d;
-            y[k] = ((double)from[1] + place[1]) * w->d;
-            d[k][0] = (place[0] - (double)i) * w->d;
-            d[k][1] = (place[1] - (double)j) * w->d;
+            x[k] = (double)(from[0] + place[0]) * w->d;
+            y[k] = (double)(from[1] + place[1]) * w->d;
+            d[k][0] = (double)(place[0] - i) * w->d;
+            d[k][1] = (double)(place[1] - j) * w->d;
         }
-        relief_at(w->under, &(struct relief_points){READ, x, y},
-                  &(struct relief_values){r.z, r.x, r.y, r.xx, r.xy, r.yy});
-        for (long k = 0; k < READ; k++)
-            out[at + k] = top(&r, k, d[k], w->plan.radius, w->d);
+        for (int pass = 0; pass < 2; pass++) {
+            relief_at(w->under, &(struct relief_points){READ, x, y},
+                      &(struct relief_values){r.z, r.x, r.y, r.xx, r.xy, r.yy});
+            for (long k = 0; k < READ; k++) {
+                out[at + k] = bears(&r, k, d[k], w->plan.radius, 2 * w->d, step[k]);
+                x[k] += step[k][0], d[k][0] += step[k][0];
+                y[k] += step[k][1], d[k][1] += step[k][1];
+            }
+        }
     }
 }
 

@@ -90,19 +90,12 @@ void envelope_prepare(struct envelope *e)
     e->seed_x = e->seed_y = 0;
 }
 
-/* What the ball reaches over a height; -HUGE_VAL beyond its radius. */
-static double reached_over(const struct envelope *e, long x, long y)
+/* Of two that reach alike the first row's and column's counts: where the ball touches depends on nothing else. */
+static void try(struct envelope *e, long x, long y)
 {
     const struct level *l = &e->levels[0];
     double dx = (double)x - e->x, dy = (double)y - e->y, square = (dx * dx + dy * dy) * e->unit;
-    if (square > e->square) return -HUGE_VAL;
-    return l->most[y * l->columns + x] - square / (e->radius + sqrt(e->square - square));
-}
-
-/* Of two that reach alike the first row's and column's counts, so that the refinement depends on nothing else. */
-static void try(struct envelope *e, long x, long y)
-{
-    double reached = reached_over(e, x, y);
+    double reached = l->most[y * l->columns + x] - square / (e->radius + sqrt(e->square - square));
     if (reached > e->best || (reached == e->best && (y < e->seed_y || (y == e->seed_y && x < e->seed_x)))) {
         e->best = reached;
         e->seed_x = x;
@@ -158,29 +151,7 @@ static void search(struct envelope *e, int level, long column, long row)
     }
 }
 
-/* Where the ball touches, between samples: at the top of the paraboloid through the nine about the best one, where that
-   is a top no further than a sample away. */
-static void touched(const struct envelope *e, double place[2])
-{
-    const struct level *l = &e->levels[0];
-    double f[3][3];
-    long x = e->seed_x, y = e->seed_y;
-    place[0] = (double)x;
-    place[1] = (double)y;
-    if (x < 1 || y < 1 || x + 1 >= l->columns || y + 1 >= l->rows) return;
-    for (int j = 0; j < 3; j++)
-        for (int i = 0; i < 3; i++)
-            f[j][i] = reached_over(e, x - 1 + i, y - 1 + j) - e->best;
-    double gx = 0.5 * (f[1][2] - f[1][0]), gy = 0.5 * (f[2][1] - f[0][1]), xx = f[1][2] + f[1][0],
-           yy = f[2][1] + f[0][1], xy = 0.25 * ((f[2][2] - f[2][0]) - (f[0][2] - f[0][0])), all = xx * yy - xy * xy;
-    if (!(xx < 0 && all > 0 && isfinite(all))) return;
-    double u = (xy * gy - yy * gx) / all, v = (xy * gx - xx * gy) / all;
-    if (!(fabs(u) <= 1 && fabs(v) <= 1)) return;
-    place[0] += u;
-    place[1] += v;
-}
-
-double envelope_at(struct envelope *e, long column, long row, double place[2])
+double envelope_at(struct envelope *e, long column, long row, long place[2])
 {
     const struct level *l = &e->levels[0];
     long x = e->seed_x, y = e->seed_y;
@@ -195,6 +166,7 @@ double envelope_at(struct envelope *e, long column, long row, double place[2])
     for (long j = 0; j < top->rows / e->tall; j++)
         for (long i = 0; i < top->columns / FACTOR; i++)
             search(e, e->top, i, j);
-    if (place) touched(e, place);
+    place[0] = e->seed_x;
+    place[1] = e->seed_y;
     return e->best;
 }

@@ -15,9 +15,9 @@ struct envelope *envelope_make(struct arena *a, double radius, double pitch, lon
 double *envelope_heights(struct envelope *e, long *stride);
 void envelope_prepare(struct envelope *e);
 
-/* E at a lattice point, m, over the heights there are. The very same number whatever was asked before. Fast when
-   neighbours are asked for one after the other. place (or NULL): where the ball touches, in samples, as far as the
-   heights about the highest one say. */
-double envelope_at(struct envelope *e, long column, long row, double place[2]);
+/* E at a lattice point, m, over the heights there are, and the place of the height that the ball touches (of several
+   the first row's, and there the first column's). The very same whatever was asked before. Fast when neighbours are
+   asked for one after the other. */
+double envelope_at(struct envelope *e, long column, long row, long place[2]);
 
 #endif

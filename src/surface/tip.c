@@ -21,7 +21,7 @@
    small that this is a thousandth of the span H of heights, and a whole share of the kinks' pitch, so that they are
    met. In the plane heights are taken every patch / 4 or half the surface's finest scale, whichever is less, and
    accuracy.tip_heights times as densely, and the surface itself is read where the ball touches between them; each
-   doubling brings the force 10 to 30 dB nearer (from 61 to 91 and 128 dB for a patch of 20 um on ridges,
+   doubling brings the force 10 to 35 dB nearer (from 61 to 91 and 128 dB for a patch of 20 um on ridges,
    tests/unit/test_tip_accuracy.c).
 
    Heights are read as far as R; in the plane, where that would be most of the work, and in one coordinate where it is

@@ -1,17 +1,19 @@
-/* envelope: against the plain maximum over every height there is, which must be the same number to the last bit, and
+/* envelope: against the plain maximum over every height there is, which must be the same number to the last bit and the same place, and
    the closed forms of a plane's and a spike's envelope. */
 #include "surface/envelope.h"
 
 #include "unit.h"
 
-static double plain(const double *z, long columns, long rows, long x, long y, double radius, double pitch)
+static double plain(const double *z, long columns, long rows, long x, long y, double radius, double pitch, long at[2])
 {
     double most = -HUGE_VAL;
     for (long j = 0; j < rows; j++)
         for (long i = 0; i < columns; i++) {
             double dx = (double)(i - x), dy = (double)(j - y), square = (dx * dx + dy * dy) * (pitch * pitch);
-            if (square <= radius * radius)
-                most = fmax(most, z[j * columns + i] - square / (radius + sqrt(radius * radius - square)));
+            double reached = square > radius * radius
+                                 ? -HUGE_VAL
+                                 : z[j * columns + i] - square / (radius + sqrt(radius * radius - square));
+            if (reached > most) most = reached, at[0] = i, at[1] = j;
         }
     return most;
 }
@@ -41,7 +43,9 @@ static void check_piece(long columns, long rows, int kind, double radius)
         for (int k = 0; k < 400; k++) {
             long x = k < 200 ? k % columns : (long)(drand48() * (double)columns),
                  y = k < 200 ? k / 40 % rows : (long)(drand48() * (double)rows);
-            ck_assert(envelope_at(e, x, y, NULL) == plain(z, columns, rows, x, y, radius, 5e-6));
+            long at[2], first[2] = {-1, -1};
+            ck_assert(envelope_at(e, x, y, at) == plain(z, columns, rows, x, y, radius, 5e-6, first));
+            ck_assert(at[0] == first[0] && at[1] == first[1]);
         }
     }
     arena_close(a);
@@ -74,7 +78,8 @@ START_TEST(a_slope)
             z[j * stride + i] = pitch * (gx * (double)i + gy * (double)j);
     envelope_prepare(e);
     for (long k = 90; k < 110; k++) {
-        double more = envelope_at(e, k, 100, NULL) - z[100 * stride + k] - radius * (sqrt(1 + s2) - 1);
+        long at[2];
+        double more = envelope_at(e, k, 100, at) - z[100 * stride + k] - radius * (sqrt(1 + s2) - 1);
         ck_assert(more <= 1e-18 && more >= -2 * pitch * pitch / 8 * pow(1 + s2, 1.5) / radius);
     }
     arena_close(a);
@@ -94,9 +99,10 @@ START_TEST(a_spike_is_the_ball)
     envelope_prepare(e);
     for (long j = 0; j < 301; j += 3)
         for (long i = 0; i < 301; i += 3) {
+            long at[2];
             double d2 = ((double)((i - 150) * (i - 150)) + (double)((j - 150) * (j - 150))) * pitch * pitch;
             double want = d2 <= radius * radius * (1 + 1e-15) ? 2e-4 + sqrt(fmax(radius * radius - d2, 0)) - radius : 0;
-            ck_assert_double_eq_tol(envelope_at(e, i, j, NULL), want,
+            ck_assert_double_eq_tol(envelope_at(e, i, j, at), want,
                                     1e-17 + (fabs(d2 - radius * radius) < 1e-20 ? 1e-9 : 0));
         }
     arena_close(a);

@@ -30,8 +30,8 @@ static double distance_agreement(int heights)
     return 10 * log10(all / off);
 }
 
-/* In the plane a step of Newton's method from between the heights finds where the ball touches: its error in the height
-   is of fourth order in d (24 dB per doubling), and along a line there is none of first orders either. */
+/* The heights of the plane only tell which crest bears the ball; where it touches is found on the surface itself. By
+   heights alone the two agree to 37, 47 and 60 dB. */
 START_TEST(denser_heights_agree_better)
 {
     double once = distance_agreement(1), twice = distance_agreement(2), four = distance_agreement(4);
