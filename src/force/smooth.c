@@ -18,9 +18,11 @@
    its own (force/decimate.c): 4 smoothed sub-samples of which one sample is made cost 4 times as much, and behind a
    low-pass so smooth another one hardly needs its own length.
 
-   Kernels are sampled at the sub-rate, cut at 6.5 sigma, and have sum 1. While sigma varies, they are made at nodes
-   every 64 sub-samples and an element between two nodes spreads with both kernels, linearly weighted (error of second
-   order in sigma's change over 64 sub-samples).
+   Kernels are those of num/filter.h at the sub-rate, also where sigma is less than a sub-sample: a sampled Gaussian has
+   no width then, and the force would brighten as sub-samples grow. While sigma varies, they are made
+   in the middle of segments of 64 sub-samples, and an element spreads with those of its own segment and the two beside
+   it, weighted by quadratic B-splines (error of second order in sigma's change over a segment). Weights with a kink at
+   each segment's end would put a tone there: a steady force through them has pulses at every kink.
 
    Nothing comes before the start: what would be spread to there is reflected at it, as heat is at an insulated end.
    Momentum is kept, and what begins at full height stays at full height, where without it it would begin at half. (What
@@ -145,8 +147,8 @@ enum { SPREAD_SEGMENT = 64, SPREAD_WIDE = 4 * LANES };
    further; before and behind the taps that change lie SPREAD_WIDE zeros, and sum is read and written up to SPREAD_WIDE
    values further, which stay as they are. */
 
-struct shares { /* of a segment's elements, for the kernels at its two ends */
-    double early[SPREAD_SEGMENT], late[SPREAD_SEGMENT];
+struct shares { /* of a segment's elements, for the kernels of the segment before, its own, and the one behind */
+    double early[SPREAD_SEGMENT], own[SPREAD_SEGMENT], late[SPREAD_SEGMENT];
 };
 
 /* SPREAD_WIDE outputs at a time: the additions of one wait for each other, those of four
@@ -172,39 +174,41 @@ void smooth_taps(const double *tap, int taps, const double *x, long n, bool adds
     }
 }
 
-/* sum[t] += early[i] k0[t - i] + late[i] k1[t - i] for SPREAD_WIDE places t, and elements first <= i < last in turn. */
+/* sum[t] += early[i] k0[t - i] + own[i] k1[t - i] + late[i] k2[t - i] for SPREAD_WIDE places t, and elements first <= i
+   < last in turn. */
 LANES_CLONES
-static void spread_gather(const struct shares *x, const double *k0, const double *k1, const int range[2], double *sum)
+static void spread_gather(const struct shares *x, const double *const k[3], const int range[2], double *sum)
 {
     double s[4][LANES];
     memcpy(s, sum, sizeof s);
     for (int i = range[0]; i < range[1]; i++)
 #pragma omp simd
         for (int l = 0; l < LANES; l++) {
-            const double *p = k0 - i + l, *q = k1 - i + l;
-            double a = x->early[i], b = x->late[i];
-            s[0][l] += a * p[0] + b * q[0];
-            s[1][l] += a * p[LANES] + b * q[LANES];
-            s[2][l] += a * p[2 * LANES] + b * q[2 * LANES];
-            s[3][l] += a * p[3 * LANES] + b * q[3 * LANES];
+            const double *p = k[0] - i + l, *q = k[1] - i + l, *r = k[2] - i + l;
+            double a = x->early[i], b = x->own[i], c = x->late[i];
+            s[0][l] += a * p[0] + b * q[0] + c * r[0];
+            s[1][l] += a * p[LANES] + b * q[LANES] + c * r[LANES];
+            s[2][l] += a * p[2 * LANES] + b * q[2 * LANES] + c * r[2 * LANES];
+            s[3][l] += a * p[3 * LANES] + b * q[3 * LANES] + c * r[3 * LANES];
         }
     memcpy(sum, s, sizeof s);
 }
 
-/* sum[i + t] += a k0[t] + b k1[t] for every element i of a segment, a and b its shares for the two kernels; by places,
+/* sum[i + t] += a k0[t] + b k1[t] + c k2[t] for every element i of a segment, by its shares for the kernels; by places,
    whose sums stay in registers, not by elements: half the time. The kernels have SPREAD_WIDE zeros on each side. */
-static void spread_segment(const double *x, double *const kernel[2], double *sum, int taps)
+static void spread_segment(const double *x, double *const kernel[3], double *sum, int taps)
 {
     struct shares shares;
     for (int i = 0; i < SPREAD_SEGMENT; i++) {
-        double later = (double)i / SPREAD_SEGMENT;
-        shares.early[i] = (1 - later) * x[i];
-        shares.late[i] = later * x[i];
+        double u = (double)i / SPREAD_SEGMENT;
+        shares.early[i] = 0.5 * (1 - u) * (1 - u) * x[i];
+        shares.own[i] = (0.5 + u - u * u) * x[i];
+        shares.late[i] = 0.5 * u * u * x[i];
     }
     for (int t = 0; t < taps + SPREAD_SEGMENT - 1; t += SPREAD_WIDE) {
         int range[2] = {t - taps + 1 > 0 ? t - taps + 1 : 0,
                         t + SPREAD_WIDE < SPREAD_SEGMENT ? t + SPREAD_WIDE : SPREAD_SEGMENT};
-        spread_gather(&shares, kernel[0] + t, kernel[1] + t, range, sum + t);
+        spread_gather(&shares, (const double *const[]){kernel[0] + t, kernel[1] + t, kernel[2] + t}, range, sum + t);
     }
 }
 
@@ -216,9 +220,10 @@ struct smooth {
     double length;          /* sigma in sub-samples at 1 m/s; 0: by alpha        */
     double slowest;         /* ... at most, by length                            */
     struct smoothing still; /* the kernel when alpha does not vary               */
-    double *kernel[2];      /* at the nodes around the segment, 2 reach + 1 taps, between SPREAD_WIDE zeros */
-    double *raw;            /* unsmoothed values from sub-sample raw_first on    */
-    double *sum;            /* smoothed so far, from sub-sample sum_first on     */
+    double *
+        kernel[3]; /* of the segment before, the next and the one behind, 2 reach + 1 taps, between SPREAD_WIDE zeros */
+    double *raw;   /* unsmoothed values from sub-sample raw_first on    */
+    double *sum;   /* smoothed so far, from sub-sample sum_first on     */
     long raw_first, raw_end, sum_first, node; /* node: sub-sample where the next segment begins */
     size_t room;
     long start; /* first sub-sample that there is */
@@ -299,14 +304,15 @@ static bool smooth_open_item(struct stage_run *r, enum item item, double ratio, 
         return smooth_too_wide(r, ratio * sigma_of(c, widest), e);
     s->still.kernel = filter_gaussian(r->arena, s->length > 0 ? s->slowest : s->per_alpha * widest);
     s->reach = s->still.kernel.reach;
-    r->ahead = (s->reach + (s->varies ? SPREAD_SEGMENT : 0)) / b->over + 2;
+    if (s->varies && s->reach < FILTER_NARROW_TAPS - 1) s->reach = FILTER_NARROW_TAPS - 1;
+    r->ahead = (s->reach + (s->varies ? 3 * SPREAD_SEGMENT / 2 : 0)) / b->over + 2;
     s->room = (size_t)((STAGE_BLOCK + 2 * r->ahead + 4) * b->over + 2 * s->reach);
     s->raw = ARENA_TAKE(r->arena, double, s->room + SPREAD_WIDE);
     s->sum = ARENA_TAKE(r->arena, double, s->room + SPREAD_SEGMENT + SPREAD_WIDE);
     s->raw_first = s->sum_first = -s->reach;
-    for (int k = 0; k < 2; k++)
+    for (int k = 0; k < 3; k++)
         s->kernel[k] = ARENA_TAKE(r->arena, double, 2 * s->reach + 1 + 2 * SPREAD_WIDE) + SPREAD_WIDE;
-    s->node = -SPREAD_SEGMENT;
+    s->node = -2 * SPREAD_SEGMENT;
     r->state = s;
     return true;
 }
@@ -360,10 +366,19 @@ static void kernel_divided(int taps, double sum, double *k)
 /* The second half mirrors the first. */
 static void smooth_kernel(const struct smooth *s, const struct board *b, long at, double *k)
 {
+    if (at < s->start) at = s->start;
     const double *x = board_at(b, s->length > 0 ? ITEM_VELOCITY : ITEM_ALPHA, at / b->over) + at % b->over;
     double sigma = s->length > 0 ? (fabs(*x) * s->slowest > s->length ? s->length / fabs(*x) : s->slowest)
                                  : s->per_alpha * *x,
            sum = 0;
+    if (sigma < FILTER_NARROW) {
+        double *middle = k + s->reach, tap[FILTER_NARROW_TAPS];
+        filter_narrow(sigma, tap);
+        memset(k, 0, (size_t)(2 * s->reach + 1) * sizeof *k);
+        for (int t = 0; t < FILTER_NARROW_TAPS; t++)
+            middle[t] = middle[-t] = tap[t];
+        return;
+    }
     kernel_exponents(s->reach, sigma * sigma, k);
     vecmath_exp((size_t)(s->reach + 1), k, k);
     for (int t = 0; t < s->reach; t++)
@@ -378,10 +393,11 @@ static void smooth_segments(struct smooth *s, const struct board *b, long end)
 {
     while (s->node - s->reach < end) {
         long next = s->node + SPREAD_SEGMENT;
-        double *swap = s->kernel[0];
+        double *oldest = s->kernel[0];
         s->kernel[0] = s->kernel[1];
-        s->kernel[1] = swap;
-        smooth_kernel(s, b, next, s->kernel[1]);
+        s->kernel[1] = s->kernel[2];
+        s->kernel[2] = oldest;
+        smooth_kernel(s, b, next + SPREAD_SEGMENT / 2, s->kernel[2]);
         if (s->node >= s->start)
             spread_segment(s->raw + (s->node - s->raw_first), s->kernel, s->sum + (s->node - s->reach - s->sum_first),
                            2 * s->reach + 1);
@@ -433,7 +449,7 @@ static void smooth_skip(struct stage_run *r, long frame)
     memset(s->sum, 0, (s->room + SPREAD_SEGMENT) * sizeof *s->sum);
     s->raw_first = s->sum_first = first - s->reach;
     s->raw_end = first;
-    s->node = first - SPREAD_SEGMENT;
+    s->node = first - 2 * SPREAD_SEGMENT;
     s->start = first;
 }
 

@@ -124,10 +124,29 @@ struct filter filter_decimator(struct arena *a, int over) { return decimator(a, 
 
 struct filter filter_decimator_bspline(struct arena *a, int over) { return decimator(a, over, true); }
 
+void filter_narrow(double sigma, double tap[FILTER_NARROW_TAPS])
+{
+    double v = -0.5 * sigma * sigma, u[4] = {v, v / 12, v / 90, v / 560},
+           p[4] = {u[0], u[1] + u[0] * u[0] / 2, u[2] + u[0] * u[1] + u[0] * u[0] * u[0] / 6, /* exp of the series */
+                   u[3] + u[0] * u[2] + u[1] * u[1] / 2 + u[0] * u[0] * u[1] / 2 + u[0] * u[0] * u[0] * u[0] / 24};
+    tap[0] = 1 + 2 * p[0] + 6 * p[1] + 20 * p[2] + 70 * p[3];
+    tap[1] = -(p[0] + 4 * p[1] + 15 * p[2] + 56 * p[3]);
+    tap[2] = p[1] + 6 * p[2] + 28 * p[3];
+    tap[3] = -(p[2] + 8 * p[3]);
+    tap[4] = p[3];
+}
+
 struct filter filter_gaussian(struct arena *a, double sigma)
 {
-    int reach = (int)ceil(6.5 * sigma);
+    bool narrow = sigma > 0 && sigma < FILTER_NARROW;
+    int reach = narrow ? FILTER_NARROW_TAPS - 1 : (int)ceil(6.5 * sigma);
     double *tap = ARENA_TAKE(a, double, 2 * reach + 1);
+    if (narrow) {
+        filter_narrow(sigma, tap + reach);
+        for (int j = 1; j <= reach; j++)
+            tap[reach - j] = tap[reach + j];
+        return (struct filter){reach, 2 * reach + 1, tap};
+    }
     tap[reach] = 1;
     for (int j = 1; j <= reach; j++)
         tap[reach + j] = tap[reach - j] = real_exp(-0.5 * (j / sigma) * (j / sigma));
