@@ -130,6 +130,7 @@ struct board {
     struct table_sink *table;
     struct impact_sink *listing;     /* where the series of impacts is written; NULL: it is not */
     const struct ring *surface_ring; /* of the stage that makes the surface ring; NULL: none */
+    long fade[2];                    /* frames between which the force rises where a run begins (run_skip) */
     int quantity;                    /* enum modes_quantity of the sound; -1: not stated (recorded responses) */
     double ring;                     /* s, until the slowest response has decayed by 80 dB */
     double lifted;                   /* s during which the scraper was lifted off         */

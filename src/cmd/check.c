@@ -1,6 +1,7 @@
 /* rasp check: what can be known to be wrong with a scene or a design before anything is computed. Of a design: what
    rasp batch finds out before it renders anything, and what it leaves to the rendering, whether a promised error can be
    kept. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,7 +38,7 @@ static bool look(void *context, int i)
     bool ok = p->design->stimuli[i].recording;
     if (!ok && design_scene(p->design, i, a, &s, &messages, &e)) {
         design_scene_places(p->design, &s, a);
-        ok = error_budget_apply(&s, a, &chosen, NULL, &e) || scene_places_report(&s, &e);
+        ok = isnan(s.accuracy.error) || error_budget_apply(&s, a, &chosen, NULL, &e) || scene_places_report(&s, &e);
     }
     if (!ok) *(p->broken[i] = memory_take(sizeof e)) = e;
     arena_close(a);
@@ -114,9 +115,12 @@ static int check_run(struct cmd_call *c, struct err *e)
         struct scene s, chosen;
         if (design_is(file))
             check_design(c, file, &remark, &mine);
-        else if (cmd_read_scene(c, file, &s, &mine) && (!error_budget_apply(&s, c->arena, &chosen, NULL, &mine) ||
-                                                        !plan_scene(&chosen, c->arena, &warnings, &mine)))
-            scene_places_report(&s, &mine);
+        else if (cmd_read_scene(c, file, &s, &mine)) {
+            bool asked = !isnan(s.accuracy.error); /* a preset refuses nothing */
+            if ((asked && !error_budget_apply(&s, c->arena, &chosen, NULL, &mine)) ||
+                !plan_scene(asked ? &chosen : &s, c->arena, &warnings, &mine))
+                scene_places_report(&s, &mine);
+        }
         for (int k = 0; !mine.kind && warnings && warnings[k]; k++)
             message_warning(c, file, warnings[k]);
         if (mine.kind)

@@ -267,14 +267,15 @@ static const struct response *ring_given(const struct contact *c, enum ring_body
 
 /* A surface's object heard at other places of it than the one that is touched has modes of its own for each
    (ask->listen is then set). */
-static const struct modes *voice_modes(const struct ring *g, struct stage_run *r, struct listener_ask *ask)
+static const struct modes *voice_modes(const struct ring *g, struct listener_ask *ask)
 {
     const struct modes *m = &g->choice->modes;
-    double *place = ARENA_TAKE(r->arena, double, 2);
-    if (g->body != RING_SURFACE || !m->object || !listener_place(ask, m->object, r->arena, place)) return m;
-    struct modes *own = ARENA_TAKE(r->arena, struct modes, 1);
-    object_modes(m->object, ask->origin, place, m->object->n, r->arena, own);
-    modes_drop_above(own, r->board->rate);
+    struct arena *a = g->choice->arena;
+    double *place = ARENA_TAKE(a, double, 2);
+    if (g->body != RING_SURFACE || !m->object || !listener_place(ask, m->object, a, place)) return m;
+    struct modes *own = ARENA_TAKE(a, struct modes, 1);
+    object_modes(m->object, ask->origin, place, m->object->n, a, own);
+    modes_drop_above(own, ask->rate);
     ask->listen = place;
     return own;
 }
@@ -285,9 +286,17 @@ static bool voice_open(struct ring *g, struct stage_run *r, int channel, struct 
     const double *origin = ring_given(r->contact, g->body)->object.origin;
     struct listener_ask ask = {
         .output = &r->scene->output, .channel = channel, .origin = origin, .rate = r->board->rate};
-    v->modes = voice_modes(g, r, &ask);
-    if (!(v->listener = listener_make(r->arena, &ask, v->modes, e)))
-        return err_at(e, "contact '%s': %s", r->contact->name, g->key);
+    /* A plate's radiation costs as much as a short sound, and pilot runs and the render need the same. Without a
+       listening place it is cheap, and is not that of the scene: a pilot run of the force listens nowhere. */
+    struct ring_made here = {NULL}, *made = ask.output->listen.given ? &g->choice->made[channel] : &here;
+    if (!made->modes) {
+        const struct modes *modes = voice_modes(g, &ask);
+        if (!(made->listener = listener_make(g->choice->arena, &ask, modes, e)))
+            return err_at(e, "contact '%s': %s", r->contact->name, g->key);
+        made->modes = modes;
+    }
+    v->modes = made->modes;
+    v->listener = made->listener;
     v->n = v->modes->n + listener_extra(v->listener);
     v->delay = listener_delay(v->listener);
     v->frequency = ARENA_TAKE(r->arena, double, v->n);
@@ -422,4 +431,12 @@ void ring_put(const struct ring *g, int channel, long from, long to)
 const double *ring_force(const struct ring *g, const struct ring_output *v, long from)
 {
     return board_at(g->board, ITEM_FORCE, from - v->delay);
+}
+
+void ring_skip(struct stage_run *r, long frame)
+{
+    struct ring *g = r->state;
+    g->first = frame;
+    for (int k = 0; k < g->channels; k++)
+        if (g->outputs[k].alias) g->outputs[k].alias->next = frame;
 }

@@ -32,6 +32,7 @@ struct ring {
     int channels;
     struct ring_output *outputs; /* [channels] */
     long delay;                  /* frames, the largest of the voices' */
+    long first;                  /* frame at which the run began (ring_skip)  */
     double *y;                   /* [STAGE_BLOCK] one voice's sound */
 };
 
@@ -63,6 +64,9 @@ struct modes_where ring_first_place(const struct contact *c, const struct trajec
 /* Does the motion stay on a surface whose modes are m? ERR_SCENE, with its key and place: it leaves the hull of the
    places, and surface.extrapolate is error. */
 bool ring_reach(const struct modes *m, const struct stage_run *r, struct err *e);
+
+/* .skip (stage.h) of a stage whose state begins with its ring and that has not run yet: silence before the frame. */
+void ring_skip(struct stage_run *r, long frame);
 
 /* Force under the voice at a frame: its own delay back. */
 const double *ring_force(const struct ring *g, const struct ring_output *v, long from);

@@ -230,6 +230,8 @@ bool ring_choice_make(const struct contact *c, const struct scene *s, enum ring_
                                .arena = a,
                                .to = to};
     *choice = to;
+    to->arena = a;
+    to->made = ARENA_TAKE(a, struct ring_made, listener_channels(&s->output));
     to->gamma = given->gammatone > 1 ? given->gammatone : 1;
     if (given->file && !response_is_table(given)) {
         to->recorded = true;

@@ -8,7 +8,16 @@
 enum ring_body { RING_SURFACE, RING_SCRAPER };
 enum ring_engine { RING_NONE, RING_RESONATORS, RING_LAUNCH, RING_OVERLAP_ADD };
 
+struct ring_made {             /* what was made when a run was opened, the same for the next one */
+    const struct modes *modes; /* NULL: nothing yet */
+    struct listener *listener;
+};
+
+struct listener;
+
 struct ring_choice {
+    struct arena *arena;
+    struct ring_made *made; /* [channels] */
     enum ring_engine engine;
     int reading;   /* enum moving, never auto                                  */
     bool recorded; /* a WAV or a folder of them: no modes                      */

@@ -36,6 +36,7 @@ struct ring_overlap {
 
 /* ------------------------------------------------------------------ recorded */
 
+/* first: a frame since the run began */
 static void locate(struct ring_overlap *s, long first, int n)
 {
     const struct trajectory *tr = s->ring.board->trajectory;
@@ -43,7 +44,7 @@ static void locate(struct ring_overlap *s, long first, int n)
     s->first = first;
     s->count = n;
     for (int i = 0; i < n; i++)
-        s->t[i] = (double)(first + i) / s->ring.board->rate;
+        s->t[i] = (double)(s->ring.first + first + i) / s->ring.board->rate;
     trajectory_at(tr, (size_t)n, s->t, (struct trajectory_out){.u = s->u, .x = s->x, .y = s->y});
     for (int i = 0; i < n; i++) {
         if (s->one) {
@@ -157,7 +158,7 @@ static void response_modes(void *self, long k, double *h, size_t length)
 {
     struct overlap_output *v = self;
     const struct ring *g = &v->all->ring;
-    ring_point_at(g, v->voice, (double)k * v->all->hop, &v->point);
+    ring_point_at(g, v->voice, (double)g->first + (double)k * v->all->hop, &v->point);
     gammatone_sample(g->choice->gamma, g->board->rate, v->sampler, listener_quantity(v->voice->listener), &v->point, h,
                      length);
 }
@@ -255,6 +256,7 @@ const struct stage ring_overlap_add_surface_stage = {
     .work = ring_choice_surface_work,
     .open = surface_open,
     .run = ring_overlap_run,
+    .skip = ring_skip,
     .close = ring_overlap_close,
 };
 
@@ -270,5 +272,6 @@ const struct stage ring_overlap_add_scraper_stage = {
     .work = ring_choice_scraper_work,
     .open = scraper_open,
     .run = ring_overlap_run,
+    .skip = ring_skip,
     .close = ring_overlap_close,
 };

@@ -112,6 +112,21 @@ static void ring_moving(struct ring_bank *s, long from, long to)
     }
 }
 
+static void ring_bank_skip(struct stage_run *r, long frame)
+{
+    struct ring_bank *s = r->state;
+    ring_skip(r, frame);
+    s->ramp_end = frame;
+    for (int k = 0; s->ring.moves && k < s->ring.channels; k++) {
+        struct bank *b = &s->banks[k];
+        ring_point_at(&s->ring, &s->ring.outputs[k], (double)(frame - 1), &b->to);
+        if (b->tones)
+            gammatone_bank_set(b->tones, &b->to);
+        else
+            resonators_set(b->bank, &b->to);
+    }
+}
+
 static bool ring_bank_run(struct stage_run *r, long from, long to, struct err *e)
 {
     struct ring_bank *s = r->state;
@@ -143,7 +158,7 @@ struct ring_launch {
 static void launching_point(void *self, double frame, const struct modes_point *p)
 {
     const struct launching *s = self;
-    ring_point_at(s->ring, s->voice, frame, p);
+    ring_point_at(s->ring, s->voice, (double)s->ring->first + frame, p);
 }
 
 static bool ring_launch_open(struct stage_run *r, struct err *e)
@@ -220,6 +235,7 @@ const struct stage ring_resonators_surface_stage = {
     .work = ring_choice_surface_work,
     .open = surface_open,
     .run = ring_bank_run,
+    .skip = ring_bank_skip,
 };
 
 const struct stage ring_resonators_scraper_stage = {
@@ -234,6 +250,7 @@ const struct stage ring_resonators_scraper_stage = {
     .work = ring_choice_scraper_work,
     .open = scraper_open,
     .run = ring_bank_run,
+    .skip = ring_bank_skip,
 };
 
 const struct stage ring_resonators_launch_stage = {
@@ -248,5 +265,6 @@ const struct stage ring_resonators_launch_stage = {
     .work = ring_choice_surface_work,
     .open = ring_launch_open,
     .run = ring_launch_run,
+    .skip = ring_skip,
     .close = ring_launch_close,
 };

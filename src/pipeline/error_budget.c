@@ -34,6 +34,7 @@ struct budgeting {
     struct arena *arena;
     struct error_budget *to;
     struct render_parts parts;
+    bool sampled;              /* for a preset, not for accuracy.error */
     unsigned used;             /* set of knobs                         */
     struct error_pilot *pilot; /* [n_contacts] */
     bool sounds;               /* some contact sounds; else forces are promised about */
@@ -62,18 +63,23 @@ static bool budget_used(const struct budgeting *m, int knob) { return m->used & 
    tip it is piloted with the tip_heights that were accepted: ground that is read more finely has more to be averaged.
 
    A ramp of gains is piloted up to the sound, over the whole motion, two values side by side: what it misses lies at
-   kinks, and grows with what rings.
+   kinks, and grows with what rings. For a preset it is piloted over the fastest stretch only.
 
    A coupled ball is piloted in its beginning only. Its error grows with time, as its place drifts, up to linearly:
    measured over 10 times what is piloted, by 16 dB. So much is added, in proportion to the time (error_pilot.h:
-   drift). */
+   drift). For a preset only contact_steps is chosen of a scene with such a ball, from the preset's own on, and where it
+   bounces nothing is. */
 
-#define HAND 4.0        /* energy of an error over that of a difference that it is taken to have */
-#define HAND_FIRST 10.0 /* the same, of the first value */
-#define HAND_LAST 2.0   /* the same, of the last value, beside the difference from the one before */
-#define FLOOR 1e-15     /* of a difference that is none of 0: the filters' ripple and rounding are no powers; -150 dB */
-#define FIRST 0.5       /* s of a coupled ball, to begin with */
-#define LONGEST 60.0    /* s of what rings */
+#define HAND 4.0         /* energy of an error over that of a difference that it is taken to have */
+#define HAND_FIRST 10.0  /* the same, of the first value */
+#define SLOWEST 0.25     /* by which a preset's difference is taken to fall at a doubling, where it was not run: 6 dB */
+#define FASTEST 0.015625 /* at most: 18 dB */
+#define HAND_LAST 2.0    /* the same, of the last value, beside the difference from the one before */
+#define FLOOR 1e-15  /* of a difference that is none of 0: the filters' ripple and rounding are no powers; -150 dB */
+#define FIRST 0.5    /* s of a coupled ball, to begin with; half of it of a sampled force that begins at 0 only */
+#define LONGEST 60.0 /* s of what rings */
+#define FADE 2048    /* frames over which the force of a stretch in the middle rises */
+#define RAMPS 4096   /* frames, a multiple of the ramps that are chosen */
 #define SOUND_MOST (1L << 20) /* samples of a sound that is kept in memory, at most */
 
 static bool coupled(const struct budgeting *m)
@@ -137,9 +143,9 @@ static bool begin(struct budgeting *m, int i, struct err *e)
     double over = m->chosen->accuracy.oversampling, finer = fmin(2 * over, keys_knobs[KNOB_oversampling].high);
     struct accuracy set = m->chosen->accuracy, next = turned(m, KNOB_oversampling, finer);
     long before = -1;
-    for (double some = FIRST; p->some != before; some *= 4) {
+    for (double some = m->sampled ? FIRST / 2 : FIRST; p->some != before; some *= 4) {
         before = p->some;
-        if (!error_pilot_make(m->chosen, c, some, moves, m->arena, p, e)) return false;
+        if (!error_pilot_make(m->chosen, c, some, moves, m->sampled, m->arena, p, e)) return false;
         bool over_used = p->knobs & KNOB_BIT(oversampling) && c->contact.model != CONTACT_ROLL_COUPLED;
         if (!error_pilot_run(p, &set, over_used && finer > over ? &next : NULL, false, e)) return false;
         if (p->energy > 0) break;
@@ -175,21 +181,28 @@ static bool compare_ramps(const struct budgeting *m, int contact, const double r
     for (int k = finer->x || !depends; ok && k < 2; k++)
         ok = open[k] = run_open(&r[k], &p, &set[k], NULL, e);
     const struct board *b = &r[1].board;
-    long frames = ok ? b->moving + (long)(0.5 * fmin(b->ring, LONGEST) * b->rate) : 0,
-         room = frames * (ok ? b->channels : 0);
+    const struct ring_choice *choice = own.surface.response.choice;
+    bool stretch = m->sampled && !(choice && ring_choice_glides(choice)); /* what is retuned drifts off as it rings */
+    long first = stretch ? m->pilot[contact].fastest / RAMPS * RAMPS : 0,
+         frames = ok ? b->moving + (long)(0.5 * fmin(b->ring, LONGEST) * b->rate) - first : 0;
+    if (stretch && frames > PILOT_STRETCH) frames = PILOT_STRETCH;
+    long room = frames * (ok ? b->channels : 0);
+    for (int k = 0; first > 0 && k < 2; k++)
+        if (open[k]) run_skip(&r[k], first, FADE);
     if (depends && !finer->next && room <= SOUND_MOST) finer->next = ARENA_TAKE(m->arena, double, room);
-    for (long from = 0, to; ok && from < frames; from = to) {
-        to = from + STAGE_BLOCK < frames ? from + STAGE_BLOCK : frames;
+    for (long from = first, to; ok && from < first + frames; from = to) {
+        to = from + STAGE_BLOCK < first + frames ? from + STAGE_BLOCK : first + frames;
         ok = (!open[0] || run_block(&r[0], to, e)) && run_block(&r[1], to, e);
         if (!ok) break;
         const double *y = board_at(b, ITEM_SOUND, from), *x = open[0]   ? board_at(&r[0].board, ITEM_SOUND, from)
-                                                              : depends ? finer->x + from * b->channels
+                                                              : depends ? finer->x + (from - first) * b->channels
                                                                         : y;
         for (long i = 0; i < (to - from) * b->channels; i++) {
             *all += y[i] * y[i];
             *distance += (x[i] - y[i]) * (x[i] - y[i]);
         }
-        if (finer->next) memcpy(finer->next + from * b->channels, y, (size_t)((to - from) * b->channels) * sizeof *y);
+        if (finer->next)
+            memcpy(finer->next + (from - first) * b->channels, y, (size_t)((to - from) * b->channels) * sizeof *y);
     }
     for (int k = 0; k < 2; k++)
         if (open[k]) run_close(&r[k]);
@@ -295,7 +308,40 @@ static bool climb(struct budgeting *m, int knob, double share, bool *had, struct
             f->best = value;
         }
         *had = hand * d <= share;
-        if (*had || last || fixed) return true;
+        if (*had || last || fixed) break;
+        value = next;
+    }
+    return true;
+}
+
+/* The same for a preset: what the next doubling will bring is told from the two before it, where that is enough. Where
+   no value keeps the error, that which comes nearest. */
+static bool climb_sampled(struct budgeting *m, int knob, double share, bool *had, struct err *e)
+{
+    const struct key_knob *k = &keys_knobs[knob];
+    struct found *f = &m->found[knob];
+    bool down = k->scale == KEY_SAMPLES, going = false;
+    double value = accuracy_knob(&m->chosen->accuracy, (enum knob)knob),
+           most = down ? k->low : fmin(k->high, fmax(k->preset[3], 4 * value)), end = finest(m, knob, value, most),
+           before = NAN, d = NAN;
+    *f = (struct found){.end = end};
+    for (int step = 0;; step++) {
+        double next = down ? floor(value / 2) : 2 * value, distance[2],
+               falls = step < 2 ? SLOWEST : fmin(fmax(d / before, FASTEST), SLOWEST);
+        bool last = down ? next < end : next > end;
+        before = d;
+        d = step ? falls * d : 0;
+        if (!last && (step == 0 || HAND * d > share)) {
+            if (!knob_distance(m, knob, (double[2]){value, next}, going, distance, e)) return false;
+            d = distance[0] > 0 ? fmax(distance[0], FLOOR * m->energy) : 0;
+            going = true;
+        }
+        if (step == 0 || HAND * d < f->energy) {
+            f->value = value;
+            f->energy = HAND * d;
+        }
+        *had = (step ? HAND : HAND_FIRST) * d <= share;
+        if (*had || last) return true;
         value = next;
     }
 }
@@ -312,7 +358,7 @@ static bool share_budget(struct budgeting *m, double budget, bool *had, struct e
 {
     double left = budget;
     int open = 0;
-    bool one;
+    bool one, missed = false;
     *had = true;
     for (int k = 0; k < ORDER; k++) {
         if (!budget_used(m, order[k])) continue;
@@ -326,9 +372,12 @@ static bool share_budget(struct budgeting *m, double budget, bool *had, struct e
     }
     for (int k = 0; *had && k < ORDER; k++) {
         if (!budget_used(m, order[k]) || is_users(m, order[k])) continue;
-        if (!climb(m, order[k], left / open--, had, e)) return false;
+        if (!(m->sampled ? climb_sampled : climb)(m, order[k], fmax(left, 0) / open--, had, e)) return false;
         left -= m->found[order[k]].energy;
+        missed = missed || !*had;
+        *had = *had || m->sampled;
     }
+    m->to->missed = m->sampled && missed;
     for (int k = 0; *had && k < ORDER; k++)
         if (budget_used(m, order[k]) && !is_users(m, order[k]))
             accuracy_turn(&m->chosen->accuracy, (enum knob)order[k], m->found[order[k]].value);
@@ -353,9 +402,10 @@ static void parts_text(struct budgeting *m)
     p->predicted = decibel(sum);
 }
 
-static const char *budget_text(struct arena *a, const struct error_budget *p)
+static const char *budget_text(struct arena *a, const char *preset, const struct error_budget *p)
 {
-    const char *text = arena_format(a, "accuracy: %.6g dB asked, ", p->error);
+    const char *text = p->asked ? arena_format(a, "accuracy: %.6g dB asked, ", p->error)
+                                : arena_format(a, "accuracy: %s aims at %.6g dB, ", preset, p->error);
     if (isnan(p->predicted)) return arena_format(a, "%severy knob is said: nothing is chosen or predicted", text);
     if (p->n == 0) return arena_format(a, "%sno knob leaves an error", text);
     text = arena_format(a, "%s%.1f dB predicted: ", text, p->predicted);
@@ -410,8 +460,10 @@ static bool refuse(struct budgeting *m, struct err *e)
 static bool make(struct budgeting *m, struct err *e)
 {
     bool had;
+    bool ball = m->sampled && coupled(m);
+    unsigned open = ~m->asked->accuracy.by_user & (ball ? KNOB_BIT(contact_steps) : ~0u);
     for (int k = 0; k < KNOBS; k++)
-        if (!is_users(m, k)) accuracy_turn(&m->chosen->accuracy, (enum knob)k, keys_knobs[k].preset[0]);
+        if (open & 1u << k && !ball) accuracy_turn(&m->chosen->accuracy, (enum knob)k, keys_knobs[k].preset[0]);
     m->parts = render_parts_make(m->chosen, m->arena);
     if (!render_parts_plan(&m->parts, e)) return false;
     m->sounds = m->parts.asked & ITEM_BIT(ITEM_SOUND);
@@ -421,8 +473,14 @@ static bool make(struct budgeting *m, struct err *e)
         m->used |= plan_knobs(&m->parts.parts[i].plan);
         if (is_audible(m, i) && !begin(m, i, e)) return false;
     }
-    if (run_chaos_pilot(m, false, e) ||
-        !share_budget(m, real_exp10(m->asked->accuracy.error / 10) * m->energy, &had, e) || !(had || refuse(m, e)))
+    if (m->sampled) m->used &= open;
+    for (int i = 0; m->sampled && i < m->chosen->n_contacts; i++)
+        if (m->pilot[i].bounces > 0) { /* which no step follows for long: what the preset has */
+            m->chosen->accuracy = m->asked->accuracy;
+            m->used = 0;
+        }
+    if ((!m->sampled && run_chaos_pilot(m, false, e)) ||
+        !share_budget(m, real_exp10(m->to->error / 10) * m->energy, &had, e) || !(had || refuse(m, e)))
         return false;
     parts_text(m);
     struct contact *c = ARENA_TAKE(m->arena, struct contact, m->chosen->n_contacts);
@@ -432,19 +490,48 @@ static bool make(struct budgeting *m, struct err *e)
     return true;
 }
 
+/* For a preset an ablated scene has the knobs of the whole one: what it leaves out is then all that is different. */
+static const struct scene *whole_scene(const struct scene *asked, struct arena *a)
+{
+    bool ablated = false;
+    for (int i = 0; i < asked->n_contacts; i++)
+        ablated = ablated || asked->contacts[i].ablation.given;
+    if (!ablated) return asked;
+    struct scene *whole = ARENA_TAKE(a, struct scene, 1);
+    struct contact *c = ARENA_TAKE(a, struct contact, asked->n_contacts);
+    *whole = *asked;
+    whole->contacts = c;
+    for (int i = 0; i < asked->n_contacts; i++) {
+        c[i] = asked->contacts[i];
+        c[i].ablation = (struct ablation){.place = {NAN, NAN}};
+    }
+    return whole;
+}
+
 bool error_budget_apply(const struct scene *asked, struct arena *a, struct scene *chosen, struct error_budget *p,
                         struct err *e)
 {
     struct error_budget own;
     struct budgeting m = {.asked = asked, .chosen = chosen, .arena = a, .to = p ? p : &own};
     double start = stopwatch_cpu();
-    *chosen = *asked;
-    *m.to =
-        (struct error_budget){.asked = !isnan(asked->accuracy.error), .error = asked->accuracy.error, .predicted = NAN};
-    if (!m.to->asked) return true;
+    bool strict = !isnan(asked->accuracy.error);
+    *m.to = (struct error_budget){
+        .asked = strict, .error = strict ? asked->accuracy.error : accuracy_target(&asked->accuracy), .predicted = NAN};
+    m.sampled = !strict;
+    if (m.sampled) m.asked = whole_scene(asked, a);
+    *chosen = *m.asked;
+    if (isnan(m.to->error)) {
+        *chosen = *asked;
+        return true;
+    }
     m.to->chosen = asked->accuracy.by_user != (1u << KNOBS) - 1;
     if (m.to->chosen && (!inputs_check(asked, a, e) || !make(&m, e))) return false;
-    m.to->text = budget_text(a, m.to);
+    if (m.asked != asked) {
+        struct accuracy set = chosen->accuracy;
+        *chosen = *asked;
+        chosen->accuracy = set;
+    }
+    m.to->text = budget_text(a, asked->accuracy.preset, m.to);
     m.to->cpu = stopwatch_cpu() - start;
     return true;
 }

@@ -1,12 +1,13 @@
 /* accuracy.error: the knobs that a scene leaves unsaid, chosen as the coarsest that keep an error, which is predicted
-   before anything is rendered.
+   before anything is rendered. A preset is an error to aim at (accuracy_target): its knobs are chosen in the same way
+   from a sample of the motion, and where it cannot be had, they are what comes nearest.
 
    The error is that of all knobs that turn the scene, each taken to be independent of the others, so that powers add:
 
      predicted^2 = sum of e_k^2 <= asked^2
 
-   e of gain_ramp   the sound of the whole motion at halved values against each other, all else at `draft`
-   e of steps       the force of the whole motion at doubled values against each other, weighed by what of it is heard
+   e of gain_ramp   the sound of the motion at halved values against each other, all else at `draft`
+   e of steps       the force of the motion at doubled values against each other, weighed by what of it is heard
                     (error_pilot.h) */
 #ifndef PIPELINE_ERROR_BUDGET_H
 #define PIPELINE_ERROR_BUDGET_H
@@ -24,16 +25,17 @@ struct error_budget_part {
 struct error_budget {
     bool asked;              /* the scene has accuracy.error             */
     bool chosen;             /* it left something to choose              */
-    double error, predicted; /* dB; predicted NAN: it says every knob    */
+    bool missed;             /* the preset's error is not had            */
+    double error, predicted; /* dB, asked or the preset's (NAN: none); predicted NAN: every knob is said */
     struct error_budget_part parts[KNOBS];
     int n;            /* knobs that leave an error                */
     double cpu;       /* s that it took to choose                 */
     const char *text; /* one line of all this; NULL: not asked    */
 };
 
-/* kept: the scene with every knob settled, its engines chosen (response.choice); without accuracy.error (or with every
-   knob said) as it was asked. p may be NULL. ERR_SCENE: it cannot be kept, and what can be (err_about accuracy.error);
-   else those of inputs and plans. */
+/* chosen: the scene with every knob settled, its engines chosen (response.choice); at preset reference, or with every
+   knob said, as it was asked. p may be NULL. ERR_SCENE: accuracy.error cannot be kept, and what can be (err_about
+   accuracy.error); else those of inputs and plans. */
 bool error_budget_apply(const struct scene *asked, struct arena *a, struct scene *chosen, struct error_budget *p,
                         struct err *e);
 

@@ -135,15 +135,42 @@ static bool audible_power(const struct scene *s, const struct contact *c, const 
 /* ------------------------------------------------------------------ making */
 
 /* Is the force read from the ground wherever the contact is, so that it can begin anywhere? */
-static bool begins_anywhere(const struct contact *c)
+bool error_pilot_begins_anywhere(const struct contact *c)
 {
     return (c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL ||
             c->contact.model == CONTACT_PLAYBACK) &&
            c->motion.path != PATH_STILL;
 }
 
-bool error_pilot_make(const struct scene *s, const struct contact *c, double some, bool moves, struct arena *a,
-                      struct error_pilot *p, struct err *e)
+/* Where the fourth power of the speed is greatest over PILOT_STRETCH frames: a ramp's error over the sound grows with
+   the square of the speed. */
+static long fastest(const struct trajectory *tr, long moving)
+{
+    enum { N = 512 };
+    double t[N], vx[N], vy[N], speed[N], best = -1;
+    long at = 0;
+    if (moving <= PILOT_STRETCH) return 0;
+    for (int i = 0; i < N; i++)
+        t[i] = tr->duration * (i + 0.5) / N;
+    trajectory_at(tr, N, t, (struct trajectory_out){.vx = vx, .vy = vy});
+    for (int i = 0; i < N; i++) {
+        double square = vx[i] * vx[i] + vy[i] * vy[i];
+        speed[i] = square * square;
+    }
+    for (int i = 0; i < N; i++) {
+        long begin = moving * i / N;
+        double sum = 0;
+        for (int k = i; k < N && moving * (k - i) / N < PILOT_STRETCH; k++)
+            sum += speed[k];
+        if (begin > moving - PILOT_STRETCH || sum <= best) continue;
+        best = sum;
+        at = begin;
+    }
+    return at;
+}
+
+bool error_pilot_make(const struct scene *s, const struct contact *c, double some, bool moves, bool sampled,
+                      struct arena *a, struct error_pilot *p, struct err *e)
 {
     struct trajectory tr;
     double rate = s->output.sample_rate;
@@ -167,18 +194,24 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
     if (!trajectory_make(&c->motion, trajectory_seed(s, c), a, &tr, e)) return err_at(e, "contact '%s'", c->name);
     p->moving = trajectory_frames(&tr, rate);
     p->some = p->moving + SETTLED;
-    if (c->contact.model == CONTACT_ROLL_COUPLED) {
+    bool anywhere = error_pilot_begins_anywhere(c);
+    p->sampled = sampled;
+    p->fastest = anywhere ? fastest(&tr, p->moving) : 0;
+    if (c->contact.model == CONTACT_ROLL_COUPLED || (sampled && !anywhere)) {
         long first = (long)ceil(some * rate);
         p->some = first < p->some ? first : p->some;
-        p->drift = fmax(1, (double)p->moving / (double)p->some);
+        p->drift = sampled ? 1 : fmax(1, (double)p->moving / (double)p->some);
     }
     p->blocks = (p->some + PILOT_HOP - 1) / PILOT_HOP + 1;
     p->last = p->some > FORCE_MOST ? NULL : ARENA_TAKE(a, double, p->some);
     p->distance = ARENA_TAKE(a, double, p->blocks);
     p->older = ARENA_TAKE(a, double, p->blocks);
     p->falls = ARENA_TAKE(a, double, p->blocks);
-    p->follows = begins_anywhere(c) && p->blocks > 2 * PILOT_FOLLOWED; /* else as dear */
-    p->block = p->follows ? ARENA_TAKE(a, struct pilot_block, PILOT_FOLLOWED) : NULL;
+    p->followed = sampled ? PILOT_SAMPLED : PILOT_FOLLOWED;
+    p->follows = anywhere && p->blocks > 2 * p->followed; /* else as dear */
+    p->block = p->follows ? ARENA_TAKE(a, struct pilot_block, p->followed) : NULL;
+    for (int k = 0; sampled && p->follows && k < p->followed; k++)
+        p->block[k].number = p->blocks * (2 * k + 1) / (2 * p->followed);
     if (!plan_make(stages_table, &p->contact, &p->scene, a, &p->plan, e)) return false;
     p->knobs = plan_knobs(&p->plan);
     for (int k = 0; k < p->places; k++) { /* of a response that moves, those in the middle of each third */
@@ -264,6 +297,15 @@ static void learn(struct error_pilot *p, const struct run *r)
     p->lift_offs = r->board.roll.lift_offs > p->lift_offs ? r->board.roll.lift_offs : p->lift_offs;
 }
 
+/* Where a block begins the limited trajectory begins, too: where the first, coarsest run has it, for all. */
+static void take_lead(struct error_pilot *p, const struct run *r)
+{
+    if (p->lead > 0) return;
+    p->lead = SETTLED;
+    for (int i = 0; i < r->n; i++)
+        p->lead += r->stages[i].back + r->stages[i].ahead;
+}
+
 /* Both settings over the whole motion, the first only where it is not the one of the last run. */
 static bool run_whole(struct error_pilot *p, const struct accuracy *set, const struct accuracy *finer, bool going,
                       struct err *e)
@@ -280,11 +322,7 @@ static bool run_whole(struct error_pilot *p, const struct accuracy *set, const s
         scene[k].accuracy = *sets[k];
         ok = open[k] = run_open(&r[k], &p->plan, &scene[k], NULL, e);
     }
-    /* Where a block begins the limited trajectory begins, too: where the first, coarsest run has it, for all. */
-    bool first = p->lead == 0 && open[0];
-    p->lead = first ? SETTLED : p->lead;
-    for (int i = 0; first && i < r[0].n; i++)
-        p->lead += r[0].stages[i].back + r[0].stages[i].ahead;
+    if (open[0]) take_lead(p, &r[0]);
     for (long number = 0; ok && number < p->blocks; number++) {
         long from = number * PILOT_HOP, left = p->some - from, frames = left < PILOT_HOP ? left : PILOT_HOP;
         for (int k = 0; k < 2; k++) {
@@ -355,21 +393,22 @@ static bool run_blocks(struct error_pilot *p, const struct accuracy *set, struct
     struct run r;
     scene.accuracy = *set;
     if (!run_open(&r, &p->plan, &scene, NULL, e)) return false;
+    take_lead(p, &r);
     bool ok = true;
     long at = 0;
-    for (int k = 0; k < PILOT_FOLLOWED; k++) {
+    for (int k = 0; k < p->followed; k++) {
         to[k].number = p->block[k].number;
         memset(to[k].x, 0, sizeof to[k].x);
     }
-    for (int k = 0; ok && k < PILOT_FOLLOWED; k++) {
+    for (int k = 0; ok && k < p->followed; k++) {
         long from = (p->block[k].number - 1) * PILOT_HOP, end = from + PILOT_WINDOW;
         end = end < p->some ? end : p->some;
-        if (from - p->lead > at) run_skip(&r, at = from - p->lead);
+        if (from - p->lead > at) run_skip(&r, at = from - p->lead, 0);
         for (long next; ok && at < end; at = next) {
             next = at + STAGE_BLOCK < end ? at + STAGE_BLOCK : end;
             ok = run_block(&r, next, e);
             const double *force = ok ? board_at(&r.board, ITEM_FORCE, at) : NULL;
-            for (int i = 0; ok && i < PILOT_FOLLOWED; i++) {
+            for (int i = 0; ok && i < p->followed; i++) {
                 long begin = (p->block[i].number - 1) * PILOT_HOP, first = at > begin ? at : begin,
                      last = next < begin + PILOT_WINDOW ? next : begin + PILOT_WINDOW;
                 if (first < last)
@@ -379,6 +418,30 @@ static bool run_blocks(struct error_pilot *p, const struct accuracy *set, struct
     }
     learn(p, &r);
     run_close(&r);
+    return ok;
+}
+
+/* Of a sampled pilot: each block stands for as many of all. finer NULL: there is none. */
+static bool run_sample(struct error_pilot *p, const struct accuracy *set, const struct accuracy *finer, bool going,
+                       struct err *e)
+{
+    struct arena *a = arena_open();
+    struct pilot_block *now = ARENA_TAKE(a, struct pilot_block, p->followed);
+    bool ok = going || run_blocks(p, set, p->block, e);
+    ok = ok && (!finer || run_blocks(p, finer, now, e));
+    struct hearing h = hearing_open();
+    double each = (double)p->blocks / p->followed;
+    p->energy = 0;
+    memset(p->distance, 0, (size_t)p->blocks * sizeof *p->distance);
+    for (int k = 0; ok && k < p->followed; k++) {
+        const struct pilot_block *b = &p->block[k];
+        double energy = each * block_energy(p, &h, b->number, b->x);
+        p->energy += energy;
+        p->distance[b->number] = finer ? each * block_distance(p, &h, b->number, now[k].x, b->x) : energy;
+    }
+    if (finer) memcpy(p->block, now, (size_t)p->followed * sizeof *now);
+    fft_close(h.fft);
+    arena_close(a);
     return ok;
 }
 
@@ -420,10 +483,11 @@ bool error_pilot_run(struct error_pilot *p, const struct accuracy *set, const st
     double *older = p->older;
     p->runs++;
     p->pairs = going ? p->pairs + 1 : 1;
-    bool some = p->follows && finer && p->pairs > 2;
+    bool some = p->follows && finer && p->pairs > 2 && !p->sampled;
     if (some && p->pairs == 3) choose_blocks(p);
     p->older = p->distance;
     p->distance = older;
+    if (p->sampled && p->follows) return run_sample(p, set, finer, going && p->pairs > 1, e);
     return some ? run_some(p, set, finer, e) : run_whole(p, set, finer, going, e);
 }
 

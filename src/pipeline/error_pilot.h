@@ -7,13 +7,17 @@
      E(x) = sum over bins of |FFT(w x)|^2 |H|^2        H  the contact's response (audible_power)
 
    The three coarsest settings of a knob are run over the whole motion. From there on only some blocks are: those whose
-   difference will be greatest, if it goes on to fall as it fell between these three, and some spread evenly. */
+   difference will be greatest, if it goes on to fall as it fell between these three, and some spread evenly.
+
+   A sampled pilot runs PILOT_SAMPLED blocks spread evenly and nothing else, which stand for all: a kink between them it
+   does not see. A force that cannot begin anywhere is run in its beginning. */
 #ifndef PIPELINE_ERROR_PILOT_H
 #define PIPELINE_ERROR_PILOT_H
 #include "pipeline/plan.h"
 
 enum { PILOT_WINDOW = 1024, PILOT_HOP = PILOT_WINDOW / 2, PILOT_BINS = PILOT_HOP + 1, PILOT_PLACES = 3 };
 enum { PILOT_WORST = 16, PILOT_SPREAD = 16, PILOT_FOLLOWED = PILOT_WORST + PILOT_SPREAD };
+enum { PILOT_SAMPLED = 6, PILOT_STRETCH = 4096 };
 
 struct pilot_block {
     long number;
@@ -30,7 +34,9 @@ struct error_pilot {        /* of one contact */
     double *power;      /* [PILOT_PLACES][PILOT_BINS] |H|^2 */
     int places;
     long blocks;
+    bool sampled;
     bool follows; /* the force can begin anywhere, and the motion is long enough for that */
+    int followed; /* blocks then */
     long lead;    /* frames before a block that is begun with */
     int runs;     /* so far */
     int pairs;    /* of settings that were compared, one going on where the other ended */
@@ -40,11 +46,16 @@ struct error_pilot {        /* of one contact */
     double energy;             /* of the whole */
     struct pilot_block *block; /* [PILOT_FOLLOWED] those that are run, in order of their numbers; NULL: all are */
     long bounces, lift_offs;   /* of a coupled ball, as far as it was run */
+    long fastest;              /* frame at which the fastest PILOT_STRETCH frames of the motion begin */
 };
 
-/* some: s that are run of a coupled ball. moves: the response changes on the way. */
-bool error_pilot_make(const struct scene *s, const struct contact *c, double some, bool moves, struct arena *a,
-                      struct error_pilot *p, struct err *e);
+/* some: s that are run of a coupled ball, and of a sampled pilot that does not follow blocks. moves: the response
+   changes on the way. */
+bool error_pilot_make(const struct scene *s, const struct contact *c, double some, bool moves, bool sampled,
+                      struct arena *a, struct error_pilot *p, struct err *e);
+
+/* Can the contact's force begin anywhere on its way (run_skip)? */
+bool error_pilot_begins_anywhere(const struct contact *c);
 
 /* The motion at a setting and at a finer one (NULL: there is none, and distances are the energies): distances and
    energy. going: the last run ended with `set`, so that after two pairs only some blocks need be run. */

@@ -16,6 +16,7 @@
 
 #include "base/stopwatch.h"
 #include "num/lanes.h"
+#include "num/real.h"
 #include "response/listener.h"
 
 /* The set of items that a stage reads. */
@@ -236,6 +237,18 @@ static bool run_valid(const struct stage_run *r, long from, long to, struct err 
                    (double)from / r->board->rate, (double)to / r->board->rate);
 }
 
+/* The force rises from 0 where the run began (run_skip). */
+static void run_fade(const struct stage_run *r, long from, long to)
+{
+    const long *fade = r->board->fade;
+    if (from >= fade[1] || !(r->stage->gives & ~r->stage->needs & ITEM_BIT(ITEM_FORCE))) return;
+    double *x = board_at(r->board, ITEM_FORCE, from);
+    for (long n = from; n < to && n < fade[1]; n++) {
+        double s = real_sinpi(0.5 * (double)(n - fade[0]) / (double)(fade[1] - fade[0]));
+        x[n - from] *= s * s;
+    }
+}
+
 /* *clock: CPU time when the stage before was done. A reading asks the system: two for each block were 2 % of a draft.
  */
 static bool stage_block(struct stage_run *st, long to, double *clock, struct err *e)
@@ -255,6 +268,7 @@ static bool stage_block(struct stage_run *st, long to, double *clock, struct err
             if (!st->stage->run(st, st->done, until, e) || (traps && !run_valid(st, st->done, until, e)) ||
                 !run_finite(st, st->done, until, e))
                 return false;
+            run_fade(st, st->done, until);
         }
         st->done = end;
         double now = stopwatch_cpu();
@@ -274,8 +288,10 @@ bool run_block(struct run *r, long to, struct err *e)
     return true;
 }
 
-void run_skip(struct run *r, long frame)
+void run_skip(struct run *r, long frame, long fade)
 {
+    r->board.fade[0] = frame;
+    r->board.fade[1] = frame + fade;
     for (int i = 0; i < r->n; i++) {
         struct stage_run *st = &r->stages[i];
         st->done = frame;

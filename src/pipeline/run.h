@@ -26,9 +26,9 @@ bool run_open(struct run *r, const struct plan *p, const struct scene *s, const 
 bool run_block(struct run *r, long to, struct err *e);
 
 /* Goes on at a later frame, as though nothing had been before it: the board is empty; what stages remember is left as
-   it is. Of stages up to the force only. As many frames as they look back in all, at least, are not yet as they would
-   be. */
-void run_skip(struct run *r, long frame);
+   it is. Of stages behind the force only before the first block. As many frames as the stages look back in all, at
+   least, are not yet as they would be. fade: frames over which the force rises from 0 there. */
+void run_skip(struct run *r, long frame, long fade);
 
 void run_close(struct run *r);
 

@@ -51,7 +51,8 @@ static void reports_drop(const struct stage_report *all, int n)
 void summary_notes(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a)
 {
     report->notes = ARENA_TAKE(a, const char *, s->n_contacts *REPORTS + 1);
-    if (report->error_budget.text) report->notes[report->n_notes++] = report->error_budget.text;
+    if (report->error_budget.text && report->error_budget.asked)
+        report->notes[report->n_notes++] = report->error_budget.text;
     for (int i = 0; i < s->n_contacts; i++) {
         struct stage_report all[REPORTS];
         int n = runs[i] ? reports_make(runs[i], a, all) : 0;
@@ -138,11 +139,19 @@ void summary_warnings(const struct scene *s, const struct run *const *runs, stru
         older++;
     report->warnings =
         ARENA_TAKE(a, const char *,
-                   s->n_contacts *(MOST_OF_BOARD + 8 + REPORTS * STAGE_WARNINGS) + 2 * report->n_files + 3 + older);
+                   s->n_contacts *(MOST_OF_BOARD + 8 + REPORTS * STAGE_WARNINGS) + 2 * report->n_files + 4 + older);
     for (int i = 0; i < s->n_contacts; i++)
         if (runs[i]) warn_contact(&s->contacts[i], runs[i], report, a);
+    const struct error_budget *b = &report->error_budget;
+    if (b->missed)
+        warn(report,
+             arena_format(a,
+                          "accuracy: %s aims at %.6g dB, and %.1f dB are predicted: where the force has steps or "
+                          "kinks no preset has enough; measure it (--verify), or ask for what there is "
+                          "(accuracy.error)",
+                          s->accuracy.preset, b->error, b->predicted));
     for (int i = 0; i < s->n_contacts; i++)
-        if (runs[i] && runs[i]->board.lifted > 0 && report->error_budget.n > 0)
+        if (runs[i] && runs[i]->board.lifted > 0 && report->error_budget.asked && report->error_budget.n > 0)
             warn(report, arena_format(a,
                                       "contact '%s': where it is lifted off its force is cut, and errors fall more "
                                       "slowly, and less evenly, than accuracy.error counts on: measure them "
@@ -217,7 +226,7 @@ static json_t *contact_json(const struct run *run, const struct scene *s, double
     return c;
 }
 
-/* What accuracy.error asked for, and what the knobs that leave an error are predicted to leave. */
+/* What accuracy.error or the preset asked for, and what the knobs that leave an error are predicted to leave. */
 static json_t *error_budget_json(const struct error_budget *p, bool times)
 {
     json_t *by = json_array();
@@ -261,7 +270,7 @@ const char *summary_text(const struct scene *s, const struct run *const *runs, c
         if (json_array_size(older)) json_object_set(whole, "older", older);
         json_decref(older);
     }
-    if (report->error_budget.asked)
+    if (report->error_budget.text)
         json_object_set_new(whole, "accuracy", error_budget_json(&report->error_budget, times));
     if (report->sounds) json_object_set_new(whole, "sound", sound_json(s, report));
     char *text = json_dumps(whole, JSON_INDENT(2) | JSON_REAL_PRECISION(times ? 9 : 17) | JSON_ENSURE_ASCII);

@@ -24,6 +24,14 @@ bool accuracy_preset(struct accuracy *accuracy, const char *preset)
     return false;
 }
 
+double accuracy_target(const struct accuracy *accuracy)
+{
+    static const double target[] = {-40, -70, -100, NAN};
+    for (int i = 0; accuracy->preset && keys_presets[i]; i++)
+        if (!strcmp(keys_presets[i], accuracy->preset) && accuracy->by_user != (1u << KNOBS) - 1) return target[i];
+    return NAN;
+}
+
 static void preset_read(struct yaml *y, const struct yaml_node *node, struct accuracy *accuracy)
 {
     const char *near = NULL;

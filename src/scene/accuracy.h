@@ -14,6 +14,9 @@ void accuracy_read(struct yaml *y, const struct yaml_node *node, struct accuracy
 double accuracy_knob(const struct accuracy *accuracy, enum knob k);
 void accuracy_turn(struct accuracy *accuracy, enum knob k, double value);
 
+/* dB, the error that a preset aims at; NAN: none (reference), or every knob is said. */
+double accuracy_target(const struct accuracy *accuracy);
+
 /* Is it a value that the knob can have? */
 bool accuracy_takes(enum knob k, double value);
 

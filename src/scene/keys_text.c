@@ -26,7 +26,9 @@ const struct keys_text_frame keys_text_frames[] = {
      "error relative to the sound, rms, that the knobs not given are chosen by, as cheaply as keeps it; what cannot be "
      "kept is refused"},
     {"accuracy.preset", "draft, standard, high or reference",
-     "in a map: the preset that the knobs not given are taken from"},
+     "draft, standard and high aim at errors of -40, -70 and -100 dB, by which the knobs not given are chosen; "
+     "reference "
+     "has fixed knobs"},
     {"inputs", "list of file and sha256",
      "the files of an effective scene as they were: one that has changed is an error"},
     {NULL, NULL, NULL},
@@ -362,9 +364,12 @@ static void put_group(FILE *f, const char *map, struct arena *a)
 
 static void put_knobs(FILE *f, struct arena *a)
 {
-    fputs(".Ss accuracy\n.Bl -column \"oversampling\" \"draft\" \"standard\" \"high\" \"reference\"\n.It knob Ta draft "
-          "Ta standard Ta high Ta reference\n",
-          f);
+    fputs(
+        ".Ss accuracy\nThe knobs of\n.Ic accuracy : reference ,\nand of the other presets where none are chosen "
+        "(ACCURACY "
+        "BY AN ERROR):\n.Bl -column \"oversampling\" \"draft\" \"standard\" \"high\" \"reference\"\n.It knob Ta draft "
+        "Ta standard Ta high Ta reference\n",
+        f);
     for (const struct key_knob *k = keys_knobs; k->name; k++) {
         fprintf(f, ".It Ic %s", k->name);
         for (int i = 0; i < 4; i++)

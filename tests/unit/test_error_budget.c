@@ -4,6 +4,7 @@
 #include "pipeline/error_budget.h"
 
 #include "rig.h"
+#include "scene/accuracy.h"
 
 #define SCENE                                                                                                          \
     "rasp: 1\nseed: 2\nsurface: {roughness: {rms: 5 um}}\nscraper: {mass: 20 g}\nmotion: {path: line, to: [5 cm, 0], " \
@@ -59,8 +60,16 @@ START_TEST(what_is_said_stays)
                                "cm, 0], duration: 0.1 s}\noutput: {quantity: force}\naccuracy: high\n");
     struct err e = {0};
     ck_assert(error_budget_apply(&plain, rig_arena(), &chosen, &p, &e));
+    ck_assert(!p.asked && p.chosen && p.error == -100 && p.predicted < -100);
+    plain.accuracy.by_user = KNOB_BIT(oversampling);
+    plain.accuracy.oversampling = 3;
+    ck_assert(error_budget_apply(&plain, rig_arena(), &chosen, &p, &e));
+    ck_assert_double_eq(chosen.accuracy.oversampling, 3);
+    accuracy_preset(&plain.accuracy, "reference");
+    plain.accuracy.by_user = 0;
+    ck_assert(error_budget_apply(&plain, rig_arena(), &chosen, &p, &e));
     ck_assert(!p.asked && !p.chosen && p.text == NULL);
-    ck_assert_double_eq(chosen.accuracy.oversampling, plain.accuracy.oversampling);
+    ck_assert_double_eq(chosen.accuracy.oversampling, 64);
 }
 END_TEST
 

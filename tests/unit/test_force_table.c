@@ -58,9 +58,10 @@ enum { RATES = sizeof rates / sizeof rates[0] };
 
 static struct scene scene_at(struct arena *a, const struct rates *r, const char *rest)
 {
-    return rig_scene(a,
-                     arena_format(a, "rasp: 1\nseed: 3\noutput: {sample_rate: %ld Hz, diagnostics: {rate: %ld Hz}}\n%s",
-                                  r->audio, r->table, rest));
+    return rig_scene(a, arena_format(a,
+                                     "rasp: 1\nseed: 3\naccuracy: {oversampling: 4}\noutput: {sample_rate: %ld Hz, "
+                                     "diagnostics: {rate: %ld Hz}}\n%s",
+                                     r->audio, r->table, rest));
 }
 
 /* Row k covers the samples n with floor(n rate_d / rate) = k that the motion touches. */
