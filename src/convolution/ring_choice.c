@@ -32,6 +32,7 @@
 #include "response/space.h"
 #include "stage.h"
 #include "trajectory/contact.h"
+#include "trajectory/motion.h"
 
 #define COMPUTED_DB 140.0  /* how far a computed response is followed down */
 #define COMPUTED_MOST 60.0 /* s, and how long */
@@ -158,7 +159,7 @@ static double sound_end(const struct contact *c, const struct scene *s)
     double end = 0;
     if (!isnan(s->output.duration)) return fmax(s->output.duration - c->start, 0);
     for (int i = 0; i < s->n_contacts; i++) {
-        double duration = s->contacts[i].motion.duration;
+        double duration = motion_cut(&s->contacts[i].motion, s->contacts[i].motion.duration);
         end = isnan(duration) ? HUGE_VAL : fmax(end, s->contacts[i].start + duration);
     }
     return isnan(s->output.tail) ? HUGE_VAL : end + s->output.tail - c->start;

@@ -178,6 +178,7 @@ struct motion {
     double rate;             /* Hz: back_and_forth, full cycles; scribble, loops                  */
     double speed;            /* m/s, mean; NAN: duration is given                                 */
     double duration;         /* s; NAN: speed is given, or a file gives it                        */
+    double until;            /* s: the motion breaks off there; else (NAN, 0) it goes on to the end*/
     int law;                 /* enum speed_law                                                    */
     const char *profile;     /* law given: CSV of time_s, speed_m_per_s                           */
     double incline;          /* rad, slope of the path incline: above 0, to lies higher than from  */

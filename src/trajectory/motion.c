@@ -202,6 +202,7 @@ bool motion_rests(const struct motion *m, bool at_end)
 {
     int law = motion_law(m);
     double strokes = 2 * m->rate * m->duration;
+    if (at_end && m->until > 0) return m->path == PATH_STILL;
     if (m->path == PATH_INCLINE) {
         struct incline i = motion_incline(m);
         return at_end ? i.over == INCLINE_RESTS && !(motion_incline_lasts(&i, m) < i.end) : m->start_speed == 0;
@@ -212,10 +213,12 @@ bool motion_rests(const struct motion *m, bool at_end)
 
 double motion_lasts(const struct motion *m)
 {
-    if (!isnan(m->duration)) return m->duration;
-    if (m->path == PATH_CIRCLE) return 2 * M_PI * m->radius * fabs(m->turns) / m->speed;
-    if (m->path == PATH_INCLINE) return motion_incline(m).end;
-    return motion_straight(m) ? chord(m) / m->speed : NAN;
+    double whole = !isnan(m->duration)       ? m->duration
+                   : m->path == PATH_CIRCLE  ? 2 * M_PI * m->radius * fabs(m->turns) / m->speed
+                   : m->path == PATH_INCLINE ? motion_incline(m).end
+                   : motion_straight(m)      ? chord(m) / m->speed
+                                             : NAN;
+    return isnan(whole) ? NAN : motion_cut(m, whole);
 }
 
 #define SHORTEST_PATH 1e-9 /* m */
@@ -419,6 +422,9 @@ static const struct key keys[] = {
      .shown = "10 cm/s"},
     {ROW_NUMBER(contact, motion.duration, "motion.duration"), KEY_TIME, 1e-3, 36000, "", NULL,
      "how long the motion lasts", .shown = "2 s", .on = true},
+    {ROW_NUMBER(contact, motion.until, "motion.until"), KEY_TIME, 1e-3, 36000, "", NULL,
+     "an excerpt: where the motion breaks off, so much after its start; all before is as in the whole motion",
+     .shown = "1 s"},
     {ROW_CHOICE(contact, motion.law, "motion.law"), KEY_NONE, 0, 0, "auto", NULL, "how speed varies along the path",
      laws},
     {ROW_FILE(contact, motion.profile, "motion.profile"), KEY_NONE, 0, 0, NULL, "motion.law=given",

@@ -2,6 +2,8 @@
    straight path `incline`, in closed form (motion.c), by which the checks and trajectory/speed.c both go. */
 #ifndef TRAJECTORY_MOTION_H
 #define TRAJECTORY_MOTION_H
+#include <math.h>
+
 #include <stdbool.h>
 
 #include "base/err.h"
@@ -30,6 +32,9 @@ bool motion_law_fits(const struct motion *m, int law);
 
 /* Is the motion surely at rest where it starts (or ends)? What a file gives may be, and counts as not. */
 bool motion_rests(const struct motion *m, bool at_end);
+
+/* A time of the motion (s), or when it breaks off: motion.until, where that is given. */
+static inline double motion_cut(const struct motion *m, double t) { return m->until > 0 ? fmin(t, m->until) : t; }
 
 /* How long it lasts, in s, as far as the scene alone tells; NAN: a file or the length of a curve does. */
 double motion_lasts(const struct motion *m);

@@ -413,7 +413,7 @@ static void whole(struct making *w)
 {
     struct trajectory *tr = w->tr;
     const struct speed *law = &w->s->speed;
-    double ends[2] = {0, law->duration}, du[2], range[2];
+    double ends[2] = {0, motion_cut(w->m, law->duration)}, du[2], range[2];
     tr->state = w->s;
     tr->length = w->s->path.length;
     tr->duration = law->duration;
@@ -437,6 +437,8 @@ static void whole(struct making *w)
         series_range(&(struct scan){scan_du, tr}, 0, tr->duration, tr->detail, range);
         tr->top_speed = range[1];
     }
+    tr->duration = ends[1]; /* figures are those of the whole motion, and the surface under it is */
+    tr->cycle = fmin(tr->cycle, tr->duration);
     trajectory_at(tr, 2, ends, (struct trajectory_out){.du = du});
     tr->starts_at_rest = fabs(du[0]) <= 1e-8 * tr->top_speed;
     tr->ends_at_rest = fabs(du[1]) <= 1e-8 * tr->top_speed;

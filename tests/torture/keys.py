@@ -61,7 +61,7 @@ USUAL = {
     "contact.gesture.cutoff": (100, 2e4), "output.level.full_scale": (1, 1e6), "output.level.dbfs_at_1_pa": (-150, -60),
     "output.listen.density": (0.5, 5), "output.listen.sound_speed": (200, 1500), "accuracy.error": (-90, -10),
     "accuracy.oversampling": (1, 16), "accuracy.contact_steps": (20, 400), "motion.straight": (0.01, 1),
-    "motion.cutoff": (0, 100), "motion.corner": (1e-5, 1e-3),
+    "motion.cutoff": (0, 100), "motion.until": (0.05, 2), "motion.corner": (1e-5, 1e-3),
     "surface.object.poisson": (0.05, 0.45), "scraper.object.poisson": (0.05, 0.45), "ball.object.poisson": (0.05, 0.45),
 }
 for body in ("surface", "scraper", "ball"):
