@@ -1,37 +1,54 @@
 /* rasp accuracy: what accuracy costs in time: what is rendered, the renders, and what their errors say. */
 #include "cmd/accuracy.h"
 
-#include <dirent.h>
-#include <errno.h>
-#include <fcntl.h>
-#include <jansson.h>
+#include <gsl/gsl_sort_double.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "analysis/convergence.h"
-#include "analysis/distance.h"
-#include "analysis/spectral_distance.h"
-#include "base/interrupt.h"
 #include "base/outfile.h"
+#include "base/stopwatch.h"
 #include "base/text.h"
-#include "file/bytes.h"
-#include "file/yaml.h"
+#include "batch/pool.h"
 #include "num/real.h"
 #include "output/gnuplot.h"
 #include "output/mark.h"
 #include "pipeline/error_budget.h"
 #include "pipeline/outputs.h"
 #include "pipeline/plan.h"
+#include "pipeline/render.h"
 #include "response/response.h"
 #include "scene/accuracy.h"
 #include "scene/keys.h"
 #include "scene/scene_places.h"
+#include "trajectory/motion.h"
+
+enum { PRESETS = 4 };
+
+static bool steps(int knob) { return keys_knobs[knob].scale == KEY_STEPS; }
+
+/* --errors=N,N...: in dB, each once, from coarse to fine. */
+static bool errors_read(struct accuracy_sweep *s, struct err *e)
+{
+    const char *word, *given = args_value(&s->call->args, "errors");
+    char *rest = arena_text(s->call->arena, given ? given : "-40,-60,-80,-100,-120");
+    double x;
+    while ((word = strsep(&rest, ","))) {
+        if (!text_double(word, &x) || !(x < 0 && x >= -240))
+            return err_set(e, ERR_USAGE,
+                           "--errors: '%s' is no number of dB from -240 to below 0, as in --errors=-40,-60", word);
+        int at = 0;
+        while (at < s->n_errors && s->errors[at] > x)
+            at++;
+        if (at < s->n_errors && s->errors[at] == x) continue;
+        if (s->n_errors == ACCURACY_VALUES)
+            return err_set(e, ERR_USAGE, "--errors: more than %d are given; leave some out", ACCURACY_VALUES);
+        memmove(s->errors + at + 1, s->errors + at, (size_t)(s->n_errors++ - at) * sizeof x);
+        s->errors[at] = x;
+    }
+    return true;
+}
 
 /* --values KNOB=N,N... of `rasp accuracy`: which values of which knobs are rendered besides those of the presets. */
 
@@ -70,11 +87,109 @@ static bool values_one(const char *given, struct arena *a, struct accuracy_value
     return true;
 }
 
-/* What `rasp accuracy` renders: the presets, the scene as it is, and each knob's values, each once with all other knobs
-   at `reference` (what it spoils alone) and once as the scene has them (what it costs). Knobs that turn nothing are
-   left as they are, so that settings which differ in those are one. */
+/* ------------------------------------------------------------------ the excerpt
 
-enum { PRESETS = 4 };
+   How long all will take is estimated from the work that plans predict (stage.h), so that the same scene has the same
+   excerpt everywhere. In seconds of a core of 3 GHz, for each second of the motion, w being the work of a setting:
+
+     renders       w(reference) and half of it for its neighbour; runs x w of all others; an asked error's lies between
+                   those of draft, standard and high, taken for -40, -70 and -100 dB
+     choices       2 w(reference) + 1.3 w(every knob at its finest): measured on the shipped scenes within a factor
+                   of 3 where choosing takes a second or more
+
+   Where the finest is refused for its memory, pilot runs go as far as memory does, and cost that whatever the motion's
+   length: then the excerpt is the shortest, and errors are -40, -70 and -100 dB.
+
+   Strikes and given forces are not cut: they refer to all of their motion, and are cheap. */
+
+#define HERTZ 3e9
+#define BUDGET 8.0       /* s: what is predicted is not more than doubled */
+#define SHORTEST 0.05    /* s */
+#define STARTING 0.01    /* s, of a render that is next to nothing */
+#define NEARLY_WHOLE 0.8 /* of the motion: an excerpt that long is none */
+
+/* Predicted cycles for a second of sound; 0: there is no plan, as a render will tell. */
+static double work(const struct accuracy_sweep *s, const struct accuracy *set)
+{
+    struct scene scene = s->scene;
+    struct arena *a = arena_open();
+    struct err none = {0};
+    double sum = 0;
+    scene.accuracy = *set;
+    struct render_parts p = render_parts_make(&scene, a);
+    bool ok = render_parts_plan(&p, &none);
+    for (int i = 0; ok && i < scene.n_contacts; i++)
+        for (const struct plan_row *r = p.parts[i].plan.rows, *end = r + p.parts[i].plan.n; r < end; r++)
+            sum += r->verdict == PLAN_RUNS ? r->work * scene.output.sample_rate : 0;
+    arena_close(a);
+    return sum;
+}
+
+static bool is_cut(const struct contact *c)
+{
+    return c->contact.model != CONTACT_STRIKE && c->contact.model != CONTACT_GIVEN;
+}
+
+/* Sets s->excerpt, s->estimate, and both scenes' motions. */
+static void excerpt(struct accuracy_sweep *s)
+{
+    struct accuracy set = s->scene.accuracy;
+    struct plan_scene_estimate x;
+    struct err none = {0};
+    double w[PRESETS], finest, each, least = SHORTEST;
+    bool some = false, falls = false;
+    for (int i = 0; i < PRESETS; i++) {
+        accuracy_preset(&set, keys_presets[i]);
+        w[i] = work(s, &set) / HERTZ;
+    }
+    for (int k = 0; k < KNOBS; k++)
+        if (s->knobs & 1u << k) accuracy_turn(&set, (enum knob)k, steps(k) ? keys_knobs[k].high : keys_knobs[k].low);
+    finest = work(s, &set) / HERTZ;
+    struct scene scene = s->scene;
+    scene.accuracy = set;
+    bool full = !plan_scene_estimate(&scene, s->call->arena, &x, &none) &&
+                plan_scene_estimate(&s->scene, s->call->arena, &x, &(struct err){0});
+    if (full && !args_given(&s->call->args, "errors"))
+        memcpy(s->errors, (const double[]){-40, -70, -100}, (size_t)(s->n_errors = 3) * sizeof *s->errors);
+    for (int i = 0; i < s->scene.n_contacts; i++)
+        falls = falls || s->scene.contacts[i].load.falls; /* and bounces: no error can be had */
+    int asks = falls ? 0 : s->n_errors;
+    each = 1.5 * w[3] + s->runs * (w[0] + w[1] + w[2]) + (asks ? 2 * w[3] + 1.3 * finest : 0);
+    for (int i = 0; i < asks; i++) {
+        double at = fmax((-40 - s->errors[i]) / 30, 0), from = at < 1 ? w[0] : w[1], to = at < 1 ? w[1] : w[2];
+        each += s->runs * from * (from > 0 ? real_pow(to / from, at < 1 ? at : at - 1) : 0);
+    }
+    double length = plan_scene_estimate(&s->scene, s->call->arena, &x, &(struct err){0})
+                        ? (double)x.length.motion / s->scene.output.sample_rate
+                        : NAN;
+    struct contact *c = ARENA_TAKE(s->call->arena, struct contact, s->scene.n_contacts);
+    for (int i = 0; i < s->scene.n_contacts; i++) {
+        c[i] = s->scene.contacts[i];
+        some = some || is_cut(&c[i]);
+        least = fmax(least, 2 * (fmax(c[i].load.approach, 0) + fmax(c[i].load.release, 0)));
+    }
+    s->whole = length;
+    if (!(s->excerpt > 0)) {
+        double digit = real_exp10(floor(real_log10(BUDGET / each)) - 1);
+        s->excerpt = full ? least : fmax(floor(BUDGET / each / digit) * digit, least);
+        if (!(s->excerpt < NEARLY_WHOLE * length)) s->excerpt = NAN;
+    }
+    if (!some || !(s->excerpt < length)) s->excerpt = NAN;
+    for (int i = 0; s->excerpt > 0 && i < s->scene.n_contacts; i++)
+        if (is_cut(&c[i])) c[i].motion.until = motion_cut(&c[i].motion, s->excerpt);
+    s->scene.contacts = s->asked.contacts = c;
+    s->estimate = each * (s->excerpt > 0 ? s->excerpt : fmax(length, 0)) + STARTING * s->runs * (s->n_errors + PRESETS);
+}
+
+/* ------------------------------------------------------------------ what is rendered
+
+   The knobs that are chosen for each asked error, the presets, and the scene as it is; where single knobs are asked
+   for, each knob's values, once with all other knobs at `reference` (what it spoils alone) and once as the scene has
+   them (what it costs). Knobs that turn nothing are left as they are, so that settings which differ in those are one.
+
+   All are compared with a reference: every knob as the preset reference has it, or twice as fine as the finest that an
+   asked error takes. Its own error is bounded by its difference from a neighbour of half its fineness: an error that
+   falls by 6 dB or more for each doubling is no more than that. */
 
 static bool same(const struct accuracy_sweep *s, const struct accuracy *x, const struct accuracy *y)
 {
@@ -83,13 +198,18 @@ static bool same(const struct accuracy_sweep *s, const struct accuracy *x, const
     return true;
 }
 
+static int render_new(struct accuracy_sweep *s, const struct accuracy *set)
+{
+    s->renders[s->n_renders] = (struct accuracy_render){.set = *set, .contact_share = NAN};
+    return s->n_renders++;
+}
+
 static int render_of(struct accuracy_sweep *s, const struct accuracy *set, bool timed)
 {
     int i = 0;
-    while (i < s->n_renders && !same(s, &s->renders[i].set, set))
+    while (i < s->n_renders && (s->renders[i].words || !same(s, &s->renders[i].set, set)))
         i++;
-    if (i == s->n_renders)
-        s->renders[s->n_renders++] = (struct accuracy_render){.set = *set, .cpu = HUGE_VAL, .contact_share = NAN};
+    if (i == s->n_renders) render_new(s, set);
     s->renders[i].timed |= timed;
     return i;
 }
@@ -97,60 +217,151 @@ static int render_of(struct accuracy_sweep *s, const struct accuracy *set, bool 
 static struct accuracy_row *row_add(struct accuracy_sweep *s, int knob, const char *name, const char *value)
 {
     struct accuracy_row *r = &s->rows[s->n_rows++];
-    *r = (struct accuracy_row){.knob = knob, .name = name, .value = value, .alone = -1, .fine = NAN, .order = NAN};
+    *r = (struct accuracy_row){.knob = knob,
+                               .name = name,
+                               .value = value,
+                               .alone = -1,
+                               .fine = NAN,
+                               .order = NAN,
+                               .predicted = NAN,
+                               .choosing = NAN};
     return r;
 }
 
-static int preset_render(struct accuracy_sweep *s, const char *preset)
+/* A row whose knobs are those of an accuracy, chosen if it asks for an error: one that cannot be had is refused. */
+static bool row_settle(struct accuracy_sweep *s, const char *name, const char *value, const struct accuracy *set,
+                       struct err *e)
 {
-    struct accuracy set = s->scene.accuracy;
-    accuracy_preset(&set, preset);
-    return render_of(s, &set, true);
+    struct accuracy_row *r = row_add(s, -1, name, value);
+    struct scene asked = s->asked, chosen;
+    struct error_budget budget;
+    struct err refused = {0};
+    struct arena *a = arena_open();
+    double start = stopwatch_cpu();
+    asked.accuracy = *set;
+    bool ok = error_budget_apply(&asked, a, &chosen, &budget, &refused);
+    if (!isnan(set->error)) r->choosing = stopwatch_cpu() - start;
+    r->set = chosen.accuracy;
+    if (ok && budget.chosen) r->predicted = budget.predicted;
+    if (!ok) r->refused = arena_text(s->call->arena, refused.text);
+    arena_close(a);
+    return ok || refused.kind == ERR_SCENE || err_set(e, refused.kind, "%s", refused.text);
 }
 
-void accuracy_rows(struct accuracy_sweep *s, const struct accuracy_values *own)
+/* Finer errors than one that is refused are, too. */
+static bool ask_all(struct accuracy_sweep *s, struct err *e)
 {
-    int most = PRESETS + 1;
+    struct pool_progress p;
+    bool ok = true;
+    pool_progress_begin(&p, s->n_errors, 0, false);
+    if (p.shown)
+        fprintf(stderr, "%s: about %.0f s: %d asked errors, %d presets, %d runs%s\n", s->file, ceil(s->estimate),
+                s->n_errors, PRESETS, s->runs,
+                s->excerpt > 0 ? arena_format(s->call->arena, "; of its first %.3g s (--excerpt)", s->excerpt) : "");
+    for (int i = 0; ok && i < s->n_errors; i++) {
+        struct accuracy set = {.preset = s->scene.accuracy.preset, .error = s->errors[i]};
+        const char *value = arena_format(s->call->arena, "%.9g", s->errors[i]);
+        const struct accuracy_row *before = i > 0 ? &s->rows[i - 1] : NULL;
+        if (before && before->refused)
+            row_add(s, -1, "asked", value)->refused = before->refused;
+        else
+            ok = row_settle(s, "asked", value, &set, e);
+        pool_progress_step(&p, arena_format(s->call->arena, "knobs for %s dB", value), 0, 0, 0);
+    }
+    pool_progress_clear(&p);
+    return ok;
+}
+
+void accuracy_finer(struct accuracy *reference, const struct accuracy *own, unsigned used)
+{
+    for (int k = 0; k < KNOBS; k++) {
+        double x = accuracy_knob(own, (enum knob)k), y = accuracy_knob(reference, (enum knob)k),
+               finer = steps(k) ? fmin(2 * x, keys_knobs[k].high) : fmax(floor(x / 2), keys_knobs[k].low),
+               z = used & 1u << k ? finer : x;
+        accuracy_turn(reference, (enum knob)k, steps(k) ? fmax(z, y) : fmin(z, y));
+    }
+}
+
+/* The reference and its neighbour, which are rendered first. */
+static void reference_rows(struct accuracy_sweep *s, const struct accuracy *reference)
+{
+    struct accuracy near = *reference;
+    for (int k = 0; k < KNOBS; k++) {
+        double x = accuracy_knob(reference, (enum knob)k);
+        if (s->knobs & 1u << k)
+            accuracy_turn(&near, (enum knob)k,
+                          steps(k) ? fmax(floor(x / 2), keys_knobs[k].low) : fmin(2 * x, keys_knobs[k].high));
+    }
+    s->reference = render_new(s, reference);
+    s->near = render_new(s, &near);
+}
+
+static void knob_rows(struct accuracy_sweep *s, int k, const struct accuracy_values *own)
+{
+    double x[PRESETS + ACCURACY_VALUES], sign = steps(k) ? 1.0 : -1.0;
+    int n = 0;
+    for (int i = 0; i < PRESETS + own->n; i++) { /* presets' values and those given, coarse to fine, each once */
+        double v = i < PRESETS ? keys_knobs[k].preset[i] : own->x[i - PRESETS];
+        int at = 0;
+        while (at < n && sign * x[at] < sign * v)
+            at++;
+        if (at < n && x[at] == v) continue;
+        memmove(x + at + 1, x + at, (size_t)(n++ - at) * sizeof *x);
+        x[at] = v;
+    }
+    for (int i = 0; i < n; i++) {
+        struct accuracy alone = s->renders[s->reference].set, all = s->scene.accuracy;
+        struct accuracy_row *r = row_add(s, k, keys_knobs[k].name, arena_format(s->call->arena, "%.9g", x[i]));
+        accuracy_turn(&alone, (enum knob)k, x[i]);
+        accuracy_turn(&all, (enum knob)k, x[i]);
+        r->alone = render_of(s, &alone, false);
+        r->total = render_of(s, &all, true);
+        r->chosen = x[i] == accuracy_knob(&s->scene.accuracy, (enum knob)k);
+        r->fine = sign * real_log(x[i]) / real_log(2.0);
+    }
+}
+
+bool accuracy_rows(struct accuracy_sweep *s, const struct accuracy_values *own, struct err *e)
+{
+    int most = s->n_errors + PRESETS + 1;
     for (int k = 0; k < KNOBS; k++)
         most += PRESETS + own[k].n;
     s->rows = ARENA_TAKE(s->call->arena, struct accuracy_row, most);
     s->renders = ARENA_TAKE(s->call->arena, struct accuracy_render, 2 * most + 2);
-    s->reference = preset_render(s, "reference"); /* rendered first: the others are compared with it */
-    s->high = preset_render(s, "high");           /* then this, which shows until when that means anything */
+    if (!ask_all(s, e)) return false;
+    struct accuracy reference = s->scene.accuracy, set;
+    accuracy_preset(&reference, "reference");
+    for (int i = 0; i < s->n_rows; i++)
+        if (!s->rows[i].refused) accuracy_finer(&reference, &s->rows[i].set, s->knobs);
+    struct scene finest = s->scene;
+    finest.accuracy = reference;
+    if (s->n_errors &&
+        !plan_scene_estimate(&finest, s->call->arena, &(struct plan_scene_estimate){0}, &(struct err){0}))
+        accuracy_preset(&reference, "reference"); /* it takes too much memory */
+    reference_rows(s, &reference);
+    for (int i = 0; keys_presets[i]; i++) {
+        set = (struct accuracy){.error = NAN};
+        accuracy_preset(&set, keys_presets[i]);
+        if (!row_settle(s, "preset", keys_presets[i], &set, e)) return false;
+    }
     bool met = false;
-    for (int i = 0; keys_presets[i] || (i == PRESETS && !met); i++) { /* the presets, and the scene if it has none */
-        struct accuracy set = s->scene.accuracy;
-        if (i < PRESETS) accuracy_preset(&set, keys_presets[i]);
-        struct accuracy_row *r = row_add(s, -1, i < PRESETS ? "preset" : "scene", i < PRESETS ? keys_presets[i] : "");
-        r->total = render_of(s, &set, true);
-        r->chosen = same(s, &set, &s->scene.accuracy);
-        met |= r->chosen;
-        if (i == PRESETS) break;
+    for (int i = 0; i < s->n_rows; i++)
+        met = met || (!s->rows[i].refused && same(s, &s->rows[i].set, &s->scene.accuracy));
+    if (!met && !row_settle(s, "scene", "", &s->asked.accuracy, e)) return false;
+    for (int i = 0; i < s->n_rows; i++) {
+        struct accuracy_row *r = &s->rows[i];
+        bool again = r->refused && i > 0 && r->refused == r[-1].refused;
+        r->total = again        ? r[-1].total
+                   : r->refused ? render_new(s, &(struct accuracy){0})
+                                : render_of(s, &r->set, true);
+        r->chosen = !r->refused && same(s, &r->set, &s->scene.accuracy);
+        if (!r->refused || again) continue;
+        s->renders[r->total].code = ERR_SCENE;
+        s->renders[r->total].words = r->refused;
     }
-    for (int k = 0; k < KNOBS && !s->presets; k++) {
-        if (!(s->knobs & 1u << k)) continue;
-        double x[PRESETS + ACCURACY_VALUES], sign = keys_knobs[k].scale == KEY_STEPS ? 1.0 : -1.0;
-        int n = 0;
-        for (int i = 0; i < PRESETS + own[k].n; i++) { /* presets' values and those given, coarse to fine, each once */
-            double v = i < PRESETS ? keys_knobs[k].preset[i] : own[k].x[i - PRESETS];
-            int at = 0;
-            while (at < n && sign * x[at] < sign * v)
-                at++;
-            if (at < n && x[at] == v) continue;
-            memmove(x + at + 1, x + at, (size_t)(n++ - at) * sizeof *x);
-            x[at] = v;
-        }
-        for (int i = 0; i < n; i++) {
-            struct accuracy alone = s->renders[s->reference].set, all = s->scene.accuracy;
-            struct accuracy_row *r = row_add(s, k, keys_knobs[k].name, arena_format(s->call->arena, "%.9g", x[i]));
-            accuracy_turn(&alone, (enum knob)k, x[i]);
-            accuracy_turn(&all, (enum knob)k, x[i]);
-            r->alone = render_of(s, &alone, false);
-            r->total = render_of(s, &all, true);
-            r->chosen = x[i] == accuracy_knob(&s->scene.accuracy, (enum knob)k);
-            r->fine = sign * real_log(x[i]) / real_log(2.0);
-        }
-    }
+    for (int k = 0; k < KNOBS && s->single; k++)
+        if (s->knobs & 1u << k) knob_rows(s, k, &own[k]);
+    return true;
 }
 
 const char *accuracy_rows_name(const struct accuracy_sweep *s, int render)
@@ -161,19 +372,12 @@ const char *accuracy_rows_name(const struct accuracy_sweep *s, int render)
             return arena_format(s->call->arena, "%s%s%s%s", r->name, *r->value ? " " : "", r->value,
                                 r->total == render ? "" : ", else reference");
     }
-    return "the scene";
+    return render == s->near ? "the reference half as fine" : "the reference";
 }
 
-/* What the errors of a sweep say: the order with which each knob's own error falls, the error that the reference has
-   itself, and which settings are worth their time.
-
-   The order between neighbours is of the errors with all other knobs at `reference`. The reference's own error is
-   extrapolated from them (analysis/convergence.h), knob by knob, and added up as powers: what is smaller cannot be told
-   by comparing with this reference. Nothing is extrapolated where the sound diverges: there errors have grown to the
-   size of the sound by the end of what is compared, whatever they began with.
-
-   Of a sound that diverges, two renders which are equally right differ by as much as `high` and `reference`: a distance
-   below that is no merit. */
+/* What the errors of a sweep say: the order with which each knob's own error falls between neighbours, with all other
+   knobs at `reference`, and which settings are worth their time. Of a sound that diverges, two renders which are
+   equally right differ by as much as the reference and its neighbour: a distance below that is no merit. */
 
 #define OCTAVE_DB 6.020599913279624 /* 20 log10 2 */
 
@@ -182,31 +386,25 @@ static const struct accuracy_render *alone(const struct accuracy_sweep *s, const
     return r->alone >= 0 && s->renders[r->alone].code == 0 ? &s->renders[r->alone] : NULL;
 }
 
-/* The reference's own error by a knob, from its row and the two before it; NAN: there are too few. */
-static double judge_own(const struct accuracy_sweep *s, int knob)
+/* The median of n, and of its order statistics those two the farthest in between which it lies with 93 % or more (of
+   less than 5: the least and the greatest). Rises. Returns the probability (binomial, p = 1/2). */
+static double median_interval(int n, double *x, double out[3])
 {
-    double fine[3], amplitude[3], order;
-    int n = 0;
-    bool met = false;
-    for (int i = 0; i < s->n_rows && !met; i++) {
-        const struct accuracy_row *r = &s->rows[i];
-        if (r->knob != knob || !alone(s, r)) continue;
-        met = r->alone == s->reference;
-        if (n == 2 && !met) {
-            fine[0] = fine[1];
-            amplitude[0] = amplitude[1];
-            n = 1;
-        }
-        fine[n] = r->fine;
-        amplitude[n++] = real_exp10(-s->renders[r->alone].error.snr / 20.0);
-    }
-    return !met || n < 2 ? NAN : n == 2 ? amplitude[0] : convergence_left(fine, amplitude, &order);
+    double term = real_exp10(-n * real_log10(2.0)), sum = term;
+    int k = 0;
+    gsl_sort(x, 1, (size_t)n);
+    for (; 2 * (sum + term * (n - k) / (k + 1)) <= 0.07; k++)
+        sum += term *= (double)(n - k) / (k + 1);
+    out[0] = x[k];
+    out[1] = 0.5 * (x[(n - 1) / 2] + x[n / 2]);
+    out[2] = x[n - 1 - k];
+    return 1 - 2 * sum;
 }
 
 double accuracy_judge_error(const struct accuracy_sweep *s, const struct accuracy_render *r)
 {
     if (r->code != 0) return NAN;
-    return isfinite(s->until) ? fmax(r->error.spectral, s->renders[s->high].error.spectral) : -r->error.snr;
+    return isfinite(s->until) ? fmax(r->error.spectral, s->renders[s->near].error.spectral) : -r->error.snr;
 }
 
 bool accuracy_judge_below(const struct accuracy_sweep *s, const struct accuracy_render *r)
@@ -216,7 +414,6 @@ bool accuracy_judge_below(const struct accuracy_sweep *s, const struct accuracy_
 
 void accuracy_judge(struct accuracy_sweep *s)
 {
-    double sum = 0.0;
     for (int i = 1; i < s->n_rows; i++) {
         const struct accuracy_row *before = &s->rows[i - 1], *r = &s->rows[i];
         const struct accuracy_render *reference = &s->renders[s->reference], *x = alone(s, before), *y = alone(s, r);
@@ -224,281 +421,34 @@ void accuracy_judge(struct accuracy_sweep *s)
         double fine[2] = {before->fine, r->fine}, error[2] = {-x->error.snr / OCTAVE_DB, -y->error.snr / OCTAVE_DB};
         s->rows[i].order = convergence_slope(fine, error);
     }
-    for (int k = 0; k < KNOBS; k++) {
-        s->own[k] = s->knobs & 1u << k && isinf(s->until) ? judge_own(s, k) : NAN;
-        sum += isnan(s->own[k]) ? 0.0 : s->own[k] * s->own[k];
+    s->own_db = isfinite(s->until) ? INFINITY : s->renders[s->near].error.snr;
+    int n = s->n_renders;
+    double *from = ARENA_TAKE(s->call->arena, double, 3 * n), *to = from + n, *error = to + n;
+    bool *on = ARENA_TAKE(s->call->arena, bool, n);
+    for (int i = 0; i < n; i++) {
+        struct accuracy_render *r = &s->renders[i];
+        if (r->n_runs) r->covers = median_interval(r->n_runs, r->runs, r->cpu);
+        from[i] = r->timed && r->n_runs ? r->cpu[0] : NAN;
+        to[i] = r->cpu[2];
+        error[i] = accuracy_judge_error(s, r);
     }
-    s->own_db = sum > 0.0 ? -10.0 * real_log10(sum) : INFINITY;
-    double *cost = ARENA_TAKE(s->call->arena, double, s->n_renders),
-           *error = ARENA_TAKE(s->call->arena, double, s->n_renders);
-    bool *on = ARENA_TAKE(s->call->arena, bool, s->n_renders);
-    for (int i = 0; i < s->n_renders; i++) {
-        cost[i] = s->renders[i].timed ? s->renders[i].cpu : NAN;
-        error[i] = accuracy_judge_error(s, &s->renders[i]);
-    }
-    convergence_front(s->n_renders, cost, error, (struct convergence_equal){0.05, 0.1},
-                      on); /* what 3 runs tell apart, and an ear by far does not */
+    convergence_front(n, from, to, error, 0.1, on); /* dB: an ear by far does not tell them apart */
     for (int i = 0; i < s->n_renders; i++)
         s->renders[i].front = on[i];
-}
-
-/* One render in a process of its own: the program itself, `rasp render SCENE --json`, with the knobs as --set. So peak
-   memory (wait4's ru_maxrss) is that of the render alone, and CPU time is what the render's summary says of itself:
-   reading responses, choosing engines, running, writing; starting the program is not in it. It is forked, not spawned:
-   a process that shares its parent's memory until it becomes another program is charged with its parent's peak. */
-
-/* ------------------------------------------------------------------ the folder */
-
-bool accuracy_child_folder(struct accuracy_sweep *s, struct err *e)
-{
-    s->folder = outfile_scratch_make_folder("rasp-accuracy", s->call->arena, e);
-    return s->folder != NULL;
-}
-
-/* What a render left. */
-static void child_clear(const struct accuracy_sweep *s)
-{
-    DIR *d = opendir(s->folder);
-    if (!d) return;
-    for (struct dirent *entry; (entry = readdir(d));)
-        if (strcmp(entry->d_name, ".") && strcmp(entry->d_name, "..") && strcmp(entry->d_name, "reference.wav"))
-            unlinkat(dirfd(d), entry->d_name, 0);
-    closedir(d);
-}
-
-void accuracy_child_end(const struct accuracy_sweep *s)
-{
-    if (!s->folder) return;
-    child_clear(s);
-    unlink(arena_format(s->call->arena, "%s/reference.wav", s->folder));
-    rmdir(s->folder);
-    interrupt_forget(s->folder);
-}
-
-static const char *child_sound(const struct accuracy_sweep *s)
-{
-    return arena_format(s->call->arena, "%s/render.wav", s->folder);
-}
-
-/* ------------------------------------------------------------------ the process */
-
-static char **command_line(const struct accuracy_sweep *s, const struct accuracy *set)
-{
-    struct arena *a = s->call->arena;
-    int n;
-    const char **given = args_values(&s->call->args, "set", &n), *seed = args_value(&s->call->args, "seed");
-    const char **words = ARENA_TAKE(a, const char *, n + KNOBS + 16), **to = words;
-    *to++ = "rasp";
-    *to++ = "render";
-    *to++ = "--json";
-    *to++ = arena_format(a, "--output=%s", child_sound(s));
-    for (int i = 0; i < n; i++)
-        *to++ = arena_format(a, "--set=%s", given[i]);
-    if (seed) *to++ = arena_format(a, "--seed=%s", seed);
-    *to++ = "--set=output.encoding=float64";
-    if (s->force) *to++ = "--set=output.quantity=force";
-    *to++ = "--set=accuracy=standard";
-    for (int k = 0; k < KNOBS; k++)
-        *to++ = arena_format(a, "--set=accuracy.%s=%.17g", keys_knobs[k].name, accuracy_knob(set, (enum knob)k));
-    *to++ = "--";
-    *to = bytes_piped(s->file) ? "/dev/stdin" : s->file;
-    return (char **)words;
-}
-
-/* Runs it; its standard output in `out`, its standard error in the file. The exit code, or -1: it was
- * killed. */
-static int run_child(char **argv, FILE *says, FILE *scene, FILE *out, double *peak, struct err *e)
-{
-    struct rusage used;
-    int ends[2], status = 0;
-    if (pipe2(ends, O_CLOEXEC) != 0)
-        return err_set(e, ERR_CREATE, "a render cannot be started: %s", strerror(errno)), -1;
-    fflush(NULL);
-    interrupt_hold();
-    pid_t pid = fork();
-    if (pid == 0) {
-        if (scene) dup2(fileno(scene), STDIN_FILENO);
-        dup2(ends[1], STDOUT_FILENO);
-        dup2(fileno(says), STDERR_FILENO);
-        execv("/proc/self/exe", argv);
-        _exit(127);
-    }
-    interrupt_child(pid);
-    interrupt_go();
-    close(ends[1]);
-    char some[4096];
-    ssize_t n = 1;
-    while (pid > 0 && n != 0 && (n > 0 || errno == EINTR)) /* what it prints until it ends */
-        if ((n = read(ends[0], some, sizeof some)) > 0) fwrite(some, 1, (size_t)n, out);
-    close(ends[0]);
-    if (pid < 0) return err_set(e, ERR_CREATE, "a render cannot be started: %s", strerror(errno)), -1;
-    interrupt_wait(pid, &status, &used);
-    *peak = 1024.0 * (double)used.ru_maxrss;
-    return WIFEXITED(status) ? WEXITSTATUS(status)
-                             : (err_set(e, ERR_NUMBERS, "a render was ended by signal %d (%s)", WTERMSIG(status),
-                                        strsignal(WTERMSIG(status))),
-                                -1);
-}
-
-/* ------------------------------------------------------------------ what it said */
-
-bool accuracy_child(struct accuracy_sweep *s, int render, struct err *e)
-{
-    struct accuracy_render *r = &s->renders[render];
-    FILE *says = outfile_scratch_open();
-    char *output = NULL;
-    size_t output_size;
-    FILE *out = open_memstream(&output, &output_size);
-    struct err cause = {0};
-    double peak = 0.0;
-    if (!says || !out) return err_set(e, ERR_CREATE, "a render cannot be started: %s", strerror(errno));
-    /* A scene that came through a pipe, for the child to read once more. NULL: it did not, or *e */
-    size_t size;
-    const char *text = bytes_piped(s->file) ? yaml_bytes_text(s->file, NULL, &size) : NULL;
-    FILE *scene = text ? outfile_scratch_open() : NULL;
-    if (text && (!scene || fwrite(text, 1, size, scene) != size || fflush(scene) != 0))
-        err_set(&cause, ERR_CREATE, "a render cannot be started: its scene cannot be kept in %s: %s",
-                outfile_scratch_folder(), strerror(errno));
-    r->code = cause.kind ? -1 : run_child(command_line(s, &r->set), says, scene, out, &peak, &cause);
-    if (scene) fclose(scene);
-    r->peak = fmax(r->peak, peak);
-    /* The first line that tells of an error. */
-    static const char mark[] = "rasp render: error: ";
-    char line[900] = "";
-    rewind(says);
-    while (fgets(line, sizeof line, says) && !strstr(line, "error: "))
-        continue;
-    line[strcspn(line, "\n")] = '\0';
-    const char *words =
-        !*line ? "it said nothing"
-               : text_shown(s->call->arena, strncmp(line, mark, sizeof mark - 1) ? line : line + sizeof mark - 1);
-    fclose(says);
-    fclose(out);
-    json_t *j = r->code == 0 ? json_loads(output, 0, NULL) : NULL, *each;
-    free(output);
-    if (r->code == 0) {
-        json_t *cpu = json_object_get(j, "cpu_s"), *gain = json_object_get(json_object_get(j, "sound"), "gain");
-        size_t i;
-        bool ok = json_is_number(cpu) && json_is_number(gain);
-        r->cpu = fmin(r->cpu, ok ? json_number_value(cpu) : HUGE_VAL);
-        r->gain = ok ? json_number_value(gain) : 1.0;
-        json_array_foreach(json_object_get(j, "contacts"), i, each)
-        {
-            json_t *share = json_object_get(json_object_get(each, "roll"), "contact_share");
-            if (isnan(r->contact_share) && json_is_number(share)) r->contact_share = json_number_value(share);
-        }
-        json_decref(j);
-        return ok || err_set(e, ERR_NUMBERS, "a render's summary cannot be read");
-    }
-    if (r->code < 0) return err_set(e, interrupt_seen() ? ERR_INTERRUPTED : cause.kind, "%s", cause.text);
-    r->words = words;
-    if (interrupt_seen() || r->code == ERR_INTERRUPTED)
-        return err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written, run the same command again");
-    /* A scene that does not take the setting, or numbers that fail with it, are facts about the setting; the rest is
-       not. */
-    return ((r->code == ERR_SCENE || r->code == ERR_NUMBERS) && render != s->reference) ||
-           err_set(e, (enum err_kind)r->code, "the render with %s ended with exit code %d: %s",
-                   accuracy_rows_name(s, render), r->code, words);
-}
-
-/* A render's sound against the reference's, both in the sound's own unit: the level that the scene sets is taken out of
-   each. Where the sound diverges (distance_agreement: `high` does not follow `reference` to the end), samples are
-   compared up to there, and what comes after by what two sounds of one kind have in common. */
-
-#define WITHIN 60.0 /* dB: third octaves farther below the loudest are left out */
-
-static struct wav part(const struct wav *w, size_t from, size_t to)
-{
-    struct wav p = *w;
-    from = from < w->frames ? from : w->frames;
-    to = to < w->frames ? to : w->frames;
-    p.x = w->x + from * (size_t)w->channels;
-    p.frames = to - from;
-    return p;
-}
-
-static double level(const struct wav *w)
-{
-    double sum = 0.0;
-    for (size_t i = 0; i < w->frames * (size_t)w->channels; i++)
-        sum += w->x[i] * w->x[i];
-    return 10.0 * real_log10(sum / (double)w->frames);
-}
-
-struct accuracy_error accuracy_child_distance(const struct wav *a, const struct wav *b, double until)
-{
-    struct accuracy_error o = {.snr = NAN,
-                               .third = NAN,
-                               .third_hz = NAN,
-                               .spectral = NAN,
-                               .level = NAN,
-                               .length = (double)b->frames / b->rate};
-    struct arena *arena = arena_open();
-    size_t frames = a->frames < b->frames ? a->frames : b->frames,
-           cut = until * a->rate < (double)frames ? (size_t)rint(until * a->rate) : frames,
-           from = cut < frames ? cut : 0;
-    struct wav first[2] = {part(a, 0, cut), part(b, 0, cut)}, rest[2] = {part(a, from, frames), part(b, from, frames)};
-    struct distance_samples d;
-    struct distance_bands bands;
-    if (cut > 0) {
-        distance_samples(&first[0], &first[1], &d);
-        o.snr = d.snr_db;
-    }
-    distance_bands(&rest[0], &rest[1], WITHIN, arena, &bands);
-    o.third = bands.compared ? bands.worst_db : 0.0;
-    o.third_hz = bands.compared ? distance_band_nominal(bands.band) : NAN;
-    o.spectral = spectral_distance_sounds(&rest[0], &rest[1]);
-    o.level = level(&rest[1]) - level(&rest[0]);
-    o.follows = (double)distance_agreement(a, b) / a->rate;
-    arena_close(arena);
-    return o;
-}
-
-static bool sound_read(const char *path, double gain, struct arena *a, struct wav *w, struct err *e)
-{
-    if (!wav_read(path, a, w, e)) return false;
-    for (size_t i = 0; i < w->frames * (size_t)w->channels; i++)
-        w->x[i] /= gain;
-    return true;
-}
-
-bool accuracy_child_compare(struct accuracy_sweep *s, int render, struct err *e)
-{
-    struct accuracy_render *r = &s->renders[render];
-    const char *path = arena_format(s->call->arena, "%s/reference.wav", s->folder);
-    struct arena *arena = arena_open();
-    struct wav a, b;
-    bool is = render == s->reference;
-    bool ok = sound_read(child_sound(s), r->gain, arena, &b, e) &&
-              (is || sound_read(path, s->renders[s->reference].gain, arena, &a, e));
-    if (ok && is) {
-        interrupt_hold(); /* it would slip past what removes the folder */
-        ok = rename(child_sound(s), path) == 0 || err_set(e, ERR_IO, "%s: %s", path, strerror(errno));
-        interrupt_go();
-        s->rate = b.rate;
-        s->channels = b.channels;
-        s->length = (double)b.frames / b.rate;
-    }
-    if (ok && !is && (a.channels != b.channels || a.rate != b.rate))
-        ok = err_set(e, ERR_NUMBERS, "the renders differ in rate or channels and cannot be compared");
-    if (ok && render == s->high && !is) {
-        size_t until = distance_agreement(&a, &b);
-        s->until = until < a.frames && until < b.frames ? (double)until / a.rate : INFINITY;
-    }
-    if (ok) r->error = accuracy_child_distance(is ? &b : &a, &b, s->until);
-    arena_close(arena);
-    return ok;
 }
 
 /* ------------------------------------------------------------------ the command */
 
 static const struct args_option accuracy_options[] = {
-    {"presets", 'p', NULL, false, "render only the presets (and the scene as it is), no single knobs"},
-    {"values", 0, "KNOB=N,N...", true,
-     "further values of a knob besides those of the presets, as in oversampling=2,16; may be repeated"},
-    {"runs", 'n', "N", false, "how often each setting is rendered for its CPU time, in turns; the least counts (3)"},
+    {"errors", 'e', "DB,DB...", false, "the errors that are asked for (-40,-60,-80,-100,-120)"},
+    {"excerpt", 0, "TIME", false,
+     "of a motion only so much is rendered (what is left out of a long or dear scene is estimated, so that all takes "
+     "some 10 s); more than it lasts: all of it"},
+    {"knobs", 'k', NULL, false, "single knobs, too: each with the values of the presets"},
+    {"values", 0, "KNOB=N,N...", true, "--knobs, with further values, as in oversampling=2,16; may be repeated"},
+    {"runs", 'n', "N", false, "how often each setting is rendered for its CPU time, in turns (5)"},
     {"csv", 0, "FILE", false, "write the table to FILE, which ends in .csv"},
-    {"plot", 0, "FILE", false, "draw error against real-time factor into FILE, which ends in .png or .svg"},
+    {"plot", 0, "FILE", false, "draw error against CPU time into FILE, which ends in .png or .svg"},
     {"json", 0, NULL, false, "print the table as JSON"},
     {"force", 'f', NULL, false, "replaces the files of --csv and --plot if they exist"},
     CMD_SCENE_OPTIONS,
@@ -523,12 +473,11 @@ static bool ask_scene(struct accuracy_sweep *s, struct err *e)
         own[k].x = ARENA_TAKE(s->call->arena, double, ACCURACY_VALUES);
     for (int i = 0; i < n; i++)
         if (!values_one(given[i], s->call->arena, own, e)) return false;
-    if (!cmd_read_scene(s->call, s->file, &s->scene, e)) return false;
-    struct scene asked = s->scene;
-    if (!error_budget_apply(&asked, s->call->arena, &s->scene, NULL, e)) return scene_places_report(&asked, e);
-    s->scene.contacts = asked.contacts; /* engines are chosen for each setting */
+    if (!errors_read(s, e) || !cmd_read_scene(s->call, s->file, &s->asked, e)) return false;
+    if (!error_budget_apply(&s->asked, s->call->arena, &s->scene, NULL, e)) return scene_places_report(&s->asked, e);
+    s->scene.contacts = s->asked.contacts; /* engines are chosen for each setting */
     s->force = accuracy_silent(&s->scene);
-    if (s->force) s->scene.output.quantity = QUANTITY_FORCE;
+    if (s->force) s->scene.output.quantity = s->asked.output.quantity = QUANTITY_FORCE;
     const char *paths[] = {s->csv, s->plot};
     for (int i = 0; i < 2; i++) { /* what is written must not be what is read; and can it be written? */
         enum output_kind kind = OUTPUT_TABLE;
@@ -544,34 +493,37 @@ static bool ask_scene(struct accuracy_sweep *s, struct err *e)
         outfile_drop(&probe);
     }
     if (!plan_scene_knobs(&s->scene, s->call->arena, &s->knobs, e)) return scene_places_report(&s->scene, e);
-    accuracy_rows(s, own);
-    return true;
+    excerpt(s);
+    return accuracy_rows(s, own, e) || scene_places_report(&s->asked, e);
 }
 
 /* ------------------------------------------------------------------ doing */
 
-static void progress(const struct accuracy_sweep *s, int done, int all)
-{
-    if (isatty(STDERR_FILENO))
-        fprintf(stderr, done < all ? "\r%s: render %d of %d " : "\r\033[K", s->file, done + 1, all);
-}
-
-/* Runs of one setting lie apart, so that what slows the machine for a while slows one run of each. */
+/* Runs of one setting lie apart, so that what slows the machine for a while slows one run of each. The reference has
+   one alone. */
 static bool sweep(struct accuracy_sweep *s, struct err *e)
 {
-    int all = s->n_renders, done = 0; /* each once, those whose cost counts again and again */
-    for (int i = 0; i < s->n_renders; i++)
-        all += s->renders[i].timed ? s->runs - 1 : 0;
+    struct pool_progress p;
+    double *w = ARENA_TAKE(s->call->arena, double, s->n_renders), all = 0;
+    int n = 0;
+    for (int i = 0; i < s->n_renders; i++) {
+        struct accuracy_render *r = &s->renders[i];
+        r->times = r->code != 0 ? 0 : r->timed && i != s->reference ? s->runs : 1;
+        w[i] = r->times ? work(s, &r->set) : 0;
+        all += r->times * w[i];
+        n += r->times;
+    }
+    pool_progress_begin(&p, n, all, false);
     bool ok = true;
     for (int run = 0; ok && run < s->runs; run++)
         for (int i = 0; ok && i < s->n_renders; i++) {
             struct accuracy_render *r = &s->renders[i];
-            if (run > 0 && (!r->timed || r->code != 0)) continue;
-            progress(s, done++, all);
-            ok = accuracy_child(s, i, e) && (run > 0 || r->code != 0 || accuracy_child_compare(s, i, e));
-            child_clear(s);
+            if (run >= r->times || (run > 0 && r->code != 0)) continue;
+            ok = accuracy_child(s, i, e);
+            ok = ok && (run > 0 || r->code != 0 || accuracy_child_compare(s, i, e));
+            pool_progress_step(&p, accuracy_rows_name(s, i), w[i], 0, s->length);
         }
-    progress(s, all, all);
+    pool_progress_clear(&p);
     return ok;
 }
 
@@ -582,14 +534,16 @@ static int accuracy_run(struct cmd_call *c, struct err *e)
                                .file = g->operands[0],
                                .until = INFINITY,
                                .json = args_given(g, "json"),
-                               .presets = args_given(g, "presets"),
+                               .single = args_given(g, "knobs") || args_given(g, "values"),
+                               .excerpt = NAN,
                                .csv = args_value(g, "csv"),
                                .plot = args_value(g, "plot")};
-    long runs = 3;
+    long runs = 5;
     if (!args_whole(g, "runs", (const long[2]){1, 1000}, &runs, e)) return (int)e->kind;
     s.runs = (int)runs;
-    if (s.presets && args_given(g, "values"))
-        err_set(e, ERR_USAGE, "--presets leaves no room for --values");
+    if (!cmd_quantity(c, "excerpt", KEY_TIME, &s.excerpt, e)) return (int)e->kind;
+    if (s.excerpt <= 1e-3)
+        err_set(e, ERR_USAGE, "--excerpt: it must be longer than 1 ms");
     else if (s.csv && !text_ends(s.csv, ".csv"))
         err_set(e, ERR_USAGE, "--csv %s: must end in .csv", s.csv);
     else if (s.plot && !text_ends(s.plot, ".png") && !text_ends(s.plot, ".svg"))
@@ -610,24 +564,25 @@ static int accuracy_run(struct cmd_call *c, struct err *e)
 
 const struct command accuracy_command = {
     .name = "accuracy",
-    .summary = "shows what accuracy costs: error and time of each preset and knob",
-    .does = "Renders the scene with each preset, and with each value that a preset has of each knob that turns it "
-            "(rasp plan lists them), and prints how far each is from the preset reference: the samples' error in dB, "
-            "the worst difference of third octaves, the distance of spectra (windows of 5, 20 and 80 ms); and what it "
-            "costs: CPU time, times real time, peak memory. alone: all other knobs at reference, so that the knob's "
-            "own error shows; order: the power of the knob with which that falls (of a knob in dB, dB per dB); total: "
-            "all other knobs as the scene has them. The error that reference has itself is extrapolated from that, and "
-            "smaller ones are marked. * marks what nothing else beats in both error and CPU time. Where two renders "
-            "diverge, as of a ball that bounces, it says from when on, and compares levels and spectra of what comes "
-            "after. A scene without a sound is compared by its contact force. Each render is a process of its own, one "
-            "at a time, in a temporary folder.",
+    .summary = "shows what accuracy costs: time against error",
+    .does =
+        "Chooses the knobs for errors from -40 to -120 dB (accuracy.error), renders the scene with each of them and "
+        "with each preset, and prints what error was asked, predicted and measured, which knobs that takes, and what "
+        "it costs: time to choose, CPU time of the render as a median with an interval, times real time, peak "
+        "memory. Errors are measured against a reference finer than all of these, whose own error is bounded; "
+        "smaller ones are marked with <. An error that cannot be had is a row that says why. * marks what nothing "
+        "else beats in both error and CPU time, where intervals tell. Of a long or dear scene an excerpt is "
+        "measured (motion.until), as it says. With --knobs single knobs, too: alone, with all others at "
+        "reference, and in all, with all others as the scene has them. Where two renders diverge, as of a ball "
+        "that bounces, it says from when on, and compares third octaves, spectra and levels of what comes after. "
+        "A scene without a sound is compared by its contact force. Each render is a process of its own, one at a "
+        "time, in a temporary folder.",
     .operands = "SCENE",
     .least = 1,
     .most = 1,
     .options = accuracy_options,
-    .examples =
-        "rasp accuracy scenes/strike.yaml\n"
-        "rasp accuracy scenes/basswood_scrape.yaml --set 'motion.duration=0.5 s' --csv cost.csv --plot cost.png\n"
-        "rasp accuracy scenes/strike.yaml --values oversampling=2,16 --runs 1 --json\n",
+    .examples = "rasp accuracy scenes/forces_only.yaml\n"
+                "rasp accuracy scenes/basswood_scrape.yaml --errors=-40,-70 --csv cost.csv --plot cost.png\n"
+                "rasp accuracy scenes/strike.yaml --values oversampling=2,16 --runs 1 --json\n",
     .run = accuracy_run,
 };

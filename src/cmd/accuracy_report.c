@@ -1,5 +1,4 @@
-/* The table of `rasp accuracy` as CSV: one row per setting, SI units and dB; a cell is empty where there is no figure,
- * inf where samples are the same. */
+/* rasp accuracy: the table as text, JSON and CSV, and the picture. See accuracy.h. */
 #include "cmd/accuracy.h"
 
 #include <math.h>
@@ -21,6 +20,9 @@ static void cells(FILE *f, int n, const double *x)
         fprintf(f, isnan(x[i]) ? "," : ",%.6g", x[i]);
 }
 
+/* Times real time, at a CPU time. */
+static double speed(const struct accuracy_render *r, double cpu) { return r->error.length / fmax(cpu, 1e-9); }
+
 /* NULL: none */
 static void errors(FILE *f, const struct accuracy_render *r)
 {
@@ -31,52 +33,53 @@ static void errors(FILE *f, const struct accuracy_render *r)
 
 void accuracy_report_table(const struct accuracy_sweep *s, FILE *f)
 {
-    fputs("setting,value,scene", f);
-    for (int i = 0; i < 2; i++) {
-        const char *of = i ? "" : "alone_";
+    fputs("setting,value,scene,predicted_db,choosing_s", f);
+    for (int k = 0; k < KNOBS; k++)
+        fprintf(f, ",%s", keys_knobs[k].name);
+    for (int i = 0; i < 1 + s->single; i++) {
+        const char *of = i ? "alone_" : "";
         fprintf(f, ",%ssnr_db,%sthird_octave_db,%sthird_octave_hz,%sspectral_db,%slevel_db,%sfollows_s%s", of, of, of,
-                of, of, of, i ? "" : ",order");
+                of, of, of, i ? ",order" : "");
     }
-    fputs(",cpu_s,real_time_factor,peak_bytes,contact_share,front,below_reference,exit_code,diverges_s,reference_snr_"
-          "db\n",
+    fputs(",cpu_s,cpu_from_s,cpu_to_s,runs,real_time_factor,peak_bytes,contact_share,front,below_reference,exit_code,"
+          "diverges_s,reference_snr_db,excerpt_s\n",
           f);
     for (int i = 0; i < s->n_rows; i++) {
         const struct accuracy_row *w = &s->rows[i];
         const struct accuracy_render *r = &s->renders[w->total];
         bool ran = r->code == 0;
         fprintf(f, "%s,%s,%d", w->name, w->value, w->chosen);
-        errors(f, w->alone >= 0 ? &s->renders[w->alone] : NULL);
-        cells(f, 1, &w->order);
+        cells(f, 2, (const double[]){w->predicted, w->choosing});
+        for (int k = 0; k < KNOBS; k++)
+            cells(f, 1, &(double){w->refused ? NAN : accuracy_knob(&r->set, (enum knob)k)});
         errors(f, r);
-        cells(f, 2, (const double[]){ran ? r->cpu : NAN, ran ? r->error.length / fmax(r->cpu, 1e-9) : NAN});
+        if (s->single) {
+            errors(f, w->alone >= 0 ? &s->renders[w->alone] : NULL);
+            cells(f, 1, &w->order);
+        }
+        cells(f, 3, ran ? (const double[]){r->cpu[1], r->cpu[0], r->cpu[2]} : (const double[]){NAN, NAN, NAN});
+        fprintf(f, ",%d", r->n_runs);
+        cells(f, 1, &(double){ran ? speed(r, r->cpu[1]) : NAN});
         fprintf(f, ran ? ",%.0f" : ",", r->peak);
         cells(f, 1, ran ? &r->contact_share : &(double){NAN});
         fprintf(f, ",%d,%d,%d", r->front, accuracy_judge_below(s, r), r->code);
-        cells(f, 2, (const double[]){isfinite(s->until) ? s->until : NAN, s->own_db});
+        cells(f, 3, (const double[]){isfinite(s->until) ? s->until : NAN, s->own_db, s->excerpt});
         fputc('\n', f);
     }
 }
 
 /* What is printed: as JSON, or for people, in colour on a terminal unless NO_COLOR is set (no-color.org). */
 
-enum { BAR = 8 };
-
 /* ------------------------------------------------------------------ cells */
-
-static const char *bar(const struct accuracy_sweep *s, double share)
-{
-    int n = isfinite(share) ? (int)rint(BAR * fmin(fmax(share, 0.0), 1.0)) : BAR;
-    return arena_format(s->call->arena, "%.*s%*s", n, "########", BAR - n, "");
-}
 
 static const char *error_text(const struct accuracy_sweep *s, const struct accuracy_render *r)
 {
     if (r->code != 0) return arena_format(s->call->arena, "exit %d", r->code);
     if (r == &s->renders[s->reference]) return "-";
     if (isnan(r->error.snr)) return "none";
-    return isfinite(r->error.snr)
-               ? arena_format(s->call->arena, "%s%.1f dB", accuracy_judge_below(s, r) ? "<" : "", -r->error.snr)
-               : "same bits";
+    return isfinite(r->error.snr) ? arena_format(s->call->arena, "%s%.1f dB", accuracy_judge_below(s, r) ? "<" : "",
+                                                 -fmin(r->error.snr, s->own_db))
+                                  : "same bits";
 }
 
 /* JSON has no infinities: null. */
@@ -92,108 +95,168 @@ static void set_error(struct report *r, const char *key, const struct accuracy_r
                    key, o->snr, isinf(o->snr) && o->snr > 0, o->third, o->third_hz, o->spectral, o->level, o->follows);
 }
 
-static void report_setting(struct report *r, const struct accuracy_sweep *s, const struct accuracy_row *w, bool colour)
+static void set_setting(struct report *r, const struct accuracy_sweep *s, const struct accuracy_row *w)
 {
     const struct accuracy_render *x = &s->renders[w->total];
-    struct arena *a = s->call->arena;
-    report_set(r, ":{ setting:s value:s scene:b alone:0 order:n total:0 cost:0 front:b below_reference:b", w->name,
-               w->value, w->chosen, w->order, x->front, accuracy_judge_below(s, x));
-    if (w->alone >= 0) set_error(r, "alone", &s->renders[w->alone]);
+    report_set(r, ":{ setting:s value:s scene:b predicted_db:n choosing_s:n knobs:{", w->name, w->value, w->chosen,
+               w->predicted, w->choosing);
+    for (int k = 0; k < KNOBS; k++)
+        if (s->knobs & 1u << k && !w->refused)
+            report_set(r, "$:n", keys_knobs[k].name, accuracy_knob(&x->set, (enum knob)k));
+    report_set(r, "} total:0 alone:0 order:n cost:0 front:b below_reference:b", w->order, x->front,
+               accuracy_judge_below(s, x));
     set_error(r, "total", x);
+    if (w->alone >= 0) set_error(r, "alone", &s->renders[w->alone]);
     if (x->code == 0)
-        report_set(r, "cost:{ cpu_s:n real_time_factor:n peak_bytes:n contact_share:n }", x->cpu,
-                   x->error.length / fmax(x->cpu, 1e-9), x->peak, x->contact_share);
+        report_set(r,
+                   "cost:{ cpu_s:n cpu_interval_s:[ :n :n ] runs:i real_time_factor:n peak_bytes:n contact_share:n }",
+                   x->cpu[1], x->cpu[0], x->cpu[2], x->n_runs, speed(x, x->cpu[1]), x->peak, x->contact_share);
     report_set(r, "}");
-    report_text(r, "%s%-24s", colour && x->front ? "\033[1;32m" : "",
-                arena_format(a, "%c %s %s%s", w->chosen ? '=' : ' ', w->name, w->value, x->front ? " *" : ""));
-    report_text(r, "  %10s %6s", w->alone >= 0 ? error_text(s, &s->renders[w->alone]) : "",
-                isnan(w->order) ? "" : arena_format(a, "%.2f", w->order));
-    report_text(r, "  %10s ", error_text(s, x)); /* what it sounds like, and what it costs */
-    double snr = 1.0, cpu = 0.0;                 /* the most of all renders */
-    for (int i = 0; i < s->n_renders; i++) {
-        const struct accuracy_render *one = &s->renders[i];
-        if (one->code == 0 && isfinite(one->error.snr)) snr = fmax(snr, one->error.snr);
-        if (one->timed && isfinite(one->cpu)) cpu = fmax(cpu, one->cpu);
+}
+
+static void text_setting(struct report *r, const struct accuracy_sweep *s, const struct accuracy_row *w, bool colour)
+{
+    const struct accuracy_render *x = &s->renders[w->total];
+    const struct accuracy_error *o = &x->error;
+    struct arena *a = s->call->arena;
+    bool again = w->refused && w > s->rows && w->refused == w[-1].refused;
+    const char *head = arena_format(a, "%-20s",
+                                    arena_format(a, "%c %s %s%s%s", w->chosen ? '=' : ' ', w->name, w->value,
+                                                 strcmp(w->name, "asked") ? "" : " dB", x->front ? " *" : ""));
+    if (w->refused) { /* without the error that the row says itself */
+        const char *own = strstr(w->refused, " dB cannot be"), *why = own ? own + strlen(" dB ") : w->refused;
+        report_note(r, arena_format(a, "%s  ", head), again ? "nor this" : text_shown(a, why));
+        return;
     }
-    if (x->code == 0) {
-        const struct accuracy_error *o = &x->error;
-        report_text(r, "%s  %7.3f %8.3f",
-                    x == &s->renders[s->reference] ? bar(s, 1.0) : bar(s, isnan(o->snr) ? 0.0 : o->snr / snr), o->third,
-                    o->spectral);
-        if (isfinite(s->until))
-            report_text(r, " %8.2f %6.3f s %8s", o->level, o->follows,
-                        isnan(x->contact_share) ? "" : arena_format(a, "%.1f %%", 100.0 * x->contact_share));
-        report_text(r, "  %7.4f s %s %7.4g  %6.1f MB", x->cpu, bar(s, x->cpu / cpu), o->length / fmax(x->cpu, 1e-9),
-                    x->peak / 1e6);
-    }
+    report_text(r, "%s%s", colour && x->front ? "\033[1;32m" : "", head);
+    if (w->knob < 0)
+        report_text(r, " %9s", isnan(w->predicted) ? "" : arena_format(a, "%.1f dB", w->predicted));
+    else
+        report_text(r, " %10s %6s", error_text(s, &s->renders[w->alone]),
+                    isnan(w->order) ? "" : arena_format(a, "%.2f", w->order));
+    report_text(r, " %10s", error_text(s, x));
+    for (int k = 0; k < KNOBS && w->knob < 0; k++)
+        if (s->knobs & 1u << k)
+            report_text(r, "  %*.6g", (int)strlen(keys_knobs[k].name), accuracy_knob(&x->set, (enum knob)k));
+    if (x->code == 0 && isfinite(s->until))
+        report_text(r, "  %7.3f %8.3f %8.2f %6.3f s %8s", o->third, o->spectral, o->level, o->follows,
+                    isnan(x->contact_share) ? "" : arena_format(a, "%.1f %%", 100.0 * x->contact_share));
+    if (w->knob < 0) report_text(r, " %9s", isnan(w->choosing) ? "" : arena_format(a, "%.2f s", w->choosing));
+    if (x->code == 0)
+        report_text(r, "  %8.4f s %-19s %8.3g %8.1f MB", x->cpu[1],
+                    x->n_runs > 1 ? arena_format(a, "(%.4f to %.4f)", x->cpu[0], x->cpu[2]) : "(once)",
+                    speed(x, x->cpu[1]), x->peak / 1e6);
     report_text(r, "%s\n", colour && x->front ? "\033[0m" : "");
+}
+
+static void text_heads(struct report *r, const struct accuracy_sweep *s, bool knob)
+{
+    if (knob)
+        report_text(r, "\n%-20s %10s %6s %10s", "", "alone", "order", "total");
+    else
+        report_text(r, "\n%-20s %9s %10s", "", "predicted", "measured");
+    for (int k = 0; k < KNOBS && !knob; k++)
+        if (s->knobs & 1u << k) report_text(r, "  %s", keys_knobs[k].name);
+    if (isfinite(s->until))
+        report_text(r, "  %7s %8s %8s %8s %8s", "3rd oct", "spectrum", "level", "follows", "contact");
+    if (!knob) report_text(r, " %9s", "choosing");
+    report_text(r, "  %-30s %8s %11s\n", "CPU of the render", "x real", "memory");
+}
+
+static void notes(struct report *r, const struct accuracy_sweep *s)
+{
+    struct arena *a = s->call->arena;
+    const char *own = "of which nothing more is known", *how = "", *what = "";
+    if (isfinite(s->own_db))
+        own = arena_format(a,
+                           "whose own error is %.0f dB at most: so much changes where its knobs are half as fine. Less "
+                           "is not told (<)",
+                           -s->own_db);
+    else if (isinf(s->until))
+        own = "which has the same bits where its knobs are half as fine";
+    for (int k = 0; k < KNOBS; k++)
+        if (s->knobs & 1u << k)
+            what = arena_format(a, "%s%s%s %.6g", what, *what ? ", " : "", keys_knobs[k].name,
+                                accuracy_knob(&s->renders[s->reference].set, (enum knob)k));
+    report_note(r, "",
+                arena_format(a, "%s: %s%.3f s, %.9g Hz, %d channel%s; turned by %s.", text_shown(a, s->file),
+                             s->force ? "no sound, so its contact force: " : "", s->length, s->rate, s->channels,
+                             s->channels == 1 ? "" : "s", plan_knobs_text(s->knobs, a)));
+    if (s->excerpt > 0)
+        report_note(
+            r, "",
+            arena_format(a,
+                         "An excerpt: knobs are chosen, errors and costs measured of its first %.3g s (motion.until) "
+                         "out of %.3g s; --excerpt says how much.",
+                         s->excerpt, s->whole));
+    report_note(r, "", arena_format(a, "Errors are against a reference%s%s, %s.", *what ? " of " : "", what, own));
+    if (isfinite(s->until))
+        report_note(
+            r, "",
+            arena_format(a,
+                         "It is chaotic: from %.2f s on, the reference and one half as fine are two sounds of one "
+                         "kind. Samples are compared up to there; third octaves, spectra and levels after it; follows: "
+                         "how long each goes with the reference. Those two, equally right, have spectra %.2g dB apart: "
+                         "less is no merit.",
+                         s->until, s->renders[s->near].error.spectral));
+    for (int i = 0; i < s->n_renders; i++)
+        if (s->renders[i].n_runs > 1 && !*how)
+            how = arena_format(a, "the median of %d runs, and where it lies with %.0f %%", s->renders[i].n_runs,
+                               100 * s->renders[i].covers);
+    report_note(r, "",
+                arena_format(a, "=: the scene as it is.%s CPU: %s. *: nothing is cheaper and better.",
+                             s->single ? " total: all other knobs as the scene has them; alone: the others as the "
+                                         "reference has them."
+                                       : "",
+                             *how ? how : "of one run"));
 }
 
 bool accuracy_report(const struct accuracy_sweep *s, struct err *e)
 {
     const char *no = getenv("NO_COLOR");
     bool colour = isatty(STDOUT_FILENO) && (!no || !*no);
-    struct arena *a = s->call->arena;
     struct report r = report_open(stdout, s->json);
-    report_set(&r, "scene:s compared:s length_s:n rate_hz:n channels:i runs:i", s->file, s->force ? "force" : "sound",
-               s->length, s->rate, s->channels, s->runs);
-    report_set(&r, "diverges_s:n reference_error_db:n reference_errors_db:{", s->until, -s->own_db);
-    const char *parts = "", *own = "Errors are against the preset reference.";
-    for (int k = 0; k < KNOBS; k++) {
-        double db = s->own[k] > 0.0 ? 20.0 * real_log10(s->own[k]) : NAN;
-        if (s->knobs & 1u << k) report_set(&r, "$:n", keys_knobs[k].name, db);
-        if (!isnan(db)) parts = arena_format(a, "%s%s%s %.0f dB", parts, *parts ? ", " : "", keys_knobs[k].name, db);
-    }
-    bool judged = isinf(s->until) && !s->presets;
-    if (judged && isinf(s->own_db))
-        own = "Errors are against the preset reference, which has none that these knobs would show.";
-    else if (judged)
-        own = arena_format(a,
-                           "Errors are against the preset reference, whose own is about %.0f dB (%s): of smaller ones "
-                           "(<) believe no more than that.",
-                           -s->own_db, parts);
+    report_set(&r, "scene:s compared:s length_s:n rate_hz:n channels:i excerpt_s:n motion_s:n", s->file,
+               s->force ? "force" : "sound", s->length, s->rate, s->channels, s->excerpt, s->whole);
+    report_set(&r, "diverges_s:n reference_error_db:n reference:{", s->until, -s->own_db);
+    for (int k = 0; k < KNOBS; k++)
+        if (s->knobs & 1u << k)
+            report_set(&r, "$:n", keys_knobs[k].name, accuracy_knob(&s->renders[s->reference].set, (enum knob)k));
     report_set(&r, "} settings:[");
-    report_note(&r, "",
-                arena_format(a, "%s: %s%.3f s, %.9g Hz, %d channel%s; turned by %s.", text_shown(a, s->file),
-                             s->force ? "no sound, so its contact force: " : "", s->length, s->rate, s->channels,
-                             s->channels == 1 ? "" : "s", plan_knobs_text(s->knobs, a)));
-    report_note(&r, "", own);
-    if (isfinite(s->until))
-        report_note(
-            &r, "",
-            arena_format(a,
-                         "It is chaotic: from %.2f s on, high and reference are two sounds of one kind. Samples "
-                         "are compared up to there (alone, total); third octaves, spectra and levels after it; "
-                         "follows: how long each goes with reference. high and reference, equally right, have "
-                         "spectra %.2g dB apart: less is no merit.",
-                         s->until, s->renders[s->high].error.spectral));
-    report_note(&r, "",
-                arena_format(a,
-                             "total: all other knobs as the scene has them (=); alone: the others at reference. CPU: "
-                             "of the render, the least of %d run%s. *: nothing is cheaper and better.",
-                             s->runs, s->runs == 1 ? "" : "s"));
-    report_text(&r, "\n%-24s  %10s %6s  %10s %-*s  %7s %8s", "", "alone", "order", "total", BAR, "", "3rd oct",
-                "spectrum");
-    if (isfinite(s->until)) report_text(&r, " %8s %8s %8s", "level", "follows", "contact");
-    report_text(&r, "  %9s %-*s %7s  %9s\n", "CPU", BAR, "", "x real", "memory");
+    notes(&r, s);
     for (int i = 0; i < s->n_rows; i++) {
-        if (i > 0 && strcmp(s->rows[i].name, s->rows[i - 1].name) != 0) report_text(&r, "\n");
-        report_setting(&r, s, &s->rows[i], colour);
+        const struct accuracy_row *w = &s->rows[i];
+        if (i == 0 || (w->knob >= 0 && w[-1].knob < 0))
+            text_heads(&r, s, w->knob >= 0);
+        else if (strcmp(w->name, w[-1].name) != 0)
+            report_text(&r, "\n");
+        set_setting(&r, s, w);
+        text_setting(&r, s, w, colour);
     }
     for (int i = 0; i < s->n_renders; i++)
-        if (s->renders[i].code != 0)
+        if (s->renders[i].code != 0 && s->renders[i].times)
             report_text(&r, "exit %d with %s: %s\n", s->renders[i].code, accuracy_rows_name(s, i), s->renders[i].words);
     return report_close(&r, 9, e);
 }
 
-/* The picture of `rasp accuracy`: what each setting's error is against how many times faster than real time it renders;
-   a line for each knob, the presets by name, the front ringed, and the reference's own error as a grey line, below
-   which no figure means much. Of a sound that diverges the error is that of its spectrum. */
+/* The picture of `rasp accuracy`: what a second of CPU time buys. A curve of asked errors, as measured, with the
+   intervals of their times; the presets and the scene beside it; single knobs as curves of their own; the reference's
+   own error as a grey line, below which no figure means much. Of a sound that diverges the error is that of its
+   spectrum. Both axes are laid out here: labels that would overlap take another place. */
+
+enum { WIDTH = 1000, HEIGHT = 640, TEXT = 13 };                         /* pixels */
+static const double left = 0.085, right = 0.97, low = 0.1, high = 0.83; /* the plot within the page */
 
 /* Okabe and Ito's set, told apart by colour-blind people too. */
 static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
 
-static double speed(const struct accuracy_render *r) { return r->error.length / fmax(r->cpu, 1e-9); }
+struct picture {
+    const struct accuracy_sweep *s;
+    struct gnuplot *g;
+    double x[2], y[2];  /* range of the axes: s (logarithmic), dB */
+    double (*taken)[4]; /* pixels: from and to, across and up, [n] of points and labels */
+    int n;
+};
 
 /* dB; settings that are the reference, or make its samples, have none. */
 static bool shown(const struct accuracy_sweep *s, const struct accuracy_row *w, double *error)
@@ -203,101 +266,190 @@ static bool shown(const struct accuracy_sweep *s, const struct accuracy_row *w, 
     return r->code == 0 && isfinite(*error) && w->total != s->reference;
 }
 
-/* Leading digits of labels, from few to many: the last set has two in whatever spans a factor of 2.25. */
-static const double digits[3][11] = {{1}, {1, 2, 5}, {1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9}};
+/* Leading digits of labels, from few to many: the last set has three in whatever spans a factor of 2.25. */
+static const double digits[3][15] = {{1}, {1, 2, 5}, {1, 1.2, 1.5, 2, 2.5, 3, 3.5, 4, 4.5, 5, 6, 7, 8, 9}};
 
-int accuracy_report_tics(double low, double high, double tics[ACCURACY_REPORT_TICS])
+int accuracy_report_tics(double from, double to, double tics[ACCURACY_REPORT_TICS])
 {
     int n = 0;
-    for (int set = 0; set < 3 && n < 2; set++) {
+    for (int set = 0; set < 3 && n < 3; set++) {
         n = 0;
-        for (int e = (int)floor(real_log10(low)); e <= (int)ceil(real_log10(high)); e++)
+        for (int e = (int)floor(real_log10(from)); e <= (int)ceil(real_log10(to)); e++)
             for (const double *d = digits[set]; *d > 0; d++) {
                 double x = *d * real_pow(10, e);
-                if (x >= low && x <= high && n < ACCURACY_REPORT_TICS) tics[n++] = x;
+                if (x >= from && x <= to && n < ACCURACY_REPORT_TICS) tics[n++] = x;
             }
     }
     return n;
 }
 
-/* From a little below the slowest to a little above the fastest. */
-static void put_range(const struct accuracy_sweep *s, struct gnuplot *g)
+static void put_axis(const struct picture *p, const char *axis, double from, double to)
 {
-    double low = HUGE_VAL, high = 0.0, error;
-    for (int i = 0; i < s->n_rows; i++)
-        if (shown(s, &s->rows[i], &error)) {
-            low = fmin(low, speed(&s->renders[s->rows[i].total]));
-            high = fmax(high, speed(&s->renders[s->rows[i].total]));
-        }
-    if (!(high > 0.0)) return;
     double tics[ACCURACY_REPORT_TICS];
-    int n = accuracy_report_tics(low / 1.5, high * 1.5, tics);
-    fprintf(g->in, "set xrange [%.4g:%.4g]\nset xtics (", low / 1.5, high * 1.5);
+    int n = accuracy_report_tics(fmin(from, to), fmax(from, to), tics);
+    fprintf(p->g->in, "set logscale %s\nset %srange [%.6g:%.6g]\nset %stics (", axis, axis, from, to, axis);
     for (int i = 0; i < n; i++)
-        fprintf(g->in, "%s'%.6g' %.6g", i ? ", " : "", tics[i], tics[i]);
-    fputs(")\n", g->in);
+        fprintf(p->g->in, "%s'%.6g' %.6g", i ? ", " : "", tics[i], tics[i]);
+    fputs(")\n", p->g->in);
+}
+
+/* A little more than what is shown, a factor of 2.25 and 10 dB at least; nothing shown: some range. */
+static void put_axes(struct picture *p)
+{
+    const struct accuracy_sweep *s = p->s;
+    double error;
+    p->x[0] = p->y[0] = HUGE_VAL;
+    p->x[1] = p->y[1] = -HUGE_VAL;
+    for (int i = 0; i < s->n_rows; i++) {
+        if (!shown(s, &s->rows[i], &error)) continue;
+        const struct accuracy_render *r = &s->renders[s->rows[i].total];
+        p->x[0] = fmin(p->x[0], fmax(r->cpu[0], 1e-6));
+        p->x[1] = fmax(p->x[1], fmax(r->cpu[2], 1e-6));
+        p->y[0] = fmin(p->y[0], error);
+        p->y[1] = fmax(p->y[1], error);
+    }
+    if (!(p->x[1] > 0)) p->x[0] = p->x[1] = p->y[0] = p->y[1] = 1;
+    p->x[0] /= 1.5;
+    p->x[1] *= 1.8;
+    double more = fmax(0.08 * (p->y[1] - p->y[0]), isfinite(s->until) ? 0.5 : 5);
+    p->y[0] -= more;
+    p->y[1] += more;
+    put_axis(p, "x", p->x[0], p->x[1]);
+    put_axis(p, "x2", s->length / p->x[0], s->length / p->x[1]);
+    fprintf(p->g->in, "set yrange [%.6g:%.6g]\n", p->y[0], p->y[1]);
+}
+
+/* Pixels of a point. */
+static void place(const struct picture *p, double x, double y, double at[2])
+{
+    at[0] = WIDTH * (left + (right - left) * real_log(x / p->x[0]) / real_log(p->x[1] / p->x[0]));
+    at[1] = HEIGHT * (low + (high - low) * (y - p->y[0]) / (p->y[1] - p->y[0]));
+}
+
+static bool is_free(const struct picture *p, const double box[4])
+{
+    bool ok = box[0] > WIDTH * left && box[1] < WIDTH * right && box[2] > HEIGHT * low && box[3] < HEIGHT * high;
+    for (int i = 0; ok && i < p->n; i++)
+        ok = box[0] > p->taken[i][1] || box[1] < p->taken[i][0] || box[2] > p->taken[i][3] || box[3] < p->taken[i][2];
+    return ok;
+}
+
+/* Beside a point, right or left of it, higher or lower: the nearest place that is free. */
+static void put_label(struct picture *p, double x, double y, const char *text, const char *colour)
+{
+    double at[2], wide = 7.5 * (double)strlen(text), box[4] = {0};
+    place(p, x, y, at);
+    for (int i = 0; i < 42; i++) {
+        int step = i / 2;
+        double up = (step % 2 ? 1 : -1) * ((step + 1) / 2) * 0.5 * TEXT;
+        box[0] = i % 2 ? at[0] - 11 - wide : at[0] + 11;
+        box[1] = box[0] + wide;
+        box[2] = at[1] + up - 0.5 * TEXT;
+        box[3] = box[2] + TEXT;
+        if (is_free(p, box)) break;
+    }
+    memcpy(p->taken[p->n++], box, sizeof box);
+    fputs("set label ", p->g->in);
+    gnuplot_put_text(p->g, text);
+    fprintf(p->g->in, " at screen %.5f, screen %.5f left noenhanced front font ',10' textcolor rgb '%s'\n",
+            box[0] / WIDTH, 0.5 * (box[2] + box[3]) / HEIGHT, colour);
+}
+
+/* The end of the rows of one curve or kind. */
+static int kind_end(const struct accuracy_sweep *s, int i)
+{
+    int end = i;
+    while (end < s->n_rows && s->rows[end].knob == s->rows[i].knob &&
+           (s->rows[i].knob >= 0 || (s->rows[end].name[0] == 'a') == (s->rows[i].name[0] == 'a')))
+        end++;
+    return end;
+}
+
+/* Names of the rows [i, end) that are that render, but for those before i: "-40, -60". */
+static const char *names(const struct accuracy_sweep *s, int i, int end, int render)
+{
+    const char *text = "";
+    for (; i < end; i++)
+        if (s->rows[i].total == render && !(s->rows[i].knob >= 0 && s->rows[i].chosen))
+            text = arena_format(s->call->arena, "%s%s%s", text, *text ? ", " : "",
+                                *s->rows[i].value ? s->rows[i].value : "scene");
+    return text;
 }
 
 void accuracy_report_plot(void *sweep, struct gnuplot *g)
 {
     const struct accuracy_sweep *s = sweep;
-    const char *between = "plot ";
-    bool own = isfinite(s->own_db) && !isfinite(s->until);
-    gnuplot_page(g, s->plot && text_ends(s->plot, ".svg"), 1000, 640);
-    fputs("set grid linewidth 0.5 linecolor rgb '#dddddd'\nset logscale x\nset key noenhanced outside right top "
-          "vertical samplen 2\n"
-          "set xlabel 'times real time'\nset offsets 0, 0, graph 0.06, graph 0.06\n",
-          g->in);
-    gnuplot_put_setting(g, "title", s->scene.title ? s->scene.title : s->file);
+    struct picture p = {.s = s, .g = g, .taken = (double(*)[4])ARENA_TAKE(s->call->arena, double, 8 * s->n_rows + 4)};
+    const char *between = "plot ", *title = s->scene.title ? s->scene.title : s->file;
+    bool own = isfinite(s->own_db);
+    double error, at[2];
+    int end, curve = 0;
+    if (s->excerpt > 0) title = arena_format(s->call->arena, "%s (its first %.3g s)", title, s->excerpt);
+    gnuplot_page(g, s->plot && text_ends(s->plot, ".svg"), WIDTH, HEIGHT);
+    fprintf(g->in,
+            "set lmargin at screen %g\nset rmargin at screen %g\nset bmargin at screen %g\nset tmargin at screen %g\n"
+            "set grid linewidth 0.5 linecolor rgb '#dddddd'\nset key noenhanced inside right top opaque samplen 2\n"
+            "set xtics nomirror\nset border 15\nset xlabel 'CPU time of the render / s'\n"
+            "set x2label 'times real time'\n",
+            left, right, low, high);
+    gnuplot_put_setting(g, "title", title);
     fprintf(g->in, "set ylabel '%s'\n",
-            isfinite(s->until) ? "log-spectral distance from reference after divergence / dB"
-                               : "error / dB (of the sound, below it)");
+            isfinite(s->until) ? "log-spectral distance from the reference after divergence / dB"
+                               : "measured error / dB (of the sound, below it)");
     if (own) fprintf(g->in, "own = %.6g\n", -s->own_db);
-    put_range(s, g);
-    int front = 0, end, colour = 0;
-    fputs("$front << END\n", g->in);
-    for (int i = 0; i < s->n_rows; i++) {
-        double error;
-        if (!shown(s, &s->rows[i], &error) || !s->renders[s->rows[i].total].front) continue;
-        fprintf(g->in, "%.6g %.6g\n", speed(&s->renders[s->rows[i].total]), error);
-        front++;
+    put_axes(&p);
+    for (int i = 0; i < s->n_rows; i++) { /* points and their intervals */
+        const struct accuracy_render *r = &s->renders[s->rows[i].total];
+        double to[2];
+        if (!shown(s, &s->rows[i], &error)) continue;
+        place(&p, fmax(r->cpu[0], 1e-6), error, at);
+        place(&p, fmax(r->cpu[2], 1e-6), error, to);
+        memcpy(p.taken[p.n++], (const double[4]){at[0] - 6, to[0] + 6, at[1] - 5, at[1] + 5}, sizeof *p.taken);
     }
-    fputs("END\n", g->in);
-    for (int i = 0; i < s->n_rows; i = end) {
-        for (end = i; end < s->n_rows && s->rows[end].knob == s->rows[i].knob; end++)
-            continue;
+    for (int i = 0; i < s->n_rows; i = end, curve++) {
+        end = kind_end(s, i);
+        const char *colour = colours[curve % (int)(sizeof colours / sizeof *colours)];
         fprintf(g->in, "$b%d << END\n", i);
         for (int k = i; k < end; k++) {
-            const struct accuracy_row *w = &s->rows[k];
-            double error;
-            if (!shown(s, w, &error)) continue;
-            const char *name = *w->value ? w->value : "scene";
-            bool named = w->knob < 0 || !w->chosen; /* all knobs' curves meet where the scene is */
-            fprintf(g->in, "%.6g %.6g \"%s\"\n", speed(&s->renders[w->total]), error, named ? name : "");
+            const struct accuracy_render *r = &s->renders[s->rows[k].total];
+            if (!shown(s, &s->rows[k], &error)) continue;
+            fprintf(g->in, "%.6g %.6g %.6g %.6g\n", fmax(r->cpu[1], 1e-6), error, fmax(r->cpu[0], 1e-6),
+                    fmax(r->cpu[2], 1e-6));
         }
         fputs("END\n", g->in);
+        for (int k = i; k < end; k++) {
+            int first = i;
+            while (s->rows[first].total != s->rows[k].total)
+                first++;
+            const char *text = names(s, i, end, s->rows[k].total);
+            if (first == k && *text && shown(s, &s->rows[k], &error))
+                put_label(&p, fmax(s->renders[s->rows[k].total].cpu[1], 1e-6), error, text, colour);
+        }
     }
-    for (int i = 0; i < s->n_rows; i = end) {
-        double error;
+    curve = 0;
+    for (int i = 0; i < s->n_rows; i = end, curve++) {
         int n = 0;
-        for (end = i; end < s->n_rows && s->rows[end].knob == s->rows[i].knob; end++)
-            n += shown(s, &s->rows[end], &error);
+        end = kind_end(s, i);
+        for (int k = i; k < end; k++)
+            n += shown(s, &s->rows[k], &error);
         if (n == 0) continue;
-        const char *c = s->rows[i].knob < 0 ? "#888888" : colours[colour++ % (int)(sizeof colours / sizeof *colours)];
+        bool asked = s->rows[i].name[0] == 'a' && s->rows[i].knob < 0, curved = asked || s->rows[i].knob >= 0;
         fprintf(g->in,
-                "%s$b%d using 1:2 with linespoints linewidth 1.5 pointtype 7 pointsize 0.8 linecolor rgb '%s' title "
-                "'%s', '' using 1:2:3 with labels noenhanced offset %s font ',%d' textcolor rgb '%s' notitle",
-                between, i, c, s->rows[i].knob < 0 ? "presets" : s->rows[i].name,
-                s->rows[i].knob < 0 ? "-0.9,-0.3 right" : "0.6,0.6 left", s->rows[i].knob < 0 ? 11 : 8, c);
+                "%s$b%d using 1:2%s with %s linewidth 1.5 pointtype %d pointsize %s linecolor rgb '%s' title '%s'",
+                between, i, curved ? "" : ":3:4", curved ? "linespoints" : "xerrorbars", curved ? 7 : 4,
+                curved ? "0.8" : "1.4", colours[curve % (int)(sizeof colours / sizeof *colours)],
+                asked                 ? "asked errors (accuracy.error)"
+                : s->rows[i].knob < 0 ? "presets"
+                                      : s->rows[i].name);
         between = ", ";
+        if (asked)
+            fprintf(g->in, ", $b%d using 1:2:3:4 with xerrorbars linewidth 1 pointtype 0 linecolor rgb '%s' notitle", i,
+                    colours[0]);
     }
-    if (front)
-        fprintf(g->in,
-                "%s$front using 1:2 with points pointtype 6 pointsize 2 linewidth 1.2 linecolor rgb 'black' title "
-                "'nothing cheaper and better'",
-                between);
     if (own)
-        fprintf(g->in, "%sown with lines linewidth 1 dashtype 2 linecolor rgb '#888888' title 'own error of reference'",
-                front ? ", " : between);
-    fputs(front || own || colour ? "\n" : "set xrange [1:10]\nset yrange [0:1]\nplot NaN notitle\n", g->in);
+        fprintf(g->in,
+                "%sown with lines linewidth 1 dashtype 2 linecolor rgb '#888888' title 'own error of the reference, at "
+                "most'",
+                between);
+    fputs(own || *between == ',' ? "\n" : "plot NaN notitle\n", g->in);
 }

@@ -32,23 +32,6 @@ enum { REFERENCE, OWN };
 
 static bool steps(int knob) { return keys_knobs[knob].scale == KEY_STEPS; }
 
-/* `raised`: set of knobs that are finer than the preset has them. */
-static struct accuracy finest(const struct accuracy *own, unsigned used, unsigned *raised)
-{
-    struct accuracy set = *own;
-    accuracy_preset(&set, "reference");
-    *raised = 0;
-    for (int k = 0; k < KNOBS; k++) {
-        double x = accuracy_knob(own, (enum knob)k), y = accuracy_knob(&set, (enum knob)k),
-               finer = steps(k) ? fmin(2 * x, keys_knobs[k].high) : fmax(floor(x / 2), keys_knobs[k].low),
-               z = used & 1u << k ? finer : x;
-        double best = steps(k) ? fmax(z, y) : fmin(z, y);
-        accuracy_turn(&set, (enum knob)k, best);
-        *raised |= best != y ? 1u << k : 0;
-    }
-    return set;
-}
-
 /* What of the reference is raised and refused (heights that take too much memory) is had one and a half times as fine
    as what is verified, or as fine, never coarser than the preset has it: one knob after another, until the reference is
    rendered. */
@@ -110,17 +93,21 @@ static bool render_verify(struct cmd_call *c, const char *file, const struct sce
                                .file = file,
                                .scene = *asked,
                                .until = INFINITY,
-                               .high = -1,
+                               .near = -1,
                                .n_renders = 2,
                                .reference = REFERENCE};
     s.renders = ARENA_TAKE(c->arena, struct accuracy_render, 2);
     s.force = accuracy_silent(asked);
-    unsigned used, raised;
+    unsigned used, raised = 0; /* sets of knobs; raised: those finer than the preset has them */
     s.scene.accuracy = r->accuracy;
     if (!plan_scene_knobs(&s.scene, c->arena, &used, e)) return false;
-    s.renders[REFERENCE] =
-        (struct accuracy_render){.set = finest(&r->accuracy, used, &raised), .cpu = HUGE_VAL, .contact_share = NAN};
-    s.renders[OWN] = (struct accuracy_render){.set = r->accuracy, .cpu = HUGE_VAL, .contact_share = NAN};
+    struct accuracy preset = r->accuracy, reference;
+    accuracy_preset(&preset, "reference");
+    accuracy_finer(memcpy(&reference, &preset, sizeof preset), &r->accuracy, used);
+    for (int k = 0; k < KNOBS; k++)
+        raised |= accuracy_knob(&reference, (enum knob)k) != accuracy_knob(&preset, (enum knob)k) ? 1u << k : 0;
+    s.renders[REFERENCE] = (struct accuracy_render){.set = reference, .contact_share = NAN};
+    s.renders[OWN] = (struct accuracy_render){.set = r->accuracy, .contact_share = NAN};
     if (!measure(&s, raised, e)) return false;
     double measured = -s.renders[OWN].error.snr;
     if (!summary_again(r, measured, c->arena, e)) return false;

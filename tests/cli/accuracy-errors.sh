@@ -35,7 +35,9 @@ try rasp accuracy scene.yaml --values oversampling=2,,4
 try rasp accuracy scene.yaml --values oversampling
 try rasp accuracy scene.yaml --values oversamplin=2
 try rasp accuracy scene.yaml --values speed=2
-try rasp accuracy scene.yaml --presets --values oversampling=2
+try rasp accuracy scene.yaml --errors=-40,ten
+try rasp accuracy scene.yaml --errors=3
+try rasp accuracy scene.yaml --excerpt=0
 try rasp accuracy scene.yaml --runs 0
 try rasp accuracy scene.yaml --csv table.txt
 try rasp accuracy scene.yaml --plot picture.pdf
@@ -51,15 +53,16 @@ time_s,x_m,y_m
 0.1,0.02,0
 CSV
 # a setting that the scene refuses is told with the render's own words, and the others are shown
-rasp accuracy hard.yaml --runs 1 --values contact_steps=100000 --csv hard.csv > table
+rasp accuracy hard.yaml --runs 1 --errors=-20 --values contact_steps=100000 --csv hard.csv > table
 awk -F, '
     NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
     $1 == "contact_steps" && $2 == 100000 { print $at["exit_code"], ($at["snr_db"] $at["cpu_s"] == "" ? "no figures" : $0); next }
+    $1 == "asked" { next }
     $at["exit_code"] != 0 { print "refused, too: " $0 }' hard.csv
 grep '^exit 65 with contact_steps' table | grep -Eo "^exit 65 with contact_steps 100000(, else reference)?: hard.yaml: --set accuracy.contact_steps: contact 'contact': an impact|lower accuracy.contact_steps"
 # when the scene itself fails, the program ends as the render does
 sed "s/kappa: 5e13/kappa: 9e17/; s/quantity: force/&, sample_rate: 8 kHz/" hard.yaml > worse.yaml
-try rasp accuracy worse.yaml --csv worse.csv 2>&1 | grep -Eo '^rasp accuracy: error: the render with preset reference ended with exit code [0-9]+|exit code [0-9]+$'
+try rasp accuracy worse.yaml --csv worse.csv 2>&1 | grep -Eo '^rasp accuracy: error: the render with [a-z ]*reference ended with exit code [0-9]+|exit code [0-9]+$'
 # a signal: 75, and nothing stays
 rasp accuracy scene.yaml --set 'motion.duration=20 s' --set 'motion.to=[10 m, 0]' --csv late.csv > late 2> late.err &
 pid=$!
