@@ -107,6 +107,8 @@ static bool values_one(const char *given, struct arena *a, struct accuracy_value
 #define SHORTEST 0.05    /* s */
 #define STARTING 0.01    /* s, of a render that is next to nothing */
 #define NEARLY_WHOLE 0.8 /* of the motion: an excerpt that long is none */
+#define LONGEST 11.0     /* s, that all takes where more than LEAST_RUNS are made of each setting */
+#define LEAST_RUNS 3
 
 /* Predicted cycles for a second of sound; 0: there is no plan, as a render will tell. */
 static double work(const struct accuracy_sweep *s, const struct accuracy *set)
@@ -446,7 +448,8 @@ static const struct args_option accuracy_options[] = {
      "some 10 s); more than it lasts: all of it"},
     {"knobs", 'k', NULL, false, "single knobs, too: each with the values of the presets"},
     {"values", 0, "KNOB=N,N...", true, "--knobs, with further values, as in oversampling=2,16; may be repeated"},
-    {"runs", 'n', "N", false, "how often each setting is rendered for its CPU time, in turns (5)"},
+    {"runs", 'n', "N", false,
+     "how often each setting is rendered for its CPU time, in turns (5; 3 where they take long)"},
     {"csv", 0, "FILE", false, "write the table to FILE, which ends in .csv"},
     {"plot", 0, "FILE", false, "draw error against CPU time into FILE, which ends in .png or .svg"},
     {"json", 0, NULL, false, "print the table as JSON"},
@@ -499,32 +502,50 @@ static bool ask_scene(struct accuracy_sweep *s, struct err *e)
 
 /* ------------------------------------------------------------------ doing */
 
-/* Runs of one setting lie apart, so that what slows the machine for a while slows one run of each. The reference has
-   one alone. */
-static bool sweep(struct accuracy_sweep *s, struct err *e)
+/* Each setting once more, from one run to another: runs of one setting lie apart, so that what slows the machine for a
+   while slows one run of each. The reference has the first alone. */
+static bool passes(struct accuracy_sweep *s, int from, int to, struct err *e)
 {
     struct pool_progress p;
     double *w = ARENA_TAKE(s->call->arena, double, s->n_renders), all = 0;
     int n = 0;
+    bool ok = true;
     for (int i = 0; i < s->n_renders; i++) {
         struct accuracy_render *r = &s->renders[i];
-        r->times = r->code != 0 ? 0 : r->timed && i != s->reference ? s->runs : 1;
-        w[i] = r->times ? work(s, &r->set) : 0;
-        all += r->times * w[i];
-        n += r->times;
+        bool again = r->timed && i != s->reference;
+        r->ahead = r->code != 0 ? 0 : again || from == 0 ? to - from : 0;
+        w[i] = from > 0 && r->n_runs ? r->runs[0] : 1;
+        all += r->ahead * w[i];
+        n += r->ahead;
     }
     pool_progress_begin(&p, n, all, false);
-    bool ok = true;
-    for (int run = 0; ok && run < s->runs; run++)
+    for (int run = from; ok && run < to; run++)
         for (int i = 0; ok && i < s->n_renders; i++) {
             struct accuracy_render *r = &s->renders[i];
-            if (run >= r->times || (run > 0 && r->code != 0)) continue;
-            ok = accuracy_child(s, i, e);
-            ok = ok && (run > 0 || r->code != 0 || accuracy_child_compare(s, i, e));
+            if (!r->ahead) continue;
+            r->tried = true;
+            ok = accuracy_child(s, i, e) && (run > 0 || r->code != 0 || accuracy_child_compare(s, i, e));
             pool_progress_step(&p, accuracy_rows_name(s, i), w[i], 0, s->length);
         }
     pool_progress_clear(&p);
     return ok;
+}
+
+/* How often times are taken follows from what they are, where nobody says it; all else is the same everywhere. */
+static bool sweep(struct accuracy_sweep *s, struct err *e)
+{
+    double spent = 0, pass = 1e-9;
+    if (!passes(s, 0, 1, e)) return false;
+    for (int i = 0; i < s->n_rows; i++)
+        spent += isnan(s->rows[i].choosing) ? 0 : s->rows[i].choosing;
+    for (int i = 0; i < s->n_renders; i++) {
+        const struct accuracy_render *r = &s->renders[i];
+        spent += r->n_runs ? r->runs[0] : 0;
+        pass += r->n_runs && r->timed && i != s->reference ? r->runs[0] : 0;
+    }
+    if (!args_given(&s->call->args, "runs"))
+        s->runs = (int)fmax(fmin((LONGEST - spent) / pass + 1, s->runs), LEAST_RUNS);
+    return passes(s, 1, s->runs, e);
 }
 
 static int accuracy_run(struct cmd_call *c, struct err *e)

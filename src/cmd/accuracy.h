@@ -19,8 +19,9 @@ struct accuracy_error {
 
 struct accuracy_render { /* one setting of all knobs */
     struct accuracy set;
-    bool timed;        /* its cost is asked for, too */
-    int times;         /* how often it is rendered */
+    bool timed; /* its cost is asked for, too */
+    int ahead;  /* renders to come */
+    bool tried;
     int code;          /* exit code; not 0: there is no error and no cost */
     const char *words; /* what it said then, the first line */
     struct accuracy_error error;
@@ -118,8 +119,8 @@ void accuracy_report_table(const struct accuracy_sweep *s, FILE *f);
 bool accuracy_report(const struct accuracy_sweep *s, struct err *e); /* prints the table */
 void accuracy_report_plot(void *sweep, struct gnuplot *g);
 
-/* Where a logarithmic axis from low to high > 2.25 low has its labels, rising: at powers of ten; where that is not three
- * of them, at 2 and 5 as well, or more. */
+/* Where a logarithmic axis from low to high > 2.25 low has its labels, rising: at powers of ten; where that is not
+ * three of them, at 2 and 5 as well, or more. */
 enum { ACCURACY_REPORT_TICS = 64 };
 int accuracy_report_tics(double low, double high, double tics[ACCURACY_REPORT_TICS]);
 

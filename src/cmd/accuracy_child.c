@@ -191,8 +191,8 @@ bool accuracy_child(struct accuracy_sweep *s, int render, struct err *e)
 }
 
 /* A render's sound against the reference's, both in the sound's own unit: the level that the scene sets is taken out of
-   each. Where the sound diverges (distance_agreement: the reference's neighbour does not follow it to the end), samples are
-   compared up to there, and what comes after by what two sounds of one kind have in common. */
+   each. Where the sound diverges (distance_agreement: the reference's neighbour does not follow it to the end), samples
+   are compared up to there, and what comes after by what two sounds of one kind have in common. */
 
 #define WITHIN 60.0 /* dB: third octaves farther below the loudest are left out */
 

@@ -234,7 +234,7 @@ bool accuracy_report(const struct accuracy_sweep *s, struct err *e)
         text_setting(&r, s, w, colour);
     }
     for (int i = 0; i < s->n_renders; i++)
-        if (s->renders[i].code != 0 && s->renders[i].times)
+        if (s->renders[i].code != 0 && s->renders[i].tried)
             report_text(&r, "exit %d with %s: %s\n", s->renders[i].code, accuracy_rows_name(s, i), s->renders[i].words);
     return report_close(&r, 9, e);
 }
@@ -341,7 +341,7 @@ static void put_label(struct picture *p, double x, double y, const char *text, c
     place(p, x, y, at);
     for (int i = 0; i < 42; i++) {
         int step = i / 2;
-        double up = (step % 2 ? 1 : -1) * ((step + 1) / 2) * 0.5 * TEXT;
+        double up = (0.3 + (step % 2 ? 1 : -1) * ((step + 1) / 2) * 0.5) * TEXT;
         box[0] = i % 2 ? at[0] - 11 - wide : at[0] + 11;
         box[1] = box[0] + wide;
         box[2] = at[1] + up - 0.5 * TEXT;
@@ -396,8 +396,13 @@ void accuracy_report_plot(void *sweep, struct gnuplot *g)
     fprintf(g->in, "set ylabel '%s'\n",
             isfinite(s->until) ? "log-spectral distance from the reference after divergence / dB"
                                : "measured error / dB (of the sound, below it)");
-    if (own) fprintf(g->in, "own = %.6g\n", -s->own_db);
     put_axes(&p);
+    own = own && -s->own_db > p.y[0] && -s->own_db < p.y[1];
+    if (own) {
+        fprintf(g->in, "own = %.6g\n", -s->own_db);
+        place(&p, 1, -s->own_db, at);
+        memcpy(p.taken[p.n++], (const double[4]){0, WIDTH, at[1] - 1, at[1] + 1}, sizeof *p.taken);
+    }
     for (int i = 0; i < s->n_rows; i++) { /* points and their intervals */
         const struct accuracy_render *r = &s->renders[s->rows[i].total];
         double to[2];

@@ -86,5 +86,5 @@ if command -v script > /dev/null; then
     grep -qE 'about [0-9]+ s: 1 asked errors, 4 presets, 1 runs' terminal || echo "no estimate: $(cat terminal)"
     grep -qE '\[ *[0-9]+/[0-9]+\] (asked|preset|the ref)' terminal || echo "no progress: $(cat terminal)"
 fi
-rasp accuracy force.yaml --runs 1 --errors=-40 2>&1 > /dev/null
+rasp accuracy force.yaml --runs 1 --errors=-40 > /dev/null
 ls tmp
