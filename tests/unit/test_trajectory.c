@@ -364,6 +364,31 @@ START_TEST(still_stays)
 }
 END_TEST
 
+/* Broken off, a motion is as it was until then, bit for bit, and stays there; its surface is that of the whole. */
+START_TEST(breaks_off)
+{
+    struct motion kinds[] = {
+        harmonic_motion(2, 3),
+        line_motion(SPEED_MINIMUM_JERK, 0.3, 3),
+        {.path = PATH_CIRCLE, .radius = 0.1, .turns = 2, .duration = 3, .speed = NAN, .rate = NAN}};
+    for (int i = 0; i < 3; i++) {
+        struct motion part = kinds[i];
+        part.until = 1.3;
+        struct trajectory whole = made(&kinds[i]), cut = made(&part);
+        ck_assert_double_eq(cut.duration, 1.3);
+        ck_assert(!cut.ends_at_rest && !motion_rests(&part, true));
+        ck_assert_double_eq(motion_lasts(&part), 1.3);
+        ck_assert_mem_eq(cut.box, whole.box, sizeof cut.box);
+        for (int k = 0; k < 100; k++) {
+            struct state a = at(&whole, fmin(0.02 * k, 1.3)), b = at(&cut, 0.02 * k);
+            ck_assert_mem_eq(&a, &b, sizeof a);
+        }
+        part.until = 10;
+        ck_assert_double_eq(made(&part).duration, 3);
+    }
+}
+END_TEST
+
 extern const struct stage trajectory_stage;
 
 /* Only what the board has is laid on it, at the sub-samples' instants, however the frames are cut. */
@@ -404,6 +429,6 @@ START_TEST(stage_lays_out_the_board)
 }
 END_TEST
 
-UNIT("trajectory", still_stays, stage_lays_out_the_board, test_continued, harmonic_is_closed_form, harmonic_after_hours,
-     harmonic_at_extremes, lines_are_closed_forms, jerk_begins_softly, derivatives_agree, ends_hold, made_from_motion,
-     many_as_one, turns_where_velocity_does, turn_on_a_border, top_speed_is_the_top)
+UNIT("trajectory", still_stays, breaks_off, stage_lays_out_the_board, test_continued, harmonic_is_closed_form,
+     harmonic_after_hours, harmonic_at_extremes, lines_are_closed_forms, jerk_begins_softly, derivatives_agree,
+     ends_hold, made_from_motion, many_as_one, turns_where_velocity_does, turn_on_a_border, top_speed_is_the_top)
