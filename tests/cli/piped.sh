@@ -32,7 +32,7 @@ cmp file.scene.yaml piped.scene.yaml
 {
     cat sub/a.yaml | tell rasp plan /dev/stdin | head -n 1
     cat sub/a.yaml | tell rasp explain /dev/stdin | grep response:
-    cat sub/a.yaml | tell rasp accuracy /dev/stdin --presets --runs 1 | head -n 1
+    cat sub/a.yaml | tell rasp accuracy /dev/stdin --errors=-40 --runs 1 | head -n 1
     cat set.yaml | tell rasp batch /dev/stdin -o set -q
     cat sub/bar.yaml | tell rasp modes object /dev/stdin -o bar.csv
     cat sub/recipe.yaml | tell rasp surface synth /dev/stdin x.gsf --size 1mm --pitch 5um
