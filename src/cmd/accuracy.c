@@ -444,8 +444,8 @@ void accuracy_judge(struct accuracy_sweep *s)
 static const struct args_option accuracy_options[] = {
     {"errors", 'e', "DB,DB...", false, "the errors that are asked for (-40,-60,-80,-100,-120)"},
     {"excerpt", 0, "TIME", false,
-     "of a motion only so much is rendered (what is left out of a long or dear scene is estimated, so that all takes "
-     "some 10 s); more than it lasts: all of it"},
+     "how much of each motion is rendered (as much as takes some 10 s in all, by the work that plans predict); more "
+     "than it lasts: all of it"},
     {"knobs", 'k', NULL, false, "single knobs, too: each with the values of the presets"},
     {"values", 0, "KNOB=N,N...", true, "--knobs, with further values, as in oversampling=2,16; may be repeated"},
     {"runs", 'n', "N", false,

@@ -123,8 +123,12 @@ static void text_setting(struct report *r, const struct accuracy_sweep *s, const
     const char *head = arena_format(a, "%-20s",
                                     arena_format(a, "%c %s %s%s%s", w->chosen ? '=' : ' ', w->name, w->value,
                                                  strcmp(w->name, "asked") ? "" : " dB", x->front ? " *" : ""));
-    if (w->refused) { /* without the error that the row says itself */
-        const char *own = strstr(w->refused, " dB cannot be"), *why = own ? own + strlen(" dB ") : w->refused;
+    if (w->refused) { /* without the key, and the error that the row says itself */
+        static const char key[] = "accuracy.error: ";
+        const char *own = strstr(w->refused, " dB cannot be"), *of = strstr(w->refused, key),
+                   *why = own  ? own + strlen(" dB ")
+                          : of ? of + strlen(key)
+                               : w->refused;
         report_note(r, arena_format(a, "%s  ", head), again ? "nor this" : text_shown(a, why));
         return;
     }
