@@ -186,13 +186,15 @@ static void notes(struct report *r, const struct accuracy_sweep *s)
                 arena_format(a, "%s: %s%.3f s, %.9g Hz, %d channel%s; turned by %s.", text_shown(a, s->file),
                              s->force ? "no sound, so its contact force: " : "", s->length, s->rate, s->channels,
                              s->channels == 1 ? "" : "s", plan_knobs_text(s->knobs, a)));
-    if (s->excerpt > 0)
+    if (s->excerpt > 0) {
         report_note(
             r, "",
             arena_format(a,
                          "An excerpt: knobs are chosen, errors and costs measured of its first %.3g s (motion.until) "
                          "out of %.3g s; --excerpt says how much.",
                          s->excerpt, s->whole));
+        report_note(r, "", "What comes later may be faster, and err more.");
+    }
     report_note(r, "", arena_format(a, "Errors are against a reference%s%s, %s.", *what ? " of " : "", what, own));
     if (isfinite(s->until))
         report_note(
