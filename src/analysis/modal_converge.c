@@ -222,7 +222,7 @@ void modal_converge(struct modal_fit *f)
    moments, drawn towards the median of all modes; none, if all modes together do not show one. */
 
 const double modal_converge_stated[2] = {2e-4, 0.05}; /* of an object that rests well */
-static const double prior = 3.0;                      /* strikes that the median of all modes counts as */
+static const double prior = 3.0;    /* strikes that the median of all modes counts as */
 static const double doubtful = 6.0; /* by how much noise alone spreads a median, times the root of its degrees */
 
 struct moments {
