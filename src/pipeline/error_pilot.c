@@ -178,7 +178,7 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
                               .contact = *c,
                               .gain = c->gain,
                               .drift = 1,
-                              .places = moves ? PILOT_PLACES : 1,
+                              .places = moves && !sampled ? PILOT_PLACES : 1,
                               .power = ARENA_TAKE(a, double, PILOT_PLACES *PILOT_BINS)};
     if (c->gain == 0) /* it is here for its table, which holds its force as it is */
         p->gain = p->contact.gain = 1;

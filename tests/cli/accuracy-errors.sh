@@ -21,7 +21,7 @@ cat > recorded.yaml <<'YAML'
 rasp: 1
 surface: {roughness: {rms: 5 um}}
 scraper: {mass: 20 g}
-motion: {path: recorded, file: motion.csv}
+motion: {path: recorded, file: motion.csv, cutoff: 0 Hz}
 output: {quantity: force}
 YAML
 printf 'time_s,x_m,y_m\n0,0,0\n0.05,0.01,0\n0.1,0.02,0\n' > motion.csv
