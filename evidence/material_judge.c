@@ -20,6 +20,7 @@
 #include "base/stopwatch.h"
 #include "cmd/modes_compute.h"
 #include "fem/mesh_check.h"
+#include "fem/grade.h"
 #include "fem/shapes.h"
 #include "fem/topology.h"
 #include "num/noise.h"
@@ -45,12 +46,13 @@ static struct careless {
     {"bounce", 0},    /* s: when it hits again, half as hard; 0: it does not */
     {"hold", 0},      /* 1/s: damping alpha of the hand that holds the object, besides its own */
     {"echo", 0},      /* 1: the room answers after 3, 7 and 15 ms, each -12 dB */
-    {"hum", -400},    /* dB beside the first second of the sound: 50 Hz, and its harmonics k by 1/k */
+    {"hum", -400},    /* dB beside the first second of the sound, with harmonics k by 1/k */
+    {"mains", 50},    /* Hz, of the hum */
     {"peak", 0.8},    /* of the sound; above 1 it clips */
     {"seconds", 2.5}, /* of the recording from the strike on */
     {"bits", 32},     /* of a sample; 32: floating point */
 };
-enum { PULSE, BOUNCE, HOLD, ECHO, HUM, PEAK, SECONDS, BITS, CARELESS };
+enum { PULSE, BOUNCE, HOLD, ECHO, HUM, MAINS, PEAK, SECONDS, BITS, CARELESS };
 
 static void careless_read(char **argv)
 {
@@ -109,7 +111,7 @@ static void spoil(double snr, uint64_t seed, int n, double *y, double *gauss)
     for (int i = 0; i < n; i++) {
         double hum = 0.0;
         for (int k = 1; k <= 20; k++)
-            hum += sin(2.0 * pi * 50.0 * k * i / RATE + k * k) / k;
+            hum += sin(2.0 * pi * careless[MAINS].x * k * i / RATE + k * k) / k;
         y[i] += sqrt(power) *
                 (pow(10.0, -snr / 20.0) * gauss[i] + pow(10.0, careless[HUM].x / 20.0) / sqrt(harmonics) * hum);
     }
@@ -156,6 +158,13 @@ static void figure(const struct material_figure *f, double truth)
     printf(" %.9g %.9g %d", f->value, f->value / truth - 1.0, isnan(f->low) ? -1 : f->low <= truth && truth <= f->high);
 }
 
+static void finish(struct mesh *mesh, struct boundary *boundary, struct arena *a)
+{
+    topology_elevate(mesh, a);
+    boundary_make(mesh, a, boundary);
+    if (grade_edges(mesh, boundary, GRADE_DEFAULT, a)) boundary_make(mesh, a, boundary);
+}
+
 static int fit(char **argv)
 {
     struct arena *a = arena_open();
@@ -170,8 +179,7 @@ static int fit(char **argv)
     int face = 0, points = 0;
     char line[1024], label[256], file[512];
     if (!(shape ? shapes_mesh(argv[2], a, &mesh, &e) : mesh_read(argv[2], 1.0, a, &mesh, &e))) stop(&e);
-    topology_elevate(&mesh, a);
-    boundary_make(&mesh, a, &boundary);
+    finish(&mesh, &boundary, a);
     while (strcmp(boundary_map_sides[face], argv[4]) != 0)
         face++;
     boundary_map_make(&mesh, &boundary, face, &map);
@@ -193,8 +201,7 @@ static int fit(char **argv)
                                    .coarse_order = order - 1};
     if (shape) {
         if (!shapes_mesh_coarser(argv[2], 1.5, a, &longer, &e)) stop(&e);
-        topology_elevate(&longer, a);
-        boundary_make(&longer, a, &coarse);
+        finish(&longer, &coarse, a);
         ask.coarse = &longer;
         ask.coarse_boundary = &coarse;
         ask.coarse_order = order;

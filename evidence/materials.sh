@@ -21,15 +21,15 @@ read -r -a libraries <<< "$(pkg-config --libs sndfile yaml-0.1 fftw3 gsl jansson
 gcc -std=c11 -D_GNU_SOURCE -O2 -I"$ROOT/src" -I"$ROOT/evidence" -o "$WORK/judge" "$ROOT/evidence/material_judge.c" "$BUILD/librasp.a" \
     "${libraries[@]}" -lz -lsleef -lcholmod -llapacke -lopenblas -lm
 [ -f fit.msh ] || "$ROOT/evidence/material_body.py" 3 fit.msh
-[ -f fine.msh ] || "$ROOT/evidence/material_body.py" 4 fine.msh
+[ -f fine.msh ] || "$ROOT/evidence/material_body.py" 6 fine.msh
 
-# name, fit's solid, its order, truth's solid, its order, side, two places
-OBJECTS='plate plate:length=24cm,width=16cm,thickness=6mm 3 plate:length=24cm,width=16cm,thickness=6mm,fineness=3 3 top 0.03,0.025;0.09,0.065
-bar bar:length=30cm,width=3cm,thickness=12mm 3 bar:length=30cm,width=3cm,thickness=12mm,fineness=3 4 top 0.02,0.008;0.11,0.022
-ring ring:diameter=14cm,width=2cm,thickness=12mm 3 ring:diameter=14cm,width=2cm,thickness=12mm,fineness=3 4 top 0.062,0.01;-0.02,0.056
-bowl bowl:diameter=20cm,height=8cm,thickness=4mm 4 bowl:diameter=20cm,height=8cm,thickness=4mm,fineness=3 4 top 0.06,0.01;0.03,-0.07
-mug mug:diameter=9cm,height=10cm,wall=5mm 4 mug:diameter=9cm,height=10cm,wall=5mm,fineness=3 4 around 0.02,0.08;-0.05,0.04
-bracket fit.msh 3 fine.msh 4 top 0.14,0.025;0.048,0.122'
+# name, fit's solid, its order, truth's solid, its order, its layers towards re-entrant edges, side, two places
+OBJECTS='plate plate:length=24cm,width=16cm,thickness=6mm 3 plate:length=24cm,width=16cm,thickness=6mm,fineness=3 3 2 top 0.03,0.025;0.09,0.065
+bar bar:length=30cm,width=3cm,thickness=12mm 3 bar:length=30cm,width=3cm,thickness=12mm,fineness=3 4 2 top 0.02,0.008;0.11,0.022
+ring ring:diameter=14cm,width=2cm,thickness=12mm 3 ring:diameter=14cm,width=2cm,thickness=12mm,fineness=3 4 2 top 0.062,0.01;-0.02,0.056
+bowl bowl:diameter=20cm,height=8cm,thickness=4mm 4 bowl:diameter=20cm,height=8cm,thickness=4mm,fineness=3 4 2 top 0.06,0.01;0.03,-0.07
+mug mug:diameter=9cm,height=10cm,wall=5mm 4 mug:diameter=9cm,height=10cm,wall=5mm,fineness=3 4 2 around 0.02,0.08;-0.05,0.04
+bracket fit.msh 3 fine.msh 4 3 top 0.14,0.025;0.048,0.122'
 # name, Pa, nu, kg/m^3, 1/s, s
 MATERIALS='steel 2.1e11 0.29 7850 5 3e-8
 glass 7.2e10 0.22 2500 1 1e-7
@@ -48,21 +48,21 @@ both() { # both FUNCTION: calls it with the words of each object and material
     done <<< "$OBJECTS"
 }
 
-truth() { # the same solid on a finer mesh: modes at both places
-    local table=$1-$8.truth.csv line=${7//;/,} solid
+truth() { # the same solid on a finer mesh: modes at both places; rasp-modes by itself takes the kernels of this processor
+    local table=$1-$9.truth.csv line=${8//;/,} solid
     [ -f "$table" ] && return
     solid=(--shape "$4")
     [[ $4 == *:* ]] || solid=("$4")
-    rasp modes compute "${solid[@]}" --order "$5" --face "$6" --line "$line" --places 2 --modes 80 --top 16kHz \
-        --youngs-modulus "$9" --poisson "${10}" --density "${11}" --alpha "${12}" --beta "${13}" -q -o "$table"
+    rasp-modes compute "${solid[@]}" --order "$5" --grade "$6" --face "$7" --line "$line" --places 2 --modes 80 --top 16kHz \
+        --youngs-modulus "${10}" --poisson "${11}" --density "${12}" --alpha "${13}" --beta "${14}" -q -o "$table"
 }
 
 recording() {
     local snr place name
     for snr in 60 30; do
         for place in 1 2; do
-            name=$1-$8-$snr-$place
-            [ -f "$name.wav" ] || "$WORK/judge" make "$1-$8.truth.csv" $place $snr "$(printf '%s' "$name" | cksum | cut -d ' ' -f 1)" "$name.wav"
+            name=$1-$9-$snr-$place
+            [ -f "$name.wav" ] || "$WORK/judge" make "$1-$9.truth.csv" $place $snr "$(printf '%s' "$name" | cksum | cut -d ' ' -f 1)" "$name.wav"
         done
     done
 }
@@ -71,7 +71,7 @@ extracted() {
     local snr place name code
     for snr in 60 30; do
         for place in 1 2; do
-            name=$1-$8-$snr-$place
+            name=$1-$9-$snr-$place
             [ -f "$name.code" ] && continue
             code=0
             rasp modes extract "$name.wav" --force-channel 2 --quantity velocity -q -f -o "$name.csv" 2> "$name.err" || code=$?
@@ -95,7 +95,7 @@ if wanted fit; then
                 echo "$name-both $name 0 $(awk "BEGIN { printf \"%.10g\", ${m[1]} / ${m[3]} }") ${m[2]} ${m[4]} ${m[5]}"
             done
         done <<< "$MATERIALS" > "$WORK/lines"
-        OPENBLAS_NUM_THREADS=1 "$WORK/judge" fit "${o[1]}" "${o[2]}" "${o[5]}" "${o[6]}" < "$WORK/lines" > "${o[0]}.fits"
+        OPENBLAS_NUM_THREADS=1 "$WORK/judge" fit "${o[1]}" "${o[2]}" "${o[6]}" "${o[7]}" < "$WORK/lines" > "${o[0]}.fits"
     done <<< "$OBJECTS"
 fi
 
@@ -106,7 +106,7 @@ if wanted paper; then # the search of the paper from ten starts, on twelve of th
             [ "${m[0]}" != beech ] || continue
             name=${o[0]}-${m[0]}-60-1
             gamma=$(awk "BEGIN { printf \"%.6g\", ${m[1]} / ${m[3]} }")
-            [ -s "${name}_$gamma.paper" ] || rasp modes material "${o[1]}" "$name.csv@${o[6]%%;*}" --method paper --starts 10 --poisson "${m[2]}" \
+            [ -s "${name}_$gamma.paper" ] || rasp modes material "${o[1]}" "$name.csv@${o[7]%%;*}" --method paper --starts 10 --poisson "${m[2]}" \
                 --modes 40 -f -o "$WORK/paper.yaml" --json > "$WORK/paper.json" && cp "$WORK/paper.json" "${name}_$gamma.paper"
         done <<< "$MATERIALS"
     done <<< "$OBJECTS"

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "fem/grade.h"
 #include "fem/mesh_check.h"
 #include "fem/shapes.h"
 #include "fem/topology.h"
@@ -66,6 +67,18 @@ static bool check_solid(struct compute *k, struct err *e)
 
 /* ------------------------------------------------------------------ mesh */
 
+/* Quadratic, its cells graded. */
+static bool finish_mesh(struct compute *k, struct arena *a, struct err *e)
+{
+    static const long layers_most[2] = {0, GRADE_MOST};
+    long layers = GRADE_DEFAULT;
+    if (!args_whole(&k->c->args, "grade", layers_most, &layers, e)) return false;
+    topology_elevate(&k->mesh, a);
+    boundary_make(&k->mesh, a, &k->boundary);
+    if (grade_edges(&k->mesh, &k->boundary, (int)layers, a)) boundary_make(&k->mesh, a, &k->boundary);
+    return true;
+}
+
 bool modes_compute_solid_mesh(struct compute *k, const char *mesh, const char *shape, struct err *e)
 {
     const struct args *g = &k->c->args;
@@ -82,9 +95,7 @@ bool modes_compute_solid_mesh(struct compute *k, const char *mesh, const char *s
     if (!(shape ? shapes_mesh(shape, a, &k->mesh, e)
                 : mesh_read(mesh, unit, a, &k->mesh, e) && mesh_check(&k->mesh, a, e)))
         return false;
-    topology_elevate(&k->mesh, a);
-    boundary_make(&k->mesh, a, &k->boundary);
-    return true;
+    return finish_mesh(k, a, e);
 }
 
 static bool read_mesh(struct compute *k, struct err *e)
@@ -344,9 +355,8 @@ bool modes_compute_solid_coarser(const struct compute *k, const char *shape, str
 {
     c->c = k->c;
     if (!shapes_mesh_coarser(shape, LONGER, k->c->arena, &c->mesh, e)) return false;
-    topology_elevate(&c->mesh, k->c->arena);
-    boundary_make(&c->mesh, k->c->arena, &c->boundary);
-    return modes_compute_solid_fixed(c, e); /* the faces that are held, by the same names */
+    return finish_mesh(c, k->c->arena, e) &&
+           modes_compute_solid_fixed(c, e); /* the faces that are held, by the same names */
 }
 
 bool modes_compute_solid_estimate(struct compute *k, struct err *e)
