@@ -29,7 +29,7 @@ bar bar:length=30cm,width=3cm,thickness=12mm 3 bar:length=30cm,width=3cm,thickne
 ring ring:diameter=14cm,width=2cm,thickness=12mm 3 ring:diameter=14cm,width=2cm,thickness=12mm,fineness=3 4 2 top 0.062,0.01;-0.02,0.056
 bowl bowl:diameter=20cm,height=8cm,thickness=4mm 4 bowl:diameter=20cm,height=8cm,thickness=4mm,fineness=3 4 2 top 0.06,0.01;0.03,-0.07
 mug mug:diameter=9cm,height=10cm,wall=5mm 4 mug:diameter=9cm,height=10cm,wall=5mm,fineness=3 4 2 around 0.02,0.08;-0.05,0.04
-bracket fit.msh 3 fine.msh 4 3 top 0.14,0.025;0.048,0.122'
+bracket fit.msh 4 fine.msh 4 3 top 0.14,0.025;0.048,0.122'
 # name, Pa, nu, kg/m^3, 1/s, s
 MATERIALS='steel 2.1e11 0.29 7850 5 3e-8
 glass 7.2e10 0.22 2500 1 1e-7

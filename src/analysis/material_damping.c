@@ -11,6 +11,11 @@
 #include "num/noise.h"
 #include "num/real.h"
 
+enum { HALVINGS = 12 };
+
+static const double alike = 1e-4;       /* of decays: the least scatter */
+static const double normal = 0.709;     /* mean of the soft L1 of a standard normal deviate */
+static const double rough = 0.15;       /* the scatter of decays that are too few to say */
 static const double unseen = 0.01;      /* of a decay: a term that nowhere makes more is none */
 static const double undetermined = 4.0; /* of a logarithm: what may as well be 50 times more or less has no interval */
 
@@ -250,10 +255,28 @@ void material_damping_fit(int law, const struct material_decay *d, int n, struct
             if (log_scale && half > undetermined) half = NAN;
             g->figure[k].value = log_scale ? real_exp(x[k]) : x[k];
             g->figure[k].low = log_scale ? real_exp(x[k] - half) : x[k] - half;
-            g->figure[k].high = log_scale ? real_exp(fmin(x[k] + half, 700.0)) : x[k] + half;
+            g->figure[k].high = log_scale ? real_exp(x[k] + half > 700.0 ? 700.0 : x[k] + half) : x[k] + half;
         }
     }
     arena_close(room);
+}
+
+double material_damping_scatter(const struct material_decay *d, int n)
+{
+    const int free = n - laws[MATERIAL_ALL].n;
+    double low = real_log(alike), high = 0.0, x[3];
+    struct arena *room = arena_open();
+    struct material_decay *one = ARENA_TAKE(room, struct material_decay, n);
+    for (int pass = 0; free > 0 && pass < HALVINGS; pass++) {
+        double tau = real_exp(0.5 * (low + high));
+        for (int i = 0; i < n; i++) {
+            one[i] = d[i];
+            one[i].sigma = sqrt(d[i].sigma * d[i].sigma + tau * tau);
+        }
+        *(damping_search(MATERIAL_ALL, x, one, n) > normal * free ? &low : &high) = real_log(tau);
+    }
+    arena_close(room);
+    return free > 0 ? real_exp(high) : rough;
 }
 
 double material_damping_decay(int law, const double *parameter, double lambda)

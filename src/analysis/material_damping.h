@@ -37,6 +37,11 @@ struct material_decay {
    by Student's t) and of a bootstrap; a term that nowhere makes 1 % of the decay is 0. */
 void material_damping_fit(int law, const struct material_decay *d, int n, struct material_damping *g);
 
+/* By how much (standard deviation of logarithms) decays lie beside the law of three terms besides their own errors: as
+   much as makes their squares, each by both, what chance has them (R. C. Paule and J. Mandel, Consensus values and
+   weighting factors, J. Res. NBS 87, 1982), with the soft L1. */
+double material_damping_scatter(const struct material_decay *d, int n);
+
 /* decay of a law at lambda (rad^2/s^2), 1/s, by its parameters. */
 double material_damping_decay(int law, const double *parameter, double lambda);
 

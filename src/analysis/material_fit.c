@@ -31,7 +31,6 @@ static const double unlike = 1.2;      /* times the cost: less is not unique */
 static const double lawless = 0.5;     /* scatter of logarithms about a law */
 static const double unsure_mesh = 1.0; /* of the mesh's error, as a standard error (evidence/materials.md) */
 static const double highest_nu = 0.45, prior_nu[2] = {0.3, 0.5};
-static const double rough = 0.15;  /* of decays: less than that they do not follow any law */
 static const double absent = 0.25; /* cost of a mode that should show and is not there, to that of a pair's leaving */
 
 /* ------------------------------------------------------------------ computed modes */
@@ -398,8 +397,9 @@ static int decays(const struct material_set *set, int sets, struct material_deca
             whose[n].mode = set[k].match[i];
             d[n++] = one;
         }
+    double scatter = material_damping_scatter(d, n);
     for (int i = 0; i < n; i++)
-        d[i].sigma = fmax(d[i].sigma, rough);
+        d[i].sigma = sqrt(d[i].sigma * d[i].sigma + scatter * scatter);
     return n;
 }
 

@@ -31,6 +31,7 @@ static void read_errors(const struct csv *csv, const char *mode, int slope, doub
         text += strlen(words[k]);
     }
     m->error = sqrt(x[0] * x[0] + x[1] * x[1] / strikes) / m->frequency;
+    if (strikes < 2.0) x[3] = 0.0; /* stated, not measured: what decays scatter by shows beside the laws */
     m->decay_error = sqrt(x[2] * x[2] + x[3] * x[3] / strikes) / m->decay;
 }
 

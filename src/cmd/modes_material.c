@@ -18,7 +18,7 @@
 #include "output/mark.h"
 #include "scene/units.h"
 
-enum { OBJECTS = 32, STRIKES = 200, PLACES = 1000 };
+enum { OBJECTS = 32, STRIKES = 200, PLACES = 1000, FEW = 4000 }; /* FEW: elements, of order 4 some 150 000 freedoms */
 
 static const double unlike = 0.5; /* of the metrics of papers/003 */
 
@@ -218,7 +218,7 @@ static bool read_object(struct modes_material *j, struct modes_material_object *
     if (!modes_compute_solid_mesh(k, shape ? NULL : t->text, shape ? t->text : NULL, e) ||
         !modes_compute_solid_fixed(k, e))
         return false;
-    k->order = shape ? shapes_order(t->text) : 3;
+    k->order = shape ? shapes_order(t->text) : k->mesh.elements > FEW ? 3 : 4;
     static const long orders[2] = {SOLID_LATTICE_LEAST, SOLID_LATTICE_MOST};
     return args_whole(&j->c->args, "order", orders, &k->order, e);
 }
