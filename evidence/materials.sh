@@ -3,13 +3,13 @@
 # do, the search of papers/003 beside it, and transfers. The solids are solved on finer meshes than those of the fits.
 #
 #   KEEP=FOLDER   keeps tables, recordings and fits there, and takes those that it finds (truths take an hour of one processor)
-#   STEPS="truths recordings extract fit paper measured report"   default: all      ONLY="plate bar"   of the solids; default: all
+#   STEPS="truths recordings extract hum fit paper measured report"   default: all      ONLY="plate bar"   of the solids; default: all
 set -euo pipefail
 ROOT=$(realpath "$(dirname "$0")/..")
 BUILD=$(realpath -m "${BUILD:-$ROOT/build}")
 export PATH=$BUILD:$PATH LC_ALL=C
 REPORT=$(realpath -m "${REPORT:-$ROOT/evidence/materials.md}")
-STEPS=${STEPS:-truths recordings extract fit paper measured report}
+STEPS=${STEPS:-truths recordings extract hum fit paper measured report}
 RECORDED=$(realpath -m "${RECORDED:-$ROOT/../shared/data/impacts}")
 WORK=$(mktemp -d)
 trap 'rm -rf "$WORK"' EXIT
@@ -20,6 +20,8 @@ cd "$KEEP"
 read -r -a libraries <<< "$(pkg-config --libs sndfile yaml-0.1 fftw3 gsl jansson libebur128 libcrypto libpng soxr)"
 gcc -std=c11 -D_GNU_SOURCE -O2 -I"$ROOT/src" -I"$ROOT/evidence" -o "$WORK/judge" "$ROOT/evidence/material_judge.c" "$BUILD/librasp.a" \
     "${libraries[@]}" -lz -lsleef -lcholmod -llapacke -lopenblas -lm
+gcc -std=c11 -D_GNU_SOURCE -O2 -I"$ROOT/src" -o "$WORK/transfer" "$ROOT/evidence/material_transfer.c" "$BUILD/librasp.a" "${libraries[@]}" -lz \
+    -lsleef -lm
 [ -f fit.msh ] || "$ROOT/evidence/material_body.py" 3 fit.msh
 [ -f fine.msh ] || "$ROOT/evidence/material_body.py" 6 fine.msh
 
@@ -67,32 +69,45 @@ recording() {
     done
 }
 
+extract() { # extract NAME: NAME.csv of NAME.wav
+    local code=0
+    [ ! -f "$1.code" ] || return 0
+    rasp modes extract "$1.wav" --force-channel 2 --quantity velocity -q -f -o "$1.csv" 2> "$1.err" || code=$?
+    echo $code > "$1.code"
+}
 extracted() {
-    local snr place name code
+    local snr place
     for snr in 60 30; do
         for place in 1 2; do
-            name=$1-$9-$snr-$place
-            [ -f "$name.code" ] && continue
-            code=0
-            rasp modes extract "$name.wav" --force-channel 2 --quantity velocity -q -f -o "$name.csv" 2> "$name.err" || code=$?
-            echo $code > "$name.code"
+            extract "$1-$9-$snr-$place"
         done
+    done
+}
+hummed() { # noise 60 dB below, and a hum of 50 or 60 Hz 10 to 40 dB below
+    local place name seed
+    for place in 1 2; do
+        name=$1-$9-hum-$place
+        seed=$(printf '%s' "$name" | cksum | cut -d ' ' -f 1)
+        [ -f "$name.wav" ] || "$WORK/judge" make "$1-$9.truth.csv" $place 60 "$seed" "$name.wav" "hum=-$((10 + seed % 31))" \
+            "mains=$((50 + seed / 31 % 2 * 10))"
+        extract "$name"
     done
 }
 
 if wanted truths; then both truth; fi
 if wanted recordings; then both recording; fi
 if wanted extract; then both extracted; fi
+if wanted hum; then both hummed; fi
 if wanted fit; then
     while read -r -a o; do
         while read -r -a m; do
-            for snr in 60 30; do
+            for snr in 60 30 hum; do
                 for place in 1 2; do
                     name=${o[0]}-${m[0]}-$snr-$place
                     echo "$name $name.csv $place $(awk "BEGIN { printf \"%.10g\", ${m[1]} / ${m[3]} }") ${m[2]} ${m[4]} ${m[5]}"
                 done
                 name=${o[0]}-${m[0]}-$snr
-                echo "$name-both $name 0 $(awk "BEGIN { printf \"%.10g\", ${m[1]} / ${m[3]} }") ${m[2]} ${m[4]} ${m[5]}"
+                [ $snr = hum ] || echo "$name-both $name 0 $(awk "BEGIN { printf \"%.10g\", ${m[1]} / ${m[3]} }") ${m[2]} ${m[4]} ${m[5]}"
             done
         done <<< "$MATERIALS" > "$WORK/lines"
         OPENBLAS_NUM_THREADS=1 "$WORK/judge" fit "${o[1]}" "${o[2]}" "${o[6]}" "${o[7]}" < "$WORK/lines" > "${o[0]}.fits"
@@ -128,7 +143,7 @@ if wanted report; then
         cat << END
 # Materials from recordings
 
-Made by \`evidence/materials.sh\`. Six solids of five materials are solved on finer meshes than those of the fits; one strike (a half sine of
+Made by \`evidence/materials.sh\`, of revision $(rasp --version --verbose | awk '/^revision/ { print $2 }'). Six solids of five materials are solved on finer meshes than those of the fits; one strike (a half sine of
 0.3 ms) at each of two places is made of the modes, with white noise 60 and 30 dB below the first second; \`rasp modes extract\` finds the modes,
 and the fit of \`rasp modes material\` gets those and the place, nothing else. nu is Poisson's ratio. Wanted: E/density within 0.1 % at 60 dB
 (0.5 % at 30 dB), nu within 0.01 (0.03), alpha and beta within 10 % (30 %). Errors and intervals are of the fits that gave intervals.
@@ -143,9 +158,7 @@ A wrong size: the plate of glass (60 dB, first place) fitted with all lengths 1 
 $(cat "$KEEP/size.txt")
 \`\`\`
 
-What limits E/density and nu is the fit's own mesh: with one element through a plate or wall the coarser mesh does not see all of the error, so that
-errors of one solid are alike, and intervals hold or miss together. What limits damping is how many modes are found: the strike of 0.3 ms
-reaches 6 kHz, and a ring or a bar of steel has few modes below.
+LIMITS
 
 Too few modes, wrong matches, a hum and a clipped strike, with their warnings: [record.md](record.md).
 
@@ -159,6 +172,10 @@ without it third octaves are up to 9 dB too weak. Of bodies alike, all frequenci
 \`\`\`
 $(cat "$ROOT/irs/fitted/table.txt")
 \`\`\`
+
+What is known of a transfer, of drawn residuals (\`evidence/material_transfer.c\`):
+
+$("$WORK/transfer")
 
 ## Real objects
 
