@@ -46,13 +46,12 @@ static struct careless {
     {"bounce", 0},    /* s: when it hits again, half as hard; 0: it does not */
     {"hold", 0},      /* 1/s: damping alpha of the hand that holds the object, besides its own */
     {"echo", 0},      /* 1: the room answers after 3, 7 and 15 ms, each -12 dB */
-    {"hum", -400},    /* dB beside the first second of the sound, with harmonics k by 1/k */
-    {"mains", 50},    /* Hz, of the hum */
+    {"hum", -400},    /* dB beside the first second of the sound: 50 Hz, and its harmonics k by 1/k */
     {"peak", 0.8},    /* of the sound; above 1 it clips */
     {"seconds", 2.5}, /* of the recording from the strike on */
     {"bits", 32},     /* of a sample; 32: floating point */
 };
-enum { PULSE, BOUNCE, HOLD, ECHO, HUM, MAINS, PEAK, SECONDS, BITS, CARELESS };
+enum { PULSE, BOUNCE, HOLD, ECHO, HUM, PEAK, SECONDS, BITS, CARELESS };
 
 static void careless_read(char **argv)
 {
@@ -111,7 +110,7 @@ static void spoil(double snr, uint64_t seed, int n, double *y, double *gauss)
     for (int i = 0; i < n; i++) {
         double hum = 0.0;
         for (int k = 1; k <= 20; k++)
-            hum += sin(2.0 * pi * careless[MAINS].x * k * i / RATE + k * k) / k;
+            hum += sin(2.0 * pi * 50.0 * k * i / RATE + k * k) / k;
         y[i] += sqrt(power) *
                 (pow(10.0, -snr / 20.0) * gauss[i] + pow(10.0, careless[HUM].x / 20.0) / sqrt(harmonics) * hum);
     }

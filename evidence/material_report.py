@@ -9,15 +9,12 @@ import sys
 
 folder = sys.argv[1]
 TRUE_NU = {"steel": 0.29, "glass": 0.22, "porcelain": 0.19, "pvc": 0.38, "beech": 0.33}
-rows, without, seconds, hum, hum_without = [], [], [], [], 0
+rows, without, seconds = [], [], []
 for name in ("plate", "bar", "ring", "bowl", "mug", "bracket"):
     path = os.path.join(folder, name + ".fits")
     for line in open(path) if os.path.exists(path) else []:
         w = line.split()
         solid, material, snr, place = w[0].split("-")
-        if snr == "hum" and (len(w) < 18 or w[1] in ("refused:", "no-table")):
-            hum_without += 1
-            continue
         if len(w) < 18 or w[1] in ("refused:", "no-table"):
             without.append((w[0], "no table of modes" if w[1] == "no-table" else "fewer than three modes match"))
             continue
@@ -27,7 +24,7 @@ for name in ("plate", "bar", "ring", "bowl", "mug", "bracket"):
         seconds.append(float(w[27]))
         alpha = [float(w[k]) for k in (23, 24)]
         half = math.log(alpha[1] / alpha[0]) / 2 if alpha[1] > 0 and alpha[0] > 0 else math.nan
-        (hum if snr == "hum" else rows).append((solid, material, snr, place, modes, matched, sure, error, [int(w[k]) for k in (8, 11, 14, 17)], w[18], half))
+        rows.append((solid, material, snr, place, modes, matched, sure, error, [int(w[k]) for k in (8, 11, 14, 17)], w[18], half))
 
 
 def share(hits):
@@ -43,15 +40,15 @@ def worst(values, form, scale=1.0):
 print("| solid | SNR | fits | with intervals | modes matched (least, median) | E/density, % (median, worst) | nu (median, worst) "
       "| alpha, % | half of alpha's interval, % | beta, % | intervals hold: E/density | nu | alpha | beta |")
 print("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|")
-for snr, joint in (("60", False), ("30", False), ("60", True), ("30", True), ("hum", False)):
-    for solid in ("all",) if joint or snr == "hum" else ("plate", "bar", "ring", "bowl", "mug", "bracket", "all"):
-        all_ = [r for r in rows + hum if r[2] == snr and solid in (r[0], "all") and joint == (r[3] == "both")]
+for snr, joint in (("60", False), ("30", False), ("60", True), ("30", True)):
+    for solid in ("all",) if joint else ("plate", "bar", "ring", "bowl", "mug", "bracket", "all"):
+        all_ = [r for r in rows if r[2] == snr and solid in (r[0], "all") and joint == (r[3] == "both")]
         sure = [r for r in all_ if r[6]]
         if not all_:
             continue
         matched = sorted(r[5] for r in all_)
         print("| %s | %s dB | %d | %d | %d, %d | %s | %s | %s | %s | %s | %s |" % (
-            "all, of both places together" if joint else "all, with a hum 10 to 40 dB below" if snr == "hum" else solid, snr.replace("hum", "60"), len(all_), len(sure), matched[0], matched[len(matched) // 2],
+            "all, of both places together" if joint else solid, snr, len(all_), len(sure), matched[0], matched[len(matched) // 2],
             worst([r[7][0] for r in sure], "%.3f", 100), worst([r[7][1] for r in sure], "%.4f"),
             worst([r[7][2] for r in sure], "%.1f", 100),
             worst([r[10] for r in sure if not math.isnan(r[10])], "%.1f", 100), worst([r[7][3] for r in sure], "%.1f", 100),
@@ -62,8 +59,6 @@ for snr, wanted in (("60", 0.1), ("30", 0.3)):
     print("%sAt %s dB alpha is within %.0f %% in %d of %d; its interval is narrower than that in %d, and in these alpha is within it in %d." % (
         "\n" if snr == "60" else "", snr, 100 * wanted, sum(r[7][2] <= wanted for r in given), len(given), len(narrow),
         sum(r[7][2] <= wanted for r in narrow)))
-if hum:
-    print("Of the recordings with a hum %d gave no fit." % hum_without)
 unsure = [r for r in rows if not r[6]]
 print("\n%d fits gave no interval, of which E/density was off by more than 1 %% in %d and by more than 0.1 %% in %d. %d recordings gave no fit%s" % (
     len(unsure), sum(r[7][0] > 0.01 for r in unsure), sum(r[7][0] > 0.001 for r in unsure), len(without),

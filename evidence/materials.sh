@@ -3,13 +3,13 @@
 # do, the search of papers/003 beside it, and transfers. The solids are solved on finer meshes than those of the fits.
 #
 #   KEEP=FOLDER   keeps tables, recordings and fits there, and takes those that it finds (truths take an hour of one processor)
-#   STEPS="truths recordings extract hum fit paper measured report"   default: all      ONLY="plate bar"   of the solids; default: all
+#   STEPS="truths recordings extract fit paper measured report"   default: all      ONLY="plate bar"   of the solids; default: all
 set -euo pipefail
 ROOT=$(realpath "$(dirname "$0")/..")
 BUILD=$(realpath -m "${BUILD:-$ROOT/build}")
 export PATH=$BUILD:$PATH LC_ALL=C
 REPORT=$(realpath -m "${REPORT:-$ROOT/evidence/materials.md}")
-STEPS=${STEPS:-truths recordings extract hum fit paper measured report}
+STEPS=${STEPS:-truths recordings extract fit paper measured report}
 RECORDED=$(realpath -m "${RECORDED:-$ROOT/../shared/data/impacts}")
 WORK=$(mktemp -d)
 trap 'rm -rf "$WORK"' EXIT
@@ -69,45 +69,32 @@ recording() {
     done
 }
 
-extract() { # extract NAME: NAME.csv of NAME.wav
-    local code=0
-    [ ! -f "$1.code" ] || return 0
-    rasp modes extract "$1.wav" --force-channel 2 --quantity velocity -q -f -o "$1.csv" 2> "$1.err" || code=$?
-    echo $code > "$1.code"
-}
 extracted() {
-    local snr place
+    local snr place name code
     for snr in 60 30; do
         for place in 1 2; do
-            extract "$1-$9-$snr-$place"
+            name=$1-$9-$snr-$place
+            [ -f "$name.code" ] && continue
+            code=0
+            rasp modes extract "$name.wav" --force-channel 2 --quantity velocity -q -f -o "$name.csv" 2> "$name.err" || code=$?
+            echo $code > "$name.code"
         done
-    done
-}
-hummed() { # noise 60 dB below, and a hum of 50 or 60 Hz 10 to 40 dB below
-    local place name seed
-    for place in 1 2; do
-        name=$1-$9-hum-$place
-        seed=$(printf '%s' "$name" | cksum | cut -d ' ' -f 1)
-        [ -f "$name.wav" ] || "$WORK/judge" make "$1-$9.truth.csv" $place 60 "$seed" "$name.wav" "hum=-$((10 + seed % 31))" \
-            "mains=$((50 + seed / 31 % 2 * 10))"
-        extract "$name"
     done
 }
 
 if wanted truths; then both truth; fi
 if wanted recordings; then both recording; fi
 if wanted extract; then both extracted; fi
-if wanted hum; then both hummed; fi
 if wanted fit; then
     while read -r -a o; do
         while read -r -a m; do
-            for snr in 60 30 hum; do
+            for snr in 60 30; do
                 for place in 1 2; do
                     name=${o[0]}-${m[0]}-$snr-$place
                     echo "$name $name.csv $place $(awk "BEGIN { printf \"%.10g\", ${m[1]} / ${m[3]} }") ${m[2]} ${m[4]} ${m[5]}"
                 done
                 name=${o[0]}-${m[0]}-$snr
-                [ $snr = hum ] || echo "$name-both $name 0 $(awk "BEGIN { printf \"%.10g\", ${m[1]} / ${m[3]} }") ${m[2]} ${m[4]} ${m[5]}"
+                echo "$name-both $name 0 $(awk "BEGIN { printf \"%.10g\", ${m[1]} / ${m[3]} }") ${m[2]} ${m[4]} ${m[5]}"
             done
         done <<< "$MATERIALS" > "$WORK/lines"
         OPENBLAS_NUM_THREADS=1 "$WORK/judge" fit "${o[1]}" "${o[2]}" "${o[6]}" "${o[7]}" < "$WORK/lines" > "${o[0]}.fits"

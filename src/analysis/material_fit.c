@@ -433,18 +433,34 @@ static void unsure(struct material_fit *f)
             f->damping[law].figure[k].low = f->damping[law].figure[k].high = NAN;
 }
 
+/* Modes beside a hum's lines may be the hum's in part. */
+static bool clean(const struct material_set *set, int sets, struct arena *a, struct material_fit *f)
+{
+    int hums = 0;
+    for (int k = 0; k < sets; k++)
+        hums += set[k].hum;
+    if (hums)
+        warn(
+            f, a,
+            arena_format(a,
+                         "the recordings of %d of %d tables have a hum, which was left out: no intervals; record again "
+                         "without it (modes extract says how many lines it has)",
+                         hums, sets));
+    return hums == 0;
+}
+
 void material_fit_damping(const struct material_set *set, int sets, struct arena *a, struct material_fit *f)
 {
     *f = (struct material_fit){.modes = count_modes(set, sets), .gamma = {NAN, NAN, NAN}, .nu = {NAN, NAN, NAN}};
     f->matched = f->modes;
-    f->sure = f->modes >= SURE_MODES;
     for (int k = 0, mode = 0; k < sets; k++) /* which modes of two strikes are the same is not known */
         for (int i = 0; i < set[k].n; i++)
             set[k].match[i] = mode++;
     damping(set, sets, a, f);
-    if (f->sure) return;
-    unsure(f);
-    warn(f, a, arena_format(a, "%d modes are few, and %d are needed for intervals", f->modes, SURE_MODES));
+    f->sure = clean(set, sets, a, f) && f->modes >= SURE_MODES;
+    if (f->modes < SURE_MODES)
+        warn(f, a, arena_format(a, "%d modes are few, and %d are needed for intervals", f->modes, SURE_MODES));
+    if (!f->sure) unsure(f);
 }
 
 /* ------------------------------------------------------------------ the whole */
@@ -512,7 +528,7 @@ static void figures(struct work *w, struct row *r, int n, const struct solution 
 static void certainty(const struct work *w, struct arena *a, struct material_fit *f)
 {
     double edge[2] = {real_log(w->p->gamma[0]), real_log(w->p->gamma[1])}, at = real_log(f->gamma.value);
-    f->sure = f->distinct >= SURE_MODES && f->unique && !f->nu_at_bound;
+    f->sure = clean(w->p->set, w->p->sets, a, f) && f->distinct >= SURE_MODES && f->unique && !f->nu_at_bound;
     if (f->distinct < SURE_MODES)
         warn(f, a,
              arena_format(a, "%d modes match computed ones, and %d are needed for intervals", f->distinct, SURE_MODES));

@@ -20,6 +20,7 @@ struct material_set {    /* the modes of one table, of one object */
     double *decay;       /* [n] 1/s */
     double *decay_error; /* [n] its standard error, a share */
     double *visible;     /* [modes of the object] 0 to 1: how well its recordings show a mode; NULL: not known */
+    bool hum;            /* of the recordings was left out */
     int *match;          /* [n] output: branch of the object's family, -1: of none */
 };
 

@@ -56,7 +56,7 @@ struct material_set material_set_make(const struct mode_table *t, int object, st
                     &m[i]);
     }
     qsort(m, (size_t)n, sizeof *m, by_frequency);
-    struct material_set set = {.object = object};
+    struct material_set set = {.object = object, .hum = csv_comment(csv, "hum") != NULL};
     set.log_lambda = ARENA_TAKE(a, double, n);
     set.frequency = ARENA_TAKE(a, double, n);
     set.error = ARENA_TAKE(a, double, n);

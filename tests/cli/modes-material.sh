@@ -53,6 +53,10 @@ cat damping.yaml
 
 # What is doubtful has a warning and no interval.
 awk -F, '/^#/ || /^place/ || $4 <= 4' bar.csv > four.csv
+awk '/^place/ { print "# hum: 3" } 1' bar.csv > hum.csv
+rasp modes material $bar hum.csv --order 2 --poisson 0.23 -o hum.yaml | grep -A1 warning:
+grep -c '95 %' hum.yaml || true
+rasp modes material hum.csv -o hum_damping.yaml | grep -A1 warning:
 rasp modes material $bar four.csv --order 2 --poisson 0.23 -o four.yaml | grep -A1 warning:
 grep -c '95 %' four.yaml || true
 rasp modes material bar:length=20cm,width=4cm,thickness=7mm plate.csv --order 2 -o other.yaml | grep -c warning: || true

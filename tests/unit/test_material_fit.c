@@ -279,6 +279,13 @@ START_TEST(test_doubt)
         struct material_fit m = fit(&f, &set, NAN, a);
         ck_assert(!m.sure && m.warning && isnan(m.gamma.low) && isnan(m.damping[0].figure[0].low));
     }
+    t.most = 30;
+    for (int hum = 0; hum < 2; hum++) {
+        struct material_set set = draw(&f, &t, 1, a);
+        set.hum = hum;
+        struct material_fit m = fit(&f, &set, NAN, a);
+        ck_assert(m.sure == !hum && isnan(m.gamma.low) == hum && isnan(m.damping[0].figure[0].low) == hum);
+    }
     t.most = 0;
     for (uint64_t seed = 0; seed < 6; seed++) {
         struct material_set set = draw(&f, &t, seed, a);
