@@ -12,8 +12,8 @@
 enum { SAMPLES = 3, NODES = 39, BEYOND = 12 }; /* BEYOND: modes that others may come from or go to */
 
 static const double samples[SAMPLES] = {0.05, 0.25, 0.44};
-/* Error of orders 3 and 4 to what the order below is higher by, about: medians of the modes of a graded bracket, a plate,
-   a ring and a bowl of coarse cells are 0.03 to 0.12 and 0.01 to 0.22. */
+/* Error of orders 3 and 4 to what the order below is higher by, about: medians of the modes of a graded bracket, a
+   plate, a ring and a bowl of coarse cells are 0.03 to 0.12 and 0.01 to 0.22. */
 static const double order_gains[] = {0.08, 0.15};
 static const double step = 0.0125; /* of nodes, from 0 on */
 static const double modulus = 1e10, density = 1000.0;
