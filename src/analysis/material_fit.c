@@ -410,9 +410,13 @@ static void damping(const struct material_set *set, int sets, struct arena *a, s
     f->best = MATERIAL_RAYLEIGH;
     for (int law = 0; law < MATERIAL_LAWS; law++)
         material_damping_fit(law, d, n, &f->damping[law]);
-    for (int law = 0; law < MATERIAL_POWER; law++)
-        if (f->damping[law].bic < f->damping[f->best].bic && n >= 3 * f->damping[law].n) /* BIC means many modes */
-            f->best = law;
+    for (int law = 0; law < MATERIAL_POWER; law++) {
+        const struct material_damping *g = &f->damping[law];
+        bool whole = n >= 3 * g->n; /* BIC means many modes; and with a term of 0 a law is the one without it */
+        for (int k = 0; k < g->n; k++)
+            whole = whole && g->figure[k].value > 0.0;
+        if (whole && g->bic < f->damping[f->best].bic) f->best = law;
+    }
     if (f->damping[f->best].scatter > lawless)
         warn(f, a,
              arena_format(

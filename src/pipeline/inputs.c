@@ -29,7 +29,9 @@ static void add(struct missing *m, const char *contact, const char *key, const c
     const char *index = folder ? arena_format(m->arena, "%s/index.csv", file) : NULL, *read = index ? index : file;
     bool there = read && stat(read, &s) == 0 && access(read, R_OK) == 0;
     if (!read || (there && S_ISREG(s.st_mode))) return;
-    const char *why = there ? "is not a file" : strerror(errno);
+    const char *why = !there                                 ? strerror(errno)
+                      : strcmp(key, "surface.residual") == 0 ? "is not a file; name the residual.yaml in the folder"
+                                                             : "is not a file";
     const struct scene_place *p = scene_places_find(m->scene, contact, key, file);
     if (index)
         file =
