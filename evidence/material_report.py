@@ -38,7 +38,7 @@ def worst(values, form, scale=1.0):
 
 
 print("| solid | SNR | fits | with intervals | modes matched (least, median) | E/density, % (median, worst) | nu (median, worst) "
-      "| alpha, % | half of alpha's interval, % | beta, % | intervals hold: E/density | nu | alpha | beta |")
+      "| alpha, % | half of alpha's interval, in logarithms, % | beta, % | intervals hold: E/density | nu | alpha | beta |")
 print("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|")
 for snr, joint in (("60", False), ("30", False), ("60", True), ("30", True)):
     for solid in ("all",) if joint else ("plate", "bar", "ring", "bowl", "mug", "bracket", "all"):

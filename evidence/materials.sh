@@ -151,9 +151,10 @@ inner corner) converge with the cells' length to the power 1.09, whatever the or
 is counted in full in intervals. So these hold or miss together, and more often than 95 of 100 do: errors of nu are in the median two thirds of half
 the interval in the plate (once all of it), a third in bracket and mug; what is narrow enough for the last two would be too narrow for the plate.
 
-alpha/2 is a small part of most modes' decays (in the bracket of glass at most a tenth): noise of 1 % in those decays is 10 % of alpha there,
-and its interval says so. Decays weigh by their errors from noise and by their scatter about the law, which is found. How many modes are found limits the rest: the strike of 0.3 ms reaches 6 kHz, and a ring or a bar of
-steel has few modes below.
+alpha is a small part of what most modes decay by (in the bracket of glass at most a tenth): noise of 1 % in those decays is 10 % of alpha there,
+and its interval says so. Decays weigh by their errors from noise and by their scatter about the law, which is found. Intervals of alpha and beta
+are the wider of two, and that of the bootstrap, which leaves the few exact modes out in some draws, is mostly several times the error.
+How many modes are found limits the rest: the strike of 0.3 ms reaches 6 kHz, and a ring or a bar of steel has few modes below.
 
 Too few modes, wrong matches, a hum and a clipped strike, with their warnings: [record.md](record.md).
 
