@@ -497,6 +497,11 @@ static bool ask_scene(struct accuracy_sweep *s, struct err *e)
     }
     if (!plan_scene_knobs(&s->scene, s->call->arena, &s->knobs, e)) return scene_places_report(&s->scene, e);
     excerpt(s);
+    struct scene part;
+    if (s->excerpt > 0) { /* as each row's */
+        if (!error_budget_apply(&s->asked, s->call->arena, &part, NULL, e)) return scene_places_report(&s->asked, e);
+        s->scene.accuracy = part.accuracy;
+    }
     return accuracy_rows(s, own, e) || scene_places_report(&s->asked, e);
 }
 

@@ -72,6 +72,8 @@ static bool budget_used(const struct budgeting *m, int knob) { return m->used & 
 
 #define HAND 4.0         /* energy of an error over that of a difference that it is taken to have */
 #define HAND_FIRST 10.0  /* the same, of the first value */
+#define HAND_SAMPLED 8.0 /* as HAND, of a preset's steps */
+#define HAND_RAMPS 40.0  /* and of its ramps: a stretch says less of the whole, and a finer ramp costs little */
 #define SLOWEST 0.25     /* by which a preset's difference is taken to fall at a doubling, where it was not run: 6 dB */
 #define FASTEST 0.015625 /* at most: 18 dB */
 #define HAND_LAST 2.0    /* the same, of the last value, beside the difference from the one before */
@@ -167,6 +169,7 @@ static bool compare_ramps(const struct budgeting *m, int contact, const double r
     struct run r[2];
     bool open[2] = {false, false}, ok;
     if (!going) finer->x = NULL;
+    error_pilot_drop_residual(&own, a); /* it has no ramps */
     for (int k = 0; k < 2; k++) {
         set[k] = *m->chosen;
         set[k].contacts = &own;
@@ -321,26 +324,27 @@ static bool climb_sampled(struct budgeting *m, int knob, double share, bool *had
     const struct key_knob *k = &keys_knobs[knob];
     struct found *f = &m->found[knob];
     bool down = k->scale == KEY_SAMPLES, going = false;
+    double hand = knob == KNOB_gain_ramp ? HAND_RAMPS : HAND_SAMPLED;
     double value = accuracy_knob(&m->chosen->accuracy, (enum knob)knob),
            most = down ? k->low : fmin(k->high, fmax(k->preset[3], 4 * value)), end = finest(m, knob, value, most),
-           before = NAN, d = NAN;
+           before = 0, d = 0;
     *f = (struct found){.end = end};
     for (int step = 0;; step++) {
         double next = down ? floor(value / 2) : 2 * value, distance[2],
-               falls = step < 2 ? SLOWEST : fmin(fmax(d / before, FASTEST), SLOWEST);
+               falls = step > 1 && before > 0 ? fmin(fmax(d / before, FASTEST), SLOWEST) : SLOWEST;
         bool last = down ? next < end : next > end;
         before = d;
         d = step ? falls * d : 0;
-        if (!last && (step == 0 || HAND * d > share)) {
+        if (!last && (step == 0 || hand * d > share)) {
             if (!knob_distance(m, knob, (double[2]){value, next}, going, distance, e)) return false;
             d = distance[0] > 0 ? fmax(distance[0], FLOOR * m->energy) : 0;
             going = true;
         }
-        if (step == 0 || HAND * d < f->energy) {
+        if (step == 0 || hand * d < f->energy) {
             f->value = value;
-            f->energy = HAND * d;
+            f->energy = hand * d;
         }
-        *had = (step ? HAND : HAND_FIRST) * d <= share;
+        *had = (step ? 1 : HAND_FIRST / HAND) * hand * d <= share;
         if (*had || last) return true;
         value = next;
     }
@@ -373,7 +377,7 @@ static bool share_budget(struct budgeting *m, double budget, bool *had, struct e
     for (int k = 0; *had && k < ORDER; k++) {
         if (!budget_used(m, order[k]) || is_users(m, order[k])) continue;
         if (!(m->sampled ? climb_sampled : climb)(m, order[k], fmax(left, 0) / open--, had, e)) return false;
-        left -= m->found[order[k]].energy;
+        left -= *had || !m->sampled ? m->found[order[k]].energy : 0; /* for one that is missed no other need be finer */
         missed = missed || !*had;
         *had = *had || m->sampled;
     }
@@ -407,6 +411,8 @@ static const char *budget_text(struct arena *a, const char *preset, const struct
     const char *text = p->asked ? arena_format(a, "accuracy: %.6g dB asked, ", p->error)
                                 : arena_format(a, "accuracy: %s aims at %.6g dB, ", preset, p->error);
     if (isnan(p->predicted)) return arena_format(a, "%severy knob is said: nothing is chosen or predicted", text);
+    if (p->diverges)
+        return arena_format(a, "%sbut a ball bounces: renders of it diverge, and the knobs are the preset's own", text);
     if (p->n == 0) return arena_format(a, "%sno knob leaves an error", text);
     text = arena_format(a, "%s%.1f dB predicted: ", text, p->predicted);
     for (int i = 0; i < p->n; i++)
@@ -478,6 +484,7 @@ static bool make(struct budgeting *m, struct err *e)
         if (m->pilot[i].bounces > 0) { /* which no step follows for long: what the preset has */
             m->chosen->accuracy = m->asked->accuracy;
             m->used = 0;
+            m->to->diverges = true;
         }
     if ((!m->sampled && run_chaos_pilot(m, false, e)) ||
         !share_budget(m, real_exp10(m->to->error / 10) * m->energy, &had, e) || !(had || refuse(m, e)))
@@ -531,6 +538,7 @@ bool error_budget_apply(const struct scene *asked, struct arena *a, struct scene
         *chosen = *asked;
         chosen->accuracy = set;
     }
+    chosen->accuracy.by_user = (1u << KNOBS) - 1;
     m.to->text = budget_text(a, asked->accuracy.preset, m.to);
     m.to->cpu = stopwatch_cpu() - start;
     return true;

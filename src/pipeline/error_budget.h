@@ -26,6 +26,7 @@ struct error_budget {
     bool asked;              /* the scene has accuracy.error             */
     bool chosen;             /* it left something to choose              */
     bool missed;             /* the preset's error is not had            */
+    bool diverges;           /* a ball bounces: the knobs are the preset's own */
     double error, predicted; /* dB, asked or the preset's (NAN: none); predicted NAN: every knob is said */
     struct error_budget_part parts[KNOBS];
     int n;            /* knobs that leave an error                */
@@ -33,9 +34,9 @@ struct error_budget {
     const char *text; /* one line of all this; NULL: not asked    */
 };
 
-/* chosen: the scene with every knob settled, its engines chosen (response.choice); at preset reference, or with every
-   knob said, as it was asked. p may be NULL. ERR_SCENE: accuracy.error cannot be kept, and what can be (err_about
-   accuracy.error); else those of inputs and plans. */
+/* chosen: the scene with every knob settled, and said, its engines chosen (response.choice); at preset reference, or
+   with every knob said, as it was asked. p may be NULL. ERR_SCENE: accuracy.error cannot be kept, and what can be
+   (err_about accuracy.error); else those of inputs and plans. */
 bool error_budget_apply(const struct scene *asked, struct arena *a, struct scene *chosen, struct error_budget *p,
                         struct err *e);
 

@@ -24,6 +24,7 @@
 #include "pipeline/run.h"
 #include "pipeline/stages.h"
 #include "response/response.h"
+#include "scene/accuracy.h"
 #include "scene/params.h"
 #include "scene/scene.h"
 #include "trajectory/trajectory.h"
@@ -106,8 +107,14 @@ static bool measure(struct run *r, struct arena *a, double *power, struct err *e
     return true;
 }
 
-static bool audible_power(const struct scene *s, const struct contact *c, const double place[2], double *power,
-                          struct err *e)
+/* It is dear to make, and leaves what is louder, the modes. */
+void error_pilot_drop_residual(struct contact *c, struct arena *a)
+{
+    *(const char **)params_edit(c, surface_residual_stage.params, a) = NULL; /* its file */
+}
+
+static bool audible_power(const struct scene *s, const struct contact *c, const double place[2], bool residual,
+                          double *power, struct err *e)
 {
     struct scene own = *s;
     struct contact struck = *c;
@@ -118,6 +125,7 @@ static bool audible_power(const struct scene *s, const struct contact *c, const 
     if (s->output.quantity == QUANTITY_FORCE || !response_rings(c) || c->gain == 0) return true;
     struct arena *a = arena_open();
     strike(&struck, place, s->output.sample_rate, a);
+    if (!residual) error_pilot_drop_residual(&struck, a);
     own.contacts = &struck;
     own.n_contacts = 1;
     own.output.stems = NULL;
@@ -207,17 +215,22 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
     p->distance = ARENA_TAKE(a, double, p->blocks);
     p->older = ARENA_TAKE(a, double, p->blocks);
     p->falls = ARENA_TAKE(a, double, p->blocks);
-    p->followed = sampled ? PILOT_SAMPLED : PILOT_FOLLOWED;
-    p->follows = anywhere && p->blocks > 2 * p->followed; /* else as dear */
-    p->block = p->follows ? ARENA_TAKE(a, struct pilot_block, p->followed) : NULL;
-    for (int k = 0; sampled && p->follows && k < p->followed; k++)
-        p->block[k].number = p->blocks * (2 * k + 1) / (2 * p->followed);
     if (!plan_make(stages_table, &p->contact, &p->scene, a, &p->plan, e)) return false;
     p->knobs = plan_knobs(&p->plan);
+    int spread = p->knobs & KNOB_BIT(tip_heights) ? PILOT_SAMPLED / 2 : PILOT_SAMPLED;
+    p->followed = sampled ? spread + PILOT_ENDS : PILOT_FOLLOWED;
+    p->follows = anywhere && p->blocks > 2 * p->followed; /* else as dear */
+    p->block = p->follows ? ARENA_TAKE(a, struct pilot_block, p->followed) : NULL;
+    for (int k = 0; sampled && p->follows && k < p->followed; k++) /* 0, those spread, the last two */
+        p->block[k].number = k == 0        ? 0
+                             : k <= spread ? p->blocks * (2 * k - 1) / (2 * spread)
+                                           : p->blocks - p->followed + k;
+    for (int k = 0; sampled && p->follows && k < PILOT_SETTINGS; k++)
+        p->ran[k].block = ARENA_TAKE(a, struct pilot_block, p->followed);
     for (int k = 0; k < p->places; k++) { /* of a response that moves, those in the middle of each third */
         double t = tr.duration * (2 * k + 1) / (2 * p->places), place[2];
         trajectory_at(&tr, 1, &t, (struct trajectory_out){.x = &place[0], .y = &place[1]});
-        if (!audible_power(s, c, place, p->power + k * PILOT_BINS, e)) return false;
+        if (!audible_power(s, c, place, !sampled, p->power + k * PILOT_BINS, e)) return false;
     }
     return true;
 }
@@ -421,28 +434,36 @@ static bool run_blocks(struct error_pilot *p, const struct accuracy *set, struct
     return ok;
 }
 
-/* Of a sampled pilot: each block stands for as many of all. finer NULL: there is none. */
-static bool run_sample(struct error_pilot *p, const struct accuracy *set, const struct accuracy *finer, bool going,
-                       struct err *e)
+/* Of a sampled pilot, the blocks at a setting: run once. */
+static const struct pilot_block *sample(struct error_pilot *p, const struct accuracy *set, struct err *e)
 {
-    struct arena *a = arena_open();
-    struct pilot_block *now = ARENA_TAKE(a, struct pilot_block, p->followed);
-    bool ok = going || run_blocks(p, set, p->block, e);
-    ok = ok && (!finer || run_blocks(p, finer, now, e));
+    for (int i = 0; i < PILOT_SETTINGS; i++) {
+        bool same = p->ran[i].set.preset != NULL;
+        for (int k = 0; k < KNOBS; k++)
+            same = same && accuracy_knob(&p->ran[i].set, (enum knob)k) == accuracy_knob(set, (enum knob)k);
+        if (same) return p->ran[i].block;
+    }
+    struct pilot_sample *to = &p->ran[p->next++ % PILOT_SETTINGS];
+    to->set = *set;
+    return run_blocks(p, set, to->block, e) ? to->block : NULL;
+}
+
+/* Each block but those at the ends stands for as many of all. finer NULL: there is none. */
+static bool run_sample(struct error_pilot *p, const struct accuracy *set, const struct accuracy *finer, struct err *e)
+{
+    const struct pilot_block *x = sample(p, set, e), *y = x && finer ? sample(p, finer, e) : x;
     struct hearing h = hearing_open();
-    double each = (double)p->blocks / p->followed;
+    int spread = p->followed - PILOT_ENDS;
     p->energy = 0;
     memset(p->distance, 0, (size_t)p->blocks * sizeof *p->distance);
-    for (int k = 0; ok && k < p->followed; k++) {
-        const struct pilot_block *b = &p->block[k];
-        double energy = each * block_energy(p, &h, b->number, b->x);
+    for (int k = 0; y && k < p->followed; k++) {
+        double each = k == 0 || k > spread ? 1 : (double)(p->blocks - PILOT_ENDS) / spread;
+        double energy = each * block_energy(p, &h, y[k].number, y[k].x);
         p->energy += energy;
-        p->distance[b->number] = finer ? each * block_distance(p, &h, b->number, now[k].x, b->x) : energy;
+        p->distance[y[k].number] = finer ? each * block_distance(p, &h, y[k].number, y[k].x, x[k].x) : energy;
     }
-    if (finer) memcpy(p->block, now, (size_t)p->followed * sizeof *now);
     fft_close(h.fft);
-    arena_close(a);
-    return ok;
+    return y != NULL;
 }
 
 static bool run_some(struct error_pilot *p, const struct accuracy *set, const struct accuracy *finer, struct err *e)
@@ -487,7 +508,7 @@ bool error_pilot_run(struct error_pilot *p, const struct accuracy *set, const st
     if (some && p->pairs == 3) choose_blocks(p);
     p->older = p->distance;
     p->distance = older;
-    if (p->sampled && p->follows) return run_sample(p, set, finer, going && p->pairs > 1, e);
+    if (p->sampled && p->follows) return run_sample(p, set, finer, e);
     return some ? run_some(p, set, finer, e) : run_whole(p, set, finer, going, e);
 }
 

@@ -9,19 +9,25 @@
    The three coarsest settings of a knob are run over the whole motion. From there on only some blocks are: those whose
    difference will be greatest, if it goes on to fall as it fell between these three, and some spread evenly.
 
-   A sampled pilot runs PILOT_SAMPLED blocks spread evenly and nothing else, which stand for all: a kink between them it
-   does not see. A force that cannot begin anywhere is run in its beginning. */
+   A sampled pilot runs PILOT_SAMPLED blocks spread evenly, which stand for all, and those of the two ends, where the
+   force has kinks: one in between it does not see. Under a round tip it runs half as many, for the ground costs most
+   there. A force that cannot begin anywhere is run in its beginning. */
 #ifndef PIPELINE_ERROR_PILOT_H
 #define PIPELINE_ERROR_PILOT_H
 #include "pipeline/plan.h"
 
 enum { PILOT_WINDOW = 1024, PILOT_HOP = PILOT_WINDOW / 2, PILOT_BINS = PILOT_HOP + 1, PILOT_PLACES = 3 };
 enum { PILOT_WORST = 16, PILOT_SPREAD = 16, PILOT_FOLLOWED = PILOT_WORST + PILOT_SPREAD };
-enum { PILOT_SAMPLED = 6, PILOT_STRETCH = 4096 };
+enum { PILOT_SAMPLED = 4, PILOT_ENDS = 3, PILOT_SETTINGS = 8, PILOT_STRETCH = 4096 };
 
 struct pilot_block {
     long number;
     double x[PILOT_WINDOW]; /* the force at the last setting */
+};
+
+struct pilot_sample { /* what a sampled pilot ran */
+    struct accuracy set;
+    struct pilot_block *block; /* [followed]; NULL: none */
 };
 
 struct error_pilot {        /* of one contact */
@@ -41,9 +47,11 @@ struct error_pilot {        /* of one contact */
     int runs;     /* so far */
     int pairs;    /* of settings that were compared, one going on where the other ended */
     double *last; /* [some] the force at the last setting of a survey; NULL: it is too long, and run again */
-    double *distance, *older;  /* [blocks] between the last two settings, and between the two before: of a survey */
-    double *falls;             /* [blocks] by which the distance is taken to fall at the next doubling */
-    double energy;             /* of the whole */
+    double *distance, *older; /* [blocks] between the last two settings, and between the two before: of a survey */
+    double *falls;            /* [blocks] by which the distance is taken to fall at the next doubling */
+    double energy;            /* of the whole */
+    struct pilot_sample ran[PILOT_SETTINGS];
+    int next;                  /* of ran, the one to take next */
     struct pilot_block *block; /* [PILOT_FOLLOWED] those that are run, in order of their numbers; NULL: all are */
     long bounces, lift_offs;   /* of a coupled ball, as far as it was run */
     long fastest;              /* frame at which the fastest PILOT_STRETCH frames of the motion begin */
@@ -53,6 +61,9 @@ struct error_pilot {        /* of one contact */
    changes on the way. */
 bool error_pilot_make(const struct scene *s, const struct contact *c, double some, bool moves, bool sampled,
                       struct arena *a, struct error_pilot *p, struct err *e);
+
+/* The contact without surface.residual. */
+void error_pilot_drop_residual(struct contact *c, struct arena *a);
 
 /* Can the contact's force begin anywhere on its way (run_skip)? */
 bool error_pilot_begins_anywhere(const struct contact *c);

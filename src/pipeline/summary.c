@@ -235,6 +235,7 @@ static json_t *error_budget_json(const struct error_budget *p, bool times)
                               json_value_object("knob:s value:n error_db:n said:b", keys_knobs[p->parts[i].knob].name,
                                                 p->parts[i].value, decibel(p->parts[i].error), p->parts[i].by_user));
     json_t *j = json_value_object("asked_db:n predicted_db:n chosen:b by:o", p->error, p->predicted, p->chosen, by);
+    if (p->diverges) json_value_set(j, "diverges:b", true);
     if (times) json_value_set(j, "cpu_s:n", p->cpu);
     return j;
 }

@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "base/relpath.h"
 #include "file/csv.h"
+#include "scene/accuracy.h"
 #include "scene/keys.h"
 #include "scene/keys_yaml.h"
 #include "scene/params.h"
@@ -266,9 +267,11 @@ const char *scene_write(const struct scene *s, const char *beside, struct arena 
     fputs("accuracy:\n", w.f);
     if (s->accuracy.preset) fprintf(w.f, "  preset: %s\n", s->accuracy.preset);
     if (!isnan(s->accuracy.error)) fprintf(w.f, "  error: %s\n", keys_yaml_number(s->accuracy.error, a));
-    for (const struct key_knob *k = keys_knobs; k->name; k++)
-        fprintf(w.f, "  %s: %s\n", k->name,
-                keys_yaml_number(*(const double *)((const char *)&s->accuracy + k->offset), a));
+    bool fixed = isnan(s->accuracy.error) && isnan(accuracy_target(&s->accuracy));
+    for (int k = 0; k < KNOBS; k++) /* those still to be chosen are not written */
+        if (fixed || s->accuracy.by_user & 1u << k)
+            fprintf(w.f, "  %s: %s\n", keys_knobs[k].name,
+                    keys_yaml_number(accuracy_knob(&s->accuracy, (enum knob)k), a));
     scene_materials_write(w.f, s, a);
     inputs_write(w.f, s, beside, a);
     memory_stream_end(w.f, &memory);

@@ -202,7 +202,7 @@ bool motion_rests(const struct motion *m, bool at_end)
 {
     int law = motion_law(m);
     double strokes = 2 * m->rate * m->duration;
-    if (at_end && m->until > 0) return m->path == PATH_STILL;
+    if (at_end && motion_breaks_off(m)) return m->path == PATH_STILL;
     if (m->path == PATH_INCLINE) {
         struct incline i = motion_incline(m);
         return at_end ? i.over == INCLINE_RESTS && !(motion_incline_lasts(&i, m) < i.end) : m->start_speed == 0;

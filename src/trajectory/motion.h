@@ -33,8 +33,13 @@ bool motion_law_fits(const struct motion *m, int law);
 /* Is the motion surely at rest where it starts (or ends)? What a file gives may be, and counts as not. */
 bool motion_rests(const struct motion *m, bool at_end);
 
+static inline bool motion_breaks_off(const struct motion *m) { return !isnan(m->until) && m->until > 0; }
+
 /* A time of the motion (s), or when it breaks off: motion.until, where that is given. */
-static inline double motion_cut(const struct motion *m, double t) { return m->until > 0 ? fmin(t, m->until) : t; }
+static inline double motion_cut(const struct motion *m, double t)
+{
+    return motion_breaks_off(m) ? fmin(t, m->until) : t;
+}
 
 /* How long it lasts, in s, as far as the scene alone tells; NAN: a file or the length of a curve does. */
 double motion_lasts(const struct motion *m);

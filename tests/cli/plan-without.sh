@@ -1,13 +1,18 @@
 # rasp plan --without: each effect of a scene, with the cost of the scene without it, which is that of the plan with its setting.
 command -v python3 > /dev/null || { echo "no python3"; exit 77; }
 scenes=$ROOT/scenes
+# said, so that both sides have the same
+KNOBS='accuracy.oversampling=4 accuracy.gain_ramp=64 accuracy.contact_steps=200 accuracy.tip_heights=1'
+said=()
+for knob in $KNOBS; do said+=(--set "$knob"); done
+export KNOBS
 rasp plan --without "$scenes/rubbing.yaml" | sed 's/^.*rubbing/rubbing/'
 for scene in basswood_scrape two_contacts residual_strike eccentric_ball rubbing marble_drop nodal_lines; do
-    rasp plan --without --json "$scenes/$scene.yaml" --set output.sample_rate='44.1 kHz' > without.json
+    rasp plan --without --json "$scenes/$scene.yaml" --set output.sample_rate='44.1 kHz' "${said[@]}" > without.json
     python3 - "$scenes/$scene.yaml" << 'END'
-import json, subprocess, sys
+import json, os, subprocess, sys
 def cycles(settings):
-    words = [w for s in settings for w in ("--set", s)]
+    words = [w for s in os.environ["KNOBS"].split() + settings for w in ("--set", s)]
     plan = json.loads(subprocess.run(["rasp", "plan", "--json", sys.argv[1], "--set", "output.sample_rate=44.1 kHz", *words], capture_output=True, text=True, check=True).stdout)
     return sum(c["cycles_per_sample"] for c in plan[0]["contacts"])
 whole, rows = cycles([]), json.load(open("without.json"))[0]["without"]

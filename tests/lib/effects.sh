@@ -4,10 +4,10 @@
 # effects_rows: the list without comments and without blanks about |.
 effects_rows() { sed -E '/^(#|$)/d; s/ *\| */|/g; s/ *$//' "$ROOT/tests/effects/list"; }
 
-# effects_options SETTINGS...: fills OPTIONS with --set options.
+# effects_options SETTINGS...: fills OPTIONS with --set options. All knobs are said: else each side has those that it needs.
 effects_options() {
     local list part
-    OPTIONS=()
+    OPTIONS=(--set accuracy.oversampling=4 --set accuracy.gain_ramp=64 --set accuracy.contact_steps=200 --set accuracy.tip_heights=1)
     for list; do
         while IFS= read -r -d ';' part; do
             part="${part#"${part%%[! ]*}"}"

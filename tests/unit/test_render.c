@@ -51,11 +51,18 @@ START_TEST(contacts_add)
     const char *two = "surface: {roughness: {rms: 9 um}, response: bell.csv}, scraper: {mass: 5 g}, motion: {path: "
                       "line, from: [9 cm, 0], to: [3 cm, 0], speed: 0.3}";
     renders_made(arena_format(a,
-                              "rasp: 1\ncontacts:\n  - {name: a, %s}\n  - {name: b, start: 50 ms, gain: 3, %s}\n" EXACT,
+                              "rasp: 1\naccuracy: {oversampling: 4, gain_ramp: 64}\ncontacts:\n  - {name: a, %s}\n  - "
+                              "{name: b, start: 50 ms, gain: 3, %s}\n" EXACT,
                               one, two),
                  "both");
-    renders_made(arena_format(a, "rasp: 1\ncontacts:\n  - {name: a, %s}\n" EXACT, one), "first");
-    renders_made(arena_format(a, "rasp: 1\ncontacts:\n  - {name: b, %s}\n" EXACT, two), "second");
+    renders_made(
+        arena_format(a, "rasp: 1\naccuracy: {oversampling: 4, gain_ramp: 64}\ncontacts:\n  - {name: a, %s}\n" EXACT,
+                     one),
+        "first");
+    renders_made(
+        arena_format(a, "rasp: 1\naccuracy: {oversampling: 4, gain_ramp: 64}\ncontacts:\n  - {name: b, %s}\n" EXACT,
+                     two),
+        "second");
     struct wav both = renders_sound("both.wav"), first = renders_sound("first.wav"),
                second = renders_sound("second.wav");
     for (size_t n = 0; n < first.frames; n++) {

@@ -71,7 +71,7 @@ static const char SCRIBBLE[] =
 static const char GIVEN[] =
     "rasp: 1\nsurface: {ridges: {shape: round}, response: files/plank.csv, residual: files/plank.csv}\nscraper: {mass: "
     "1}\n"
-    "motion: {path: four_in_line, to: [0.1, 0.3], strokes: 3, law: given, profile: files/speed.csv}\n";
+    "motion: {path: four_in_line, to: [0.1, 0.3], strokes: 3, law: given, profile: files/speed.csv, until: 0.2 s}\n";
 static const char RECORDED[] = "rasp: 1\nsurface: {ridges: {}, response: files/plank.csv}\nscraper: {mass: 1}\n"
                                "motion: {path: recorded, file: files/path.csv, cutoff: 7}\n";
 static const char OBJECT[] =
