@@ -288,7 +288,7 @@ static bool voice_open(struct ring *g, struct stage_run *r, int channel, struct 
         .output = &r->scene->output, .channel = channel, .origin = origin, .rate = r->board->rate};
     /* A plate's radiation costs as much as a short sound, and pilot runs and the render need the same. Without a
        listening place it is cheap, and is not that of the scene: a pilot run of the force listens nowhere. */
-    struct ring_made here = {NULL}, *made = ask.output->listen.given ? &g->choice->made[channel] : &here;
+    struct ring_made here = {NULL, NULL}, *made = ask.output->listen.given ? &g->choice->made[channel] : &here;
     if (!made->modes) {
         const struct modes *modes = voice_modes(g, &ask);
         if (!(made->listener = listener_make(g->choice->arena, &ask, modes, e)))

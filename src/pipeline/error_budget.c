@@ -532,7 +532,15 @@ bool error_budget_apply(const struct scene *asked, struct arena *a, struct scene
         return true;
     }
     m.to->chosen = asked->accuracy.by_user != (1u << KNOBS) - 1;
-    if (m.to->chosen && (!inputs_check(asked, a, e) || !make(&m, e))) return false;
+    if (m.to->chosen && !inputs_check(asked, a, e)) return false;
+    bool ok = !m.to->chosen || make(&m, e);
+    if (!ok && m.asked != asked && e->kind == ERR_SCENE) { /* what is ablated may be what cannot be had */
+        *e = (struct err){0};
+        m = (struct budgeting){.asked = asked, .chosen = chosen, .arena = a, .to = m.to, .sampled = true};
+        *chosen = *asked;
+        ok = make(&m, e);
+    }
+    if (!ok) return false;
     if (m.asked != asked) {
         struct accuracy set = chosen->accuracy;
         *chosen = *asked;

@@ -669,7 +669,7 @@ def output(scene):
 
 def listen(part, objects):
     part.open("output.listen")
-    flat = objects and all(c.given["surface.object.shape"] in ("plate", "disk", "membrane", "drum") for c in objects)
+    flat = objects and all(c.given.get("surface.object.shape") in ("plate", "disk", "membrane", "drum") for c in objects)
     radiator = part.choose("output.listen.radiator", [None, "monopole", "contact"] + ["point", "point"] * bool(objects)
         + ["plate", "plate"] * bool(flat))
     part.scene.note(f"listening: {radiator or 'monopole'}")

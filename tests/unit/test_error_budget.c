@@ -73,6 +73,31 @@ START_TEST(what_is_said_stays)
 }
 END_TEST
 
+/* An ablated scene has the knobs of the whole one; of its own, where the whole one is none: the rod has no modes. */
+START_TEST(ablated)
+{
+    static const char *const text =
+        "rasp: 1\nsurface: {roughness: {}, material: glass, object: {shape: plate, length: 20 cm, width: 20 cm, "
+        "thickness: 5 mm}}\nscraper: {mass: 1 g, material: steel, object: {shape: rod, length: %s, diameter: 1 mm}}\n"
+        "%smotion: {path: line, from: [5 cm, 5 cm], to: [6 cm, 5 cm], duration: 0.1 s}\n";
+    struct scene whole = rig_scene(rig_arena(), arena_format(rig_arena(), text, "20 cm", "")),
+                 part =
+                     rig_scene(rig_arena(), arena_format(rig_arena(), text, "20 cm", "ablation: {sound: scraper}\n")),
+                 none = rig_scene(rig_arena(), arena_format(rig_arena(), text, "2 mm", "ablation: {sound: surface}\n")),
+                 chosen[3];
+    struct error_budget p;
+    struct err e = {0};
+    ck_assert(error_budget_apply(&whole, rig_arena(), &chosen[0], NULL, &e));
+    ck_assert(error_budget_apply(&part, rig_arena(), &chosen[1], NULL, &e));
+    for (int k = 0; k < KNOBS; k++)
+        ck_assert_double_eq(accuracy_knob(&chosen[0].accuracy, (enum knob)k),
+                            accuracy_knob(&chosen[1].accuracy, (enum knob)k));
+    ck_assert(chosen[1].contacts->ablation.given);
+    ck_assert_msg(error_budget_apply(&none, rig_arena(), &chosen[2], &p, &e), "%s", e.text);
+    ck_assert(p.chosen && chosen[2].contacts->ablation.given);
+}
+END_TEST
+
 /* Its knobs all said, as the effective scene has them, it comes back as it is, and nothing is rehearsed. */
 START_TEST(chosen_once)
 {
@@ -173,5 +198,5 @@ START_TEST(what_is_mute_has_a_force)
 }
 END_TEST
 
-UNIT("promise", UNIT_LONG(the_best_is_the_same), the_cheapest, what_is_said_stays, chosen_once, the_best_is_told,
-     what_is_mute_has_a_force)
+UNIT("promise", UNIT_LONG(the_best_is_the_same), the_cheapest, what_is_said_stays, ablated, chosen_once,
+     the_best_is_told, what_is_mute_has_a_force)
