@@ -235,7 +235,7 @@ int grade_edges(struct mesh *m, const struct boundary *b, int layers, struct are
     }
     m->at = at;
     struct mesh_group *group = ARENA_TAKE(a, struct mesh_group, m->groups);
-    memcpy(group, m->group, (size_t)m->groups * sizeof *group);
+    if (m->groups) memcpy(group, m->group, (size_t)m->groups * sizeof *group);
     m->group = group;
     layer(&g, true);
     for (int i = 0; i < layers; i++)
