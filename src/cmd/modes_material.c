@@ -394,6 +394,8 @@ static bool measure(struct modes_material *j, struct err *e)
         j->evaluations = material_metric_descend(s, x, step, damping[2]);
         j->fit.gamma = (struct material_figure){real_exp(x[MATERIAL_GAMMA]), NAN, NAN};
         for (int k = 0; k < d->n; k++)
+            d->figure[k].low = d->figure[k].high = NAN;
+        for (int k = 0; k < d->n; k++)
             for (int of = 0; of < 2; of++)
                 if (!strcmp(d->parameter[k], of ? "beta" : "alpha"))
                     d->figure[k] =

@@ -33,6 +33,7 @@
 #include "cmd/modes_extract.h"
 #include "cmd/report.h"
 #include "convolution/alias.h"
+#include "file/csv.h"
 #include "file/wav.h"
 #include "num/deconvolve.h"
 #include "num/fft.h"
@@ -57,6 +58,7 @@ struct table { /* features of a mode table */
     char hash[HASH_TEXT];
     int n;
     struct feature *feature;
+    bool hum; /* a recording it is of had one */
 };
 
 struct job {
@@ -98,10 +100,13 @@ static const struct strikes_one *strike_of(const struct job *j)
 static bool table_read(struct job *j, const char *file, struct table *to, struct err *e)
 {
     struct mode_table t;
+    struct csv csv;
     int most = 0;
     to->file = file;
     to->name = strrchr(file, '/') ? strrchr(file, '/') + 1 : file;
-    if (!mode_table_read(file, j->arena, &t, e) || !hash_file(file, to->hash, e)) return false;
+    if (!mode_table_read(file, j->arena, &t, e) || !hash_file(file, to->hash, e) || !csv_read(file, j->arena, &csv, e))
+        return false;
+    to->hum = csv_comment(&csv, "hum") != NULL;
     for (const struct mode_entry *v = t.entry; v < t.entry + t.first[t.places]; v++)
         most = v->n > most ? v->n : most;
     struct feature *all = ARENA_TAKE(j->arena, struct feature, t.modes * (size_t)most);
@@ -610,6 +615,11 @@ static void warn(struct job *j, const struct figures *g)
     if (strike_of(j)->doubled && !divided(j))
         modes_extract_find_note(&j->x, NULL,
                                 "the strike is doubled, and no other can be used: its second blow is in the residual");
+    if (j->table.hum && !j->noise && !j->keeps_noise)
+        modes_extract_find_note(&j->x, NULL,
+                                "the recording hums, and no silence before the strike shows the hum: it is in the "
+                                "residual, and would sound "
+                                "with every contact; record again, with 0.3 s before the strike");
     if (isnan(g->residual))
         modes_extract_find_note(&j->x, NULL, "nothing is left above the noise: the residual is silent");
     if (g->left > LITTLE)

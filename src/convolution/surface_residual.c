@@ -37,7 +37,7 @@ static const struct choice inverses[] = {
 
 static const struct choice shifts[] = {
     [RESIDUAL_DIFFERENCE] = {"difference", "by the difference of two modes' frequencies, as the paper has it"},
-    [RESIDUAL_RATIO] = {"ratio", "by their ratio, for objects of very different sizes"},
+    [RESIDUAL_RATIO] = {"ratio", "by their ratio, as all frequencies of bodies alike do"},
     {NULL, NULL}};
 
 static const struct key keys[] = {
@@ -46,7 +46,7 @@ static const struct key keys[] = {
      .shown = "oak/residual.yaml"},
     {ROW_CHOICE(surface_residual, inverse, "surface.residual_inverse"), KEY_NONE, 0, 0, "phases", RESIDUAL,
      "how a sound is made from the spectrogram that is transferred", inverses},
-    {ROW_CHOICE(surface_residual, shift, "surface.residual_shift"), KEY_NONE, 0, 0, "difference", RESIDUAL,
+    {ROW_CHOICE(surface_residual, shift, "surface.residual_shift"), KEY_NONE, 0, 0, "ratio", RESIDUAL,
      "how what lies about a mode moves to another frequency", shifts},
     {ROW_NUMBER(surface_residual, gain, "surface.residual_gain"), KEY_NONE, 0, 1000, "1", RESIDUAL,
      "factor on it; 1: for the same force as loud beside the modes as on the object that was recorded"},
