@@ -438,19 +438,19 @@ static void unsure(struct material_fit *f)
 }
 
 /* Modes beside a hum's lines may be the hum's in part. */
-static bool clean(const struct material_set *set, int sets, struct arena *a, struct material_fit *f)
+static bool without_hum(const struct material_set *set, int sets, struct arena *a, struct material_fit *f)
 {
-    int hums = 0;
+    int undamped = 0;
     for (int k = 0; k < sets; k++)
-        hums += set[k].hum;
-    if (hums)
+        undamped += set[k].hum;
+    if (undamped)
         warn(
             f, a,
             arena_format(a,
                          "the recordings of %d of %d tables have a hum, which was left out: no intervals; record again "
                          "without it (modes extract says how many lines it has)",
-                         hums, sets));
-    return hums == 0;
+                         undamped, sets));
+    return undamped == 0;
 }
 
 void material_fit_damping(const struct material_set *set, int sets, struct arena *a, struct material_fit *f)
@@ -461,7 +461,7 @@ void material_fit_damping(const struct material_set *set, int sets, struct arena
         for (int i = 0; i < set[k].n; i++)
             set[k].match[i] = mode++;
     damping(set, sets, a, f);
-    f->sure = clean(set, sets, a, f) && f->modes >= SURE_MODES;
+    f->sure = without_hum(set, sets, a, f) && f->modes >= SURE_MODES;
     if (f->modes < SURE_MODES)
         warn(f, a, arena_format(a, "%d modes are few, and %d are needed for intervals", f->modes, SURE_MODES));
     if (!f->sure) unsure(f);
@@ -532,7 +532,7 @@ static void figures(struct work *w, struct row *r, int n, const struct solution 
 static void certainty(const struct work *w, struct arena *a, struct material_fit *f)
 {
     double edge[2] = {real_log(w->p->gamma[0]), real_log(w->p->gamma[1])}, at = real_log(f->gamma.value);
-    f->sure = clean(w->p->set, w->p->sets, a, f) && f->distinct >= SURE_MODES && f->unique && !f->nu_at_bound;
+    f->sure = without_hum(w->p->set, w->p->sets, a, f) && f->distinct >= SURE_MODES && f->unique && !f->nu_at_bound;
     if (f->distinct < SURE_MODES)
         warn(f, a,
              arena_format(a, "%d modes match computed ones, and %d are needed for intervals", f->distinct, SURE_MODES));

@@ -386,14 +386,14 @@ static void report(struct modal_fit *f, struct arena *a, struct modal_result *r)
 {
     const struct modal_data *d = f->data;
     double all = 0.0;
-    r->hums = 0;
+    r->undamped = 0;
     r->noise = ARENA_TAKE(a, double, d->places);
     r->model = arena_take(a, (size_t)d->stretches, sizeof *r->model);
     r->mode = ARENA_TAKE(a, struct modal_mode, f->m + 1);
     for (int i = 0; i < f->m; i++) {
         struct modal_mode *m = &r->mode[r->n];
         if (f->c[i].hum) {
-            r->hums++;
+            r->undamped++;
             continue;
         }
         r->n++;
@@ -422,7 +422,7 @@ static void report(struct modal_fit *f, struct arena *a, struct modal_result *r)
     number(r, a);
     explain(f, r->explained, NULL);
     sounds(f, r, a);
-    note_number(r, a, r->hums, "line does not decay (hum) and is left out",
+    note_number(r, a, r->undamped, "line does not decay (hum) and is left out",
                 "lines do not decay (hum) and are left out");
 }
 

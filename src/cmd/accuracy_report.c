@@ -174,7 +174,7 @@ static void notes(struct report *r, const struct accuracy_sweep *s)
     if (isfinite(s->own_db))
         own = arena_format(a,
                            "whose own error is %.0f dB at most: so much changes where its knobs are half as fine. Less "
-                           "is not told (<)",
+                           "is not seen (<)",
                            -s->own_db);
     else if (isinf(s->until))
         own = "which has the same bits where its knobs are half as fine";

@@ -616,10 +616,10 @@ static void warn(struct job *j, const struct figures *g)
         modes_extract_find_note(&j->x, NULL,
                                 "the strike is doubled, and no other can be used: its second blow is in the residual");
     if (j->table.hum && !j->noise && !j->keeps_noise)
-        modes_extract_find_note(&j->x, NULL,
-                                "the recording hums, and no silence before the strike shows the hum: it is in the "
-                                "residual, and would sound "
-                                "with every contact; record again, with 0.3 s before the strike");
+        modes_extract_find_note(
+            &j->x, NULL,
+            "the recording has a hum, and no silence before the strike shows it: it is in the residual, "
+            "and would sound with every contact; record again, with 0.3 s before the strike");
     if (isnan(g->residual))
         modes_extract_find_note(&j->x, NULL, "nothing is left above the noise: the residual is silent");
     if (g->left > LITTLE)

@@ -317,8 +317,8 @@ static bool climb(struct budgeting *m, int knob, double share, bool *had, struct
     return true;
 }
 
-/* The same for a preset: what the next doubling will bring is told from the two before it, where that is enough. Where
-   no value keeps the error, that which comes nearest. */
+/* The same for a preset: what the next doubling will bring is extrapolated from the two before it, where that is
+   enough. Where no value keeps the error, that which comes nearest. */
 static bool climb_sampled(struct budgeting *m, int knob, double share, bool *had, struct err *e)
 {
     const struct key_knob *k = &keys_knobs[knob];

@@ -143,7 +143,7 @@ static bool audible_power(const struct scene *s, const struct contact *c, const 
 /* ------------------------------------------------------------------ making */
 
 /* Is the force read from the ground wherever the contact is, so that it can begin anywhere? */
-bool error_pilot_begins_anywhere(const struct contact *c)
+static bool begins_anywhere(const struct contact *c)
 {
     return (c->contact.model == CONTACT_SCRAPE || c->contact.model == CONTACT_ROLL ||
             c->contact.model == CONTACT_PLAYBACK) &&
@@ -202,7 +202,7 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
     if (!trajectory_make(&c->motion, trajectory_seed(s, c), a, &tr, e)) return err_at(e, "contact '%s'", c->name);
     p->moving = trajectory_frames(&tr, rate);
     p->some = p->moving + SETTLED;
-    bool anywhere = error_pilot_begins_anywhere(c);
+    bool anywhere = begins_anywhere(c);
     p->sampled = sampled;
     p->fastest = anywhere ? fastest(&tr, p->moving) : 0;
     if (c->contact.model == CONTACT_ROLL_COUPLED || (sampled && !anywhere)) {
@@ -504,8 +504,8 @@ bool error_pilot_run(struct error_pilot *p, const struct accuracy *set, const st
     double *older = p->older;
     p->runs++;
     p->pairs = going ? p->pairs + 1 : 1;
-    bool some = p->follows && finer && p->pairs > 2 && !p->sampled;
-    if (some && p->pairs == 3) choose_blocks(p);
+    bool some = p->follows && finer && p->pairs > 2;
+    if (some && p->pairs == 3 && !p->sampled) choose_blocks(p);
     p->older = p->distance;
     p->distance = older;
     if (p->sampled && p->follows) return run_sample(p, set, finer, e);

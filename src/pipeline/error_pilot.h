@@ -18,7 +18,7 @@
 
 enum { PILOT_WINDOW = 1024, PILOT_HOP = PILOT_WINDOW / 2, PILOT_BINS = PILOT_HOP + 1, PILOT_PLACES = 3 };
 enum { PILOT_WORST = 16, PILOT_SPREAD = 16, PILOT_FOLLOWED = PILOT_WORST + PILOT_SPREAD };
-enum { PILOT_SAMPLED = 4, PILOT_ENDS = 3, PILOT_SETTINGS = 8, PILOT_STRETCH = 4096 };
+enum { PILOT_SAMPLED = 4, PILOT_ENDS = 3, PILOT_SETTINGS = 16, PILOT_STRETCH = 4096 };
 
 struct pilot_block {
     long number;
@@ -64,9 +64,6 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
 
 /* The contact without surface.residual. */
 void error_pilot_drop_residual(struct contact *c, struct arena *a);
-
-/* Can the contact's force begin anywhere on its way (run_skip)? */
-bool error_pilot_begins_anywhere(const struct contact *c);
 
 /* The motion at a setting and at a finer one (NULL: there is none, and distances are the energies): distances and
    energy. going: the last run ended with `set`, so that after two pairs only some blocks need be run. */

@@ -27,8 +27,7 @@ const struct keys_text_frame keys_text_frames[] = {
      "kept is refused"},
     {"accuracy.preset", "draft, standard, high or reference",
      "draft, standard and high aim at errors of -40, -70 and -100 dB, by which the knobs not given are chosen; "
-     "reference "
-     "has fixed knobs"},
+     "reference has fixed knobs"},
     {"inputs", "list of file and sha256",
      "the files of an effective scene as they were: one that has changed is an error"},
     {NULL, NULL, NULL},

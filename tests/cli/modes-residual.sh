@@ -253,5 +253,5 @@ open("late.wav", "wb").write(b[:4] + struct.pack("<I", at + len(x) - 8) + b[8:at
 END
 { echo '# hum: 1'; cat true.csv; } > hum.csv
 for table in true hum; do
-    echo "$table: $(residual late.wav $table.csv --quantity velocity -f -o late | grep -c 'hums, and no silence before the strike')"
+    echo "$table: $(residual late.wav $table.csv --quantity velocity -f -o late | grep -c 'has a hum, and no silence before the strike')"
 done
