@@ -35,15 +35,24 @@ table() {
     printf '\n## %s\n\n```text\n%s\n```\n' "$name" "$(cat "$WORK/$name.txt")"
     awk -F, -v scene="$name" -v cpu="$cpu" '
         NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
-        { e = $at["exit_code"] ? "refused" : $at["snr_db"] == "inf" ? "same bits" : ($at["below_reference"] ? "<" : "") sprintf("%.0f", -($at["below_reference"] ? $at["reference_snr_db"] : $at["snr_db"])) }
-        { x = $at["exit_code"] ? "" : sprintf(", x%.3g", $at["real_time_factor"]) }
+        {
+            e = "refused"; x = ""
+            if (!$at["exit_code"]) {
+                below = $at["below_reference"]
+                e = (below ? "<" : "") sprintf("%.0f", -(below ? $at["reference_snr_db"] : $at["snr_db"]))
+                if (!below && $at["snr_db"] == "inf") e = "same bits"
+                x = sprintf(", x%.3g", $at["real_time_factor"])
+            }
+        }
         $1 == "asked" { row[$2] = e x }
         $1 == "preset" && $2 != "reference" { presets = presets " " e x " |" }
         { excerpt = $at["excerpt_s"]; until = $at["diverges_s"] }
         END {
             printf "| %s |", scene > "/dev/stderr"
             for (e = -40; e >= -120; e -= 20) printf " %s |", row[e] == "" ? "-" : row[e] > "/dev/stderr"
-            printf "%s %s | %s | %s |\n", presets, excerpt == "" ? "" : excerpt " s", until == "" ? "" : sprintf("%.2f s", until), cpu > "/dev/stderr"
+            if (excerpt != "") excerpt = excerpt " s"
+            if (until != "") until = sprintf("%.2f s", until)
+            printf "%s %s | %s | %s |\n", presets, excerpt, until, cpu > "/dev/stderr"
         }' "$WORK/$name.csv" 2>> "$WORK/rows"
 }
 
