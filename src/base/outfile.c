@@ -47,24 +47,34 @@ static bool open_unnamed(struct outfile *o)
 
 static bool try_hidden(struct outfile *o)
 {
-    for (int k = 0; k < NAMES; k++) {
-        hidden_name(o, k);
-        o->fd = open(o->temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (o->fd >= 0) return true;
-        if (errno != EEXIST) break;
-    }
-    o->temporary[0] = '\0';
-    return false;
+    o->fd = open(o->temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    return o->fd >= 0;
 }
 
-/* Tries to give it a hidden name, which goes with the program if that is interrupted. */
+/* Gives an unnamed file its hidden name. */
+static bool try_name(struct outfile *o)
+{
+    char proc[64];
+    snprintf(proc, sizeof proc, "/proc/self/fd/%d", o->fd);
+    return linkat(AT_FDCWD, proc, AT_FDCWD, o->temporary, AT_SYMLINK_FOLLOW) == 0;
+}
+
+/* Tries to give it a hidden name, which goes with the program if that is interrupted or out of memory: that is noted
+   before there is such a file, since noting it takes memory. */
 static bool try_registered(struct outfile *o, bool (*try)(struct outfile *o))
 {
+    bool ok = false;
+    int why = EEXIST;
     interrupt_hold();
-    bool ok = try(o);
-    int why = errno;
-    if (ok) interrupt_temporary(o->temporary);
+    for (int k = 0; !ok && why == EEXIST && k < NAMES; k++) {
+        hidden_name(o, k);
+        interrupt_temporary(o->temporary);
+        ok = try(o);
+        why = errno;
+        if (!ok) interrupt_forget(o->temporary);
+    }
     interrupt_go();
+    if (!ok) o->temporary[0] = '\0';
     errno = why;
     return ok;
 }
@@ -119,20 +129,6 @@ bool outfile_open(struct outfile *o, const char *target, struct err *e)
     if (o->stream) return true;
     err_set(e, err_system(ERR_CREATE), "%s: cannot be created: %s", target, strerror(errno));
     outfile_drop(o);
-    return false;
-}
-
-/* Gives an unnamed file its hidden name. */
-static bool try_name(struct outfile *o)
-{
-    char proc[64];
-    snprintf(proc, sizeof proc, "/proc/self/fd/%d", o->fd);
-    for (int k = 0; k < NAMES; k++) {
-        hidden_name(o, k);
-        if (linkat(AT_FDCWD, proc, AT_FDCWD, o->temporary, AT_SYMLINK_FOLLOW) == 0) return true;
-        if (errno != EEXIST) break;
-    }
-    o->temporary[0] = '\0';
     return false;
 }
 
