@@ -106,7 +106,7 @@ room|room, echoes of -12 dB after 3, 7 and 15 ms
 room-unmeasured|the same, force not measured
 held|held: alpha 50 1/s more
 node|struck in the middle, on nodes
-place|place told wrong by 2 cm
+place|place given wrong by 2 cm
 length-1|length measured 1 % too long
 length-1-stated|the same, `--size-error 1%`
 length-3|length measured 3 % too long

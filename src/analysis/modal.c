@@ -14,6 +14,7 @@ enum { ROUNDS = 14, DRAWS = 8, SURVIVES = 7, SEARCHED = 2, GAIN_ROUNDS = 4 };
 static const double certain = 100.0;  /* chi squared of 4 degrees with which all draws of noise leave a mode */
 static const double step = 300.0;     /* of power, from round to round */
 static const double least_fall = 0.3; /* nepers in the longest strike, 2.6 dB: less may be none */
+static const double level_fall = 0.1; /* of a mode: less is what a tone looks like that began with the strike */
 static const double samples = 128.0;  /* of a band's envelope in the longest stretch, in the narrowest bands */
 
 long modal_length(long n)
@@ -501,6 +502,14 @@ bool modal_find(const struct modal_data *d, const struct modal_options *o, struc
                              least_fall / f.longest),
                 arena_format(a, "modes ring longer than the strikes show: their decay is taken as %.3g/s",
                              least_fall / f.longest));
+    int level = 0;
+    for (int j = 0; j < r->n; j++)
+        level += r->mode[j].decay < level_fall / f.longest;
+    note_number(r, a, level,
+                "mode falls by less than 0.9 dB in the longest strike: a tone that began with the strike would look "
+                "like it; record for longer",
+                "modes fall by less than 0.9 dB in the longest strike: tones that began with the strike would look "
+                "like them; record for longer");
     note_number(r, a, more, arena_format(a, "more mode than the %d strongest was found", o->most),
                 arena_format(a, "more modes than the %d strongest were found", o->most));
     arena_close(inner);

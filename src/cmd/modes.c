@@ -214,7 +214,7 @@ static const struct args_option options[] = {
      "what is then no full grid gains are linear, else smooth; default: a grid, over what is round rings as far as its "
      "surface has no edge (a bowl: to its lip), with as many places as keep the gains of all modes between the places, "
      "as a scene interpolates them, within -40 dB (rms, relative to the gains, at 512 places), at most 4096 and 500000 "
-     "rows; what is left is told"},
+     "rows; what is left is reported"},
     {"at", 0, "X,Y", false, "one place"},
     {"points", 0, "FILE.csv", false,
      "compute: places by points of space, columns x_m, y_m, z_m, and u_m, v_m where the scene has them (else x_m, "

@@ -9,6 +9,7 @@
 #include "output/gnuplot.h"
 
 enum { MODES_EXTRACT_NOTES = 64 };
+#define MODES_EXTRACT_NO_FORCE "no channel holds the force"
 #define MODES_EXTRACT_REACH 1e-4 /* of the force's greatest power: what lies below is noise */
 
 enum {

@@ -400,13 +400,14 @@ static void level(struct modes_extract *x)
                                 : "--scale and --force-scale, what the channels' full scales are, are not given";
     if (air) x->why_not = air_note;
     if (!force)
-        x->why_not = "no channel holds the force, so that gains are those of a strike whose sound's peak is 1, and "
-                     "hold the hammer's spectrum";
+        x->why_not = MODES_EXTRACT_NO_FORCE ", so that gains are those of a strike whose sound's peak is 1, and "
+                                            "hold the hammer's spectrum";
     if (!force && x->n > 1)
-        x->why_not = "no channel holds the force, so that gains at each place are those of a strike whose sound there "
-                     "has the peak 1 and the onset 0, and hold the hammer's spectrum: places cannot be compared with "
-                     "each other; --force-channel, or impulse responses with --impulse and one --delay for all, keep "
-                     "what is between them";
+        x->why_not = MODES_EXTRACT_NO_FORCE
+            ", so that gains at each place are those of a strike whose sound there "
+            "has the peak 1 and the onset 0, and hold the hammer's spectrum: places cannot be compared with "
+            "each other; --force-channel, or impulse responses with --impulse and one --delay for all, keep "
+            "what is between them";
     if (air && !force) modes_extract_find_note(x, NULL, air_note);
     if (x->why_not) NOTE(x, "the level is relative: %s", x->why_not);
 }

@@ -42,6 +42,7 @@ static void comments(FILE *f, const struct modes_extract *x)
             "# error %d.%d: frequency_hz se %.3g se_between %.3g, decay_per_s se %.3g se_between %.3g, gain se %.3g\n",
             m->mode, m->slope, m->frequency_se, m->frequency_between, m->decay_se, m->decay_between, gain);
     }
+    if (!g->force_channel && !g->impulse) fputs("# force: not recorded\n", f);
     if (x->found.undamped) fprintf(f, "# hum: %d\n", x->found.undamped);
     for (int k = 0; k < x->notes; k++)
         fprintf(f, "# note %d: %s\n", k + 1, x->note[k]);

@@ -36,7 +36,7 @@ static bool read_strike(struct modes_material *j, const char *text, int object, 
     struct modes_material_strike *s = &j->strike[j->strikes];
     struct units_fault fault = {NULL, NULL};
     char *name = arena_text(j->c->arena, text), *at = strrchr(name, '@'), *comma = at ? strchr(at, ',') : NULL;
-    *s = (struct modes_material_strike){.shown = text, .file = name, .strength = NAN};
+    *s = (struct modes_material_strike){.shown = text, .file = name, .strength = NAN, .spread = NAN};
     if (j->strikes == STRIKES) return err_set(e, ERR_USAGE, "more than %d strikes", STRIKES);
     if (comma) {
         *at = *comma = '\0';

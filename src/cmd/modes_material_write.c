@@ -222,10 +222,16 @@ bool modes_material_write_report(const struct modes_material *j, struct err *e)
     }
     if (!j->wood) report_figure_of(&r, "poisson", "Poisson's ratio", &f->nu, "");
     report_set(&r, "metric_image:n metric_feature:n evaluations:i", j->metric.image, j->metric.feature, j->evaluations);
+    const struct modes_material_strike *first = j->strike; /* of which the metrics are */
+    while (first < j->strike + j->strikes - 1 && first->places == 0)
+        first++;
     if (isnan(j->metric.image))
         report_row(&r, "metrics", "not known without the place that was struck (FILE.csv@X,Y)");
     else
-        report_row(&r, "metrics (0: alike)", "image %.4g, feature %.4g", j->metric.image, j->metric.feature);
+        report_row(&r, "metrics (0: alike)", "image %.4g, feature %.4g%s", j->metric.image, j->metric.feature,
+                   csv_comment(&first->table.csv, "force")
+                       ? "; the force was not recorded: the image shows the hammer, too"
+                       : "");
     if (!isnan(f->gamma.low) && j->size_error == 0.0)
         report_note(&r, "  ",
                     "The intervals suppose exact sizes: all lengths 1 % too long make E/density 2 % too large, one "

@@ -58,7 +58,9 @@ struct table { /* features of a mode table */
     char hash[HASH_TEXT];
     int n;
     struct feature *feature;
-    bool hum; /* a recording it is of had one */
+    bool hum;      /* a recording it is of had one */
+    int quantity;  /* enum modes_quantity */
+    double radius; /* m, of a monopole that is divided out; NAN: none */
 };
 
 struct job {
@@ -107,6 +109,8 @@ static bool table_read(struct job *j, const char *file, struct table *to, struct
     if (!mode_table_read(file, j->arena, &t, e) || !hash_file(file, to->hash, e) || !csv_read(file, j->arena, &csv, e))
         return false;
     to->hum = csv_comment(&csv, "hum") != NULL;
+    to->quantity = t.quantity;
+    to->radius = t.radius;
     for (const struct mode_entry *v = t.entry; v < t.entry + t.first[t.places]; v++)
         most = v->n > most ? v->n : most;
     struct feature *all = ARENA_TAKE(j->arena, struct feature, t.modes * (size_t)most);
@@ -416,7 +420,7 @@ static const char *per(const struct job *j)
 /* What its level lacks to be one per N s; NULL: nothing. */
 static const char *why_not(const struct job *j)
 {
-    if (!j->x.given.impulse && !j->x.given.force_channel) return "no channel holds the force";
+    if (!j->x.given.impulse && !j->x.given.force_channel) return MODES_EXTRACT_NO_FORCE;
     return isnan(j->x.given.scale) ? "--scale, and with a force --force-scale, are not given" : NULL;
 }
 
@@ -606,6 +610,15 @@ static const char *shown(const struct job *j, double x, const char *otherwise)
 static void warn(struct job *j, const struct figures *g)
 {
     double early = before_start(j);
+    int quantity = j->x.given.quantity, of = quantity; /* of the table that modes extract makes of such a recording */
+    if (quantity == MODES_PRESSURE) of = isnan(j->table.radius) ? MODES_ACCELERATION : MODES_VELOCITY;
+    if (of != j->table.quantity)
+        modes_extract_find_note(
+            &j->x, NULL,
+            arena_format(j->arena,
+                         "the recording is taken as one of %s, and the table is of %s: give --quantity as for modes "
+                         "extract, unless the two are of different sensors",
+                         modes_quantity_name(quantity), modes_quantity_name(j->table.quantity)));
     if (early > 0.0)
         modes_extract_find_note(
             &j->x, NULL,

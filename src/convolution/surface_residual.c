@@ -90,10 +90,12 @@ struct residual_output {
     const struct ring_output *voice;
     struct residual_transferred sound;
     struct overlap_add *convolution;
+    double energy; /* of what it sounded */
 };
 
 struct residual_run {
     struct residual_output *outputs; /* [channels] */
+    double modes;                    /* energy of what sounded without it, of the first channel */
     double y[STAGE_BLOCK];
 };
 
@@ -178,8 +180,11 @@ static bool run(struct stage_run *r, long from, long to, struct err *e)
         double *out = board_at(r->board, ITEM_SURFACE_SOUND, from) + k;
         memset(s->y, 0, (size_t)(to - from) * sizeof *s->y);
         overlap_add_run(s->outputs[k].convolution, ring_force(g, s->outputs[k].voice, from), s->y, to - from);
-        for (long n = 0; n < to - from; n++)
+        for (long n = 0; n < to - from; n++) {
+            if (k == 0) s->modes += out[n * g->channels] * out[n * g->channels];
+            s->outputs[k].energy += s->y[n] * s->y[n];
             out[n * g->channels] += s->y[n];
+        }
     }
     return true;
 }
@@ -195,10 +200,12 @@ static struct stage_report report(const struct stage_run *r, struct arena *a)
 {
     const struct residual_run *s = r->state;
     const struct residual_transferred *t = &s->outputs->sound;
-    double level = t->level + 20.0 * real_log10(given_of(r->contact)->gain);
+    double level = 10.0 * real_log10(s->outputs->energy / s->modes);
     json_t *value = json_object();
     json_value_set(value, "pairs:i level_db:n seconds:n", t->pairs, level, (double)t->n / r->board->rate);
-    const char *off = "", *loud = isfinite(level) ? arena_format(a, "%.1f dB beside the modes", level) : "silent";
+    const char *off = "", *loud = isfinite(level)          ? arena_format(a, "%.1f dB beside the modes", level)
+                                  : s->outputs->energy > 0 ? "alone"
+                                                           : "silent";
     if (isfinite(t->consistency)) {
         json_object_set_new(value, "consistency_db", json_real(t->consistency));
         off = arena_format(a, ", its spectrogram %.1f dB off what was transferred", t->consistency);

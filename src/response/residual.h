@@ -64,7 +64,6 @@ struct residual_transferred {
         int source, target;
     } pair[RESIDUAL_PAIRS]; /* by the target's frequency */
     double consistency;     /* dB: how far the spectrogram of x is from the one that was asked for; -INFINITY: equal */
-    double level;           /* dB, energy over that of the target's modes */
     int written[2];         /* least and greatest number of times that a bin was written */
 };
 

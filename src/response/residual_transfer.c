@@ -154,15 +154,6 @@ struct spectra { /* [frames][bins] */
 
 static long count(const struct spectra *s) { return (long)s->stft->frames * s->stft->bins; }
 
-/* As of bins that are no denser than those of a frame. */
-static double total(const double *power, const struct spectra *s)
-{
-    double sum = 0.0;
-    for (long i = 0; i < count(s); i++)
-        sum += power[i];
-    return sum * s->stft->size / s->stft->padded;
-}
-
 /* Power of Im(A e^(s t)), t >= 0, |A| = gain, in a frame: the mean over the phases of A. work: [3 size + 2 bins]. */
 static void frame_power(const struct stft *s, double rate, int frame, const double mode[3], double *work, double *power)
 {
@@ -469,7 +460,6 @@ bool residual_transfer(const struct residual_ask *ask, struct arena *a, struct r
     stft_forward(s.stft, source->x, s.re, s.im);
     stft_power(s.re, s.im, count(&s), s.power);
     move(ask, &s, &to, t, inner);
-    t->level = 10.0 * real_log10(total(to.power, &to) / total(to.modes, &to));
     if (ask->inverse == RESIDUAL_PHASES)
         by_phases(&to, t, inner);
     else

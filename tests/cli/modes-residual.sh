@@ -28,6 +28,8 @@ for f, d, g, p in mode:
         state = state * step + (pulse[k] if k < len(pulse) else 0)
         x[onset + k] += (a * state).imag
         missing[k] = (a * state).imag
+if kind == "tone":  # begins with the strike
+    rest = [0.2 * math.sin(2 * math.pi * 997 * k / rate) for k in range(n - onset)]
 for k, v in enumerate(rest):
     x[onset + k] += v
 force = [0.0] * n
@@ -170,6 +172,14 @@ cmp all/residual.wav again/residual.wav
 ls all
 sed -e 's/[0-9a-f]\{64\}/HASH/' -e 's/\(_db: -*[0-9]*\)[.0-9]*/\1/' -e 's/peak: .*/peak: P/' all/residual.yaml
 head -3 all/modes.csv | sed 's/[0-9a-f]\{64\}/HASH/'
+
+echo "doubtful"
+residual click.wav all.csv -f -o doubtful | grep -A1 'taken as' | tr -s ' \n' ' '
+residual click.wav all.csv --quantity velocity -f -o doubtful | grep -c 'taken as' || true
+python3 make.py tone.wav 3 tone
+rasp modes extract tone.wav -f -o tone.csv | grep -c '1 mode falls by less than 0.9 dB'
+python3 make.py click.wav 3 click
+rasp modes extract click.wav -f -o click.csv | grep -c 'falls by less' || true
 
 echo "a scene"
 cat > scene.yaml << 'END'
