@@ -124,7 +124,12 @@ struct filter filter_decimator(struct arena *a, int over) { return decimator(a, 
 
 struct filter filter_decimator_bspline(struct arena *a, int over) { return decimator(a, over, true); }
 
-void filter_narrow(double sigma, double tap[FILTER_NARROW_TAPS])
+enum { NARROW_TAPS = 5 };
+
+/* Taps 0 to 4 to each side of a Gaussian narrower than FILTER_NARROW samples, sum 1:
+
+     exp(-sigma^2 omega^2 / 2) to order omega^8, by omega^2 = x + x^2/12 + x^3/90 + x^4/560 ..., x = 4 sin^2(omega/2) */
+static void narrow_taps(double sigma, double tap[NARROW_TAPS])
 {
     double v = -0.5 * sigma * sigma, u[4] = {v, v / 12, v / 90, v / 560},
            p[4] = {u[0], u[1] + u[0] * u[0] / 2, u[2] + u[0] * u[1] + u[0] * u[0] * u[0] / 6, /* exp of the series */
@@ -136,13 +141,18 @@ void filter_narrow(double sigma, double tap[FILTER_NARROW_TAPS])
     tap[4] = p[3];
 }
 
+int filter_gaussian_reach(double sigma)
+{
+    return sigma > 0 && sigma < FILTER_NARROW ? NARROW_TAPS - 1 : (int)ceil(6.5 * sigma);
+}
+
 struct filter filter_gaussian(struct arena *a, double sigma)
 {
     bool narrow = sigma > 0 && sigma < FILTER_NARROW;
-    int reach = narrow ? FILTER_NARROW_TAPS - 1 : (int)ceil(6.5 * sigma);
+    int reach = filter_gaussian_reach(sigma);
     double *tap = ARENA_TAKE(a, double, 2 * reach + 1);
     if (narrow) {
-        filter_narrow(sigma, tap + reach);
+        narrow_taps(sigma, tap + reach);
         for (int j = 1; j <= reach; j++)
             tap[reach - j] = tap[reach + j];
         return (struct filter){reach, 2 * reach + 1, tap};
