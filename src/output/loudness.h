@@ -11,7 +11,7 @@ struct loudness;
 /* As many frames are needed: one block of 0.4 s, as libebur128 counts them. */
 long loudness_least(double rate);
 
-/* peaks: true peaks are wanted, too, which costs as much again. NULL: cannot be set up */
+/* peaks: true peaks are wanted, too,. NULL: cannot be set up */
 struct loudness *loudness_open(int channels, double rate, bool peaks);
 
 /* Frames [n][channels]; times scale. Blocks below -70 LUFS do not count: bring a sound to peak 1 first. */
@@ -23,7 +23,7 @@ bool loudness_read(struct loudness *l, double *lufs);
 
 /* The greatest magnitude between samples, too, of all channels: of four times as many (below 96 kHz), which finds up to
  * 0.2 dB less than there is at a third of the rate. */
-double loudness_true_peak(struct loudness *l);
+double loudness_true_peak(const struct loudness *l);
 void loudness_close(struct loudness *l);
 
 #endif
