@@ -27,6 +27,7 @@ struct file_cache_ask {
 
 /* Holds that many bytes, about: what is asked for beyond is read by everyone who asks, unless it is small. Hashes are
  * small: a file that had to be known by its hash is watched. */
+enum { FILE_CACHE_MOST = 256 << 20 }; /* what a command holds */
 struct file_cache *file_cache_open(size_t most);
 void file_cache_close(struct file_cache *s);
 

@@ -17,11 +17,6 @@
 #include "num/fft.h"
 #include "num/resample.h"
 
-enum {
-    FILE_CACHE_MOST =
-        256 << 20 /* bytes of inputs that stay in memory; what is beyond is read again for every stimulus */
-};
-
 struct slot { /* what a job came to, until it is taken */
     struct stimulus is;
     bool done;

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/file_cache.h"
 #include "base/outfile.h"
 #include "base/relpath.h"
 #include "base/text.h"
@@ -174,7 +175,7 @@ static const char *render_base(struct cmd_call *c, const char *file, struct err 
 }
 
 /* All scenes, and what each would write; nothing is written yet. */
-static struct outputs *render_read(struct cmd_call *c, struct err *e)
+static struct outputs *render_read(struct cmd_call *c, struct file_cache *file_cache, struct err *e)
 {
     int n = c->args.n_operands;
     struct scene *scenes = ARENA_TAKE(c->arena, struct scene, n);
@@ -182,6 +183,7 @@ static struct outputs *render_read(struct cmd_call *c, struct err *e)
     for (int i = 0; i < n; i++) {
         const char *file = c->args.operands[i], *base = render_base(c, file, e);
         if (!base || !cmd_read_scene(c, file, &scenes[i], e)) return NULL;
+        scenes[i].file_cache = file_cache;
         all[i] = outputs_make(&scenes[i], base, c->arena);
     }
     if (!outputs_distinct(all, n, c->arena, e) || !outputs_check_overwrite(all, n, c->arena, e) ||
@@ -201,7 +203,8 @@ static int render_run(struct cmd_call *c, struct err *e)
     if (n > 1) message_group(c);
     bool array = n > 1 && args_given(&c->args, "json");
     if (args_given(&c->args, "traps")) run_traps();
-    const struct outputs *all = render_read(c, e);
+    struct file_cache *file_cache = file_cache_open(FILE_CACHE_MOST);
+    const struct outputs *all = render_read(c, file_cache, e);
     bool ok = all != NULL;
     for (int i = 0; ok && i < n; i++) {
         struct render_report report;
@@ -223,6 +226,7 @@ static int render_run(struct cmd_call *c, struct err *e)
             printf("%s\n", text_shown(c->arena, report.notes[k]));
     }
     if (array && done) puts("]");
+    file_cache_close(file_cache);
     return (int)e->kind;
 }
 

@@ -105,12 +105,12 @@ static bool given_ends(const struct contact *c, double last, double duration, st
                                               c->name, given_of(c)->file, last, duration);
 }
 
-/* Index of the largest magnitude; n >= 1. */
-static size_t given_largest(size_t n, const double *x)
+/* Index of the largest magnitude of n >= 1 values, `stride` apart. */
+static size_t given_largest(size_t n, const double *x, size_t stride)
 {
     size_t at = 0;
     for (size_t i = 1; i < n; i++)
-        at = fabs(x[i]) > fabs(x[at]) ? i : at;
+        at = fabs(x[i * stride]) > fabs(x[at * stride]) ? i : at;
     return at;
 }
 
@@ -125,9 +125,10 @@ static size_t given_largest(size_t n, const double *x)
    folded into the first ones, what rings after the last is kept. */
 
 struct given_samples {
-    double rate; /* Hz, of the file; then of the scene */
-    size_t n;
-    double *force; /* N                                  */
+    double rate;      /* Hz, of the file; then of the scene    */
+    size_t n, stride; /* samples; values from one to the next  */
+    const double *x;  /* as the file has them, or resampled    */
+    double scale;     /* N per unit                            */
 };
 
 static bool samples_wanted(const struct contact *c, const struct scene *s)
@@ -153,6 +154,8 @@ static bool given_make(const char *path, const void *how, struct arena *a, void 
     f->is_npy = ok && npy_is(&b);
     ok = ok && (f->is_npy ? heightfile_formats_npy_read(path, &b, a, &f->npy, e) : wav_read(path, a, &f->wav, e));
     arena_close(scratch);
+    for (size_t i = 0; ok && f->is_npy && f->npy.rows == 1 && i < f->npy.columns; i++)
+        ok = isfinite(f->npy.z[i]) || err_set(e, ERR_SCENE, "%s: element %zu is not a finite number: mend it", path, i);
     return ok;
 }
 
@@ -168,9 +171,7 @@ static bool wav_take(const struct stage_run *r, const struct wav *w, struct give
             e, ERR_SCENE,
             "contact '%s': contact.given.scale must be given: %s does not say how many newtons its %s stands for",
             r->contact->name, given->file, w->bits ? "full scale" : "unit");
-    *g = (struct given_samples){w->rate, w->frames, ARENA_TAKE(r->arena, double, w->frames)};
-    for (size_t i = 0; i < w->frames; i++)
-        g->force[i] = given->scale * w->x[i * (size_t)w->channels + (size_t)given->channel - 1];
+    *g = (struct given_samples){w->rate, w->frames, (size_t)w->channels, w->x + given->channel - 1, given->scale};
     return true;
 }
 
@@ -184,13 +185,7 @@ static bool npy_take(const struct stage_run *r, const struct heightfile *h, stru
         return err_set(e, ERR_SCENE,
                        "contact '%s': contact.given.rate must be given: %s does not say how many samples a second has",
                        r->contact->name, given->file);
-    *g = (struct given_samples){given->rate, h->columns, ARENA_TAKE(r->arena, double, h->columns)};
-    double scale = given_scale(r->contact);
-    for (size_t i = 0; i < g->n; i++) {
-        if (!isfinite(h->z[i]))
-            return err_set(e, ERR_SCENE, "%s: element %zu is not a finite number: mend it", given->file, i);
-        g->force[i] = h->z[i] * scale;
-    }
+    *g = (struct given_samples){given->rate, h->columns, 1, h->z, given_scale(r->contact)};
     return true;
 }
 
@@ -210,9 +205,14 @@ static bool samples_resample(const struct stage_run *r, struct given_samples *g,
 {
     double rate = r->board->rate;
     size_t rings = (size_t)ceil(RESAMPLE_REACH * g->rate / fmin(rate, g->rate));
-    double *x = ARENA_TAKE(r->arena, double, g->n + rings);
-    memcpy(x, g->force, g->n * sizeof *x);
-    return resample(r->arena, x, g->n + rings, g->rate, rate, &g->force, &g->n, e);
+    double *x = ARENA_TAKE(r->arena, double, g->n + rings), *y;
+    for (size_t i = 0; i < g->n; i++)
+        x[i] = g->scale * g->x[i * g->stride];
+    if (!resample(r->arena, x, g->n + rings, g->rate, rate, &y, &g->n, e)) return false;
+    g->x = y;
+    g->stride = 1;
+    g->scale = 1;
+    return true;
 }
 
 static bool samples_open(struct stage_run *r, struct err *e)
@@ -223,7 +223,7 @@ static bool samples_open(struct stage_run *r, struct err *e)
         !given_ends(r->contact, (double)(g->n - 1) / g->rate, r->board->trajectory->duration, e))
         return false;
     if (r->contact->start < r->scene->output.ramp)
-        approach_warn(r, "the largest force", (double)given_largest(g->n, g->force) / g->rate);
+        approach_warn(r, "the largest force", (double)given_largest(g->n, g->x, g->stride) / g->rate);
     return g->rate == r->board->rate || samples_resample(r, g, e) || err_at(e, "%s", given_of(r->contact)->file);
 }
 
@@ -233,7 +233,8 @@ static bool samples_fill(struct stage_run *r, long from, long to, struct err *e)
     double *force = board_at(r->board, ITEM_FORCE, from);
     (void)e;
     long some = (long)g->n < from ? 0 : (long)g->n < to ? (long)g->n - from : to - from;
-    memcpy(force, g->force + (some ? from : 0), (size_t)some * sizeof *force);
+    for (long i = 0; i < some; i++)
+        force[i] = g->scale * g->x[(size_t)(from + i) * g->stride];
     memset(force + some, 0, (size_t)(to - from - some) * sizeof *force);
     return true;
 }
@@ -296,7 +297,7 @@ static bool table_open(struct stage_run *r, struct err *e)
                        "motion.file begin earlier",
                        given->file, s.lines[0], s.time[0], tr->clock);
     if (!given_ends(r->contact, last, tr->duration, e)) return false;
-    approach_warn(r, "the largest force", s.time[given_largest(s.n, s.x[0])] - tr->clock);
+    approach_warn(r, "the largest force", s.time[given_largest(s.n, s.x[0], 1)] - tr->clock);
     for (size_t i = 0; i < s.n; i++) {
         g->at[i] = (s.time[i] - tr->clock) * r->board->rate * r->board->over;
         g->force[i] = given_scale(r->contact) * s.x[0][i];

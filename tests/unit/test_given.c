@@ -319,9 +319,11 @@ START_TEST(npys_refused)
     double x[6] = {0, 1, 2, NAN, 4, 5};
     write_npy("a.npy", "6,", x, 6);
     struct contact c = giver(path("a.npy"), 1);
+    refused(&given_samples_stage, &c, "element 3 is not a finite number");
+    x[3] = 3;
+    write_npy("a.npy", "6,", x, 6);
     refused(&given_samples_stage, &c, "contact.given.rate must be given");
     shot_given(&c)->rate = 1000;
-    refused(&given_samples_stage, &c, "element 3 is not a finite number");
     write_npy("a.npy", "2, 3", x, 6);
     refused(&given_samples_stage, &c, "2 x 3; a force has one dimension");
     shot_given(&c)->channel = 2;
