@@ -172,20 +172,20 @@ INLINE double lane_step(struct lane *v, double f, int gamma)
     v->gr += v->sr;
     v->gi += v->si;
     if (gamma > 3) {
-        double re = v->dr + 3 * (v->cr + v->br) + v->ar, im = v->di + 3 * (v->ci + v->bi) + v->ai;
-        v->dr = v->pr * re - v->pi * im;
-        v->di = v->pr * im + v->pi * re;
+        double re = fma(3, v->cr + v->br, v->dr + v->ar), im = fma(3, v->ci + v->bi, v->di + v->ai);
+        v->dr = fma(v->pr, re, -(v->pi * im));
+        v->di = fma(v->pr, im, v->pi * re);
     }
     if (gamma > 2) {
-        double re = v->cr + 2 * v->br + v->ar, im = v->ci + 2 * v->bi + v->ai;
-        v->cr = v->pr * re - v->pi * im;
-        v->ci = v->pr * im + v->pi * re;
+        double re = fma(2, v->br, v->cr + v->ar), im = fma(2, v->bi, v->ci + v->ai);
+        v->cr = fma(v->pr, re, -(v->pi * im));
+        v->ci = fma(v->pr, im, v->pi * re);
     }
     double br = v->br + v->ar, bi = v->bi + v->ai, ar = v->ar;
-    v->br = v->pr * br - v->pi * bi;
-    v->bi = v->pr * bi + v->pi * br;
-    v->ar = v->pr * ar - (v->pi * v->ai - v->gr * f);
-    v->ai = v->pr * v->ai + (v->pi * ar + v->gi * f);
+    v->br = fma(v->pr, br, -(v->pi * bi));
+    v->bi = fma(v->pr, bi, v->pi * br);
+    v->ar = fma(v->pr, ar, fma(-v->pi, v->ai, v->gr * f));
+    v->ai = fma(v->pr, v->ai, fma(v->pi, ar, v->gi * f));
     return gamma > 3 ? v->di : gamma > 2 ? v->ci : v->bi;
 }
 

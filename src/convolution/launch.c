@@ -102,8 +102,8 @@ INLINE struct term term_take(const struct row *row, int l)
 
 INLINE void term_turn(struct term *t)
 {
-    double r = t->r * t->dr - t->i * t->di;
-    t->i = t->r * t->di + t->i * t->dr;
+    double r = fma(t->r, t->dr, -(t->i * t->di));
+    t->i = fma(t->r, t->di, t->i * t->dr);
     t->r = r;
 }
 
@@ -128,8 +128,8 @@ INLINE void four_next(const struct four *v, struct clusters *g, int r, int l)
 
 INLINE void row_advance(struct row *row, int l)
 {
-    double r = row->xr[l] * row->ar[l] - row->xi[l] * row->ai[l];
-    row->xi[l] = row->xr[l] * row->ai[l] + row->xi[l] * row->ar[l];
+    double r = fma(row->xr[l], row->ar[l], -(row->xi[l] * row->ai[l]));
+    row->xi[l] = fma(row->xr[l], row->ai[l], row->xi[l] * row->ar[l]);
     row->xr[l] = r;
 }
 
@@ -183,17 +183,17 @@ INLINE double frame(const struct clusters *g, int l, struct carrier *c, double t
 {
     double er = g->mr[0][l], ei = g->mi[0][l];
     if (terms == 5) {
-        er += tau * (g->mr[1][l] + tau * (g->mr[2][l] + tau * (g->mr[3][l] + tau * g->mr[4][l])));
-        ei += tau * (g->mi[1][l] + tau * (g->mi[2][l] + tau * (g->mi[3][l] + tau * g->mi[4][l])));
+        er = fma(tau, fma(tau, fma(tau, fma(tau, g->mr[4][l], g->mr[3][l]), g->mr[2][l]), g->mr[1][l]), er);
+        ei = fma(tau, fma(tau, fma(tau, fma(tau, g->mi[4][l], g->mi[3][l]), g->mi[2][l]), g->mi[1][l]), ei);
     }
     if (terms == 7) {
-        double hr = g->mr[4][l] + tau * (g->mr[5][l] + tau * g->mr[6][l]),
-               hi = g->mi[4][l] + tau * (g->mi[5][l] + tau * g->mi[6][l]);
-        er += tau * (g->mr[1][l] + tau * (g->mr[2][l] + tau * (g->mr[3][l] + tau * hr)));
-        ei += tau * (g->mi[1][l] + tau * (g->mi[2][l] + tau * (g->mi[3][l] + tau * hi)));
+        double hr = fma(tau, fma(tau, g->mr[6][l], g->mr[5][l]), g->mr[4][l]),
+               hi = fma(tau, fma(tau, g->mi[6][l], g->mi[5][l]), g->mi[4][l]);
+        er = fma(tau, fma(tau, fma(tau, fma(tau, hr, g->mr[3][l]), g->mr[2][l]), g->mr[1][l]), er);
+        ei = fma(tau, fma(tau, fma(tau, fma(tau, hi, g->mi[3][l]), g->mi[2][l]), g->mi[1][l]), ei);
     }
-    double y = c->r * ei + c->i * er, r = c->r * c->qr - c->i * c->qi;
-    c->i = c->r * c->qi + c->i * c->qr;
+    double y = fma(c->r, ei, c->i * er), r = fma(c->r, c->qr, -(c->i * c->qi));
+    c->i = fma(c->r, c->qi, c->i * c->qr);
     c->r = r;
     return y;
 }

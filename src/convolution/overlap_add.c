@@ -61,8 +61,8 @@ static void multiply(size_t n, struct spectrum a, struct spectrum b)
     double *restrict br = b.re, *restrict bi = b.im;
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double re = ar[i] * br[i] - ai[i] * bi[i];
-        bi[i] = ar[i] * bi[i] + ai[i] * br[i];
+        double re = fma(ar[i], br[i], -(ai[i] * bi[i]));
+        bi[i] = fma(ar[i], bi[i], ai[i] * br[i]);
         br[i] = re;
     }
 }
@@ -75,8 +75,8 @@ static void add_product(size_t n, struct spectrum a, struct spectrum b, struct s
     double *restrict cr = c.re, *restrict ci = c.im;
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        cr[i] += ar[i] * br[i] - ai[i] * bi[i];
-        ci[i] += ar[i] * bi[i] + ai[i] * br[i];
+        cr[i] = fma(ar[i], br[i], fma(-ai[i], bi[i], cr[i]));
+        ci[i] = fma(ar[i], bi[i], fma(ai[i], br[i], ci[i]));
     }
 }
 

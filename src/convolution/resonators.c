@@ -316,8 +316,8 @@ INLINE double lane_step(struct lane *v, double f, enum resonator_change change)
         v->pr += v->psr;
         v->pi += v->psi;
     }
-    double zr = v->pr * v->zr - (v->pi * v->zi - v->gr * f);
-    v->zi = v->pr * v->zi + (v->pi * v->zr + v->gi * f);
+    double zr = fma(v->pr, v->zr, fma(-v->pi, v->zi, v->gr * f));
+    v->zi = fma(v->pr, v->zi, fma(v->pi, v->zr, v->gi * f));
     v->zr = zr;
     return v->zi;
 }

@@ -45,6 +45,16 @@ struct ring_alias {
 
 /* ------------------------------------------------------------------ taps */
 
+/* Adds Im(A (re + j im)), A = by_im + j by_re. */
+LANES_CLONES
+static void taps_of(const double *restrict re, const double *restrict im, double by_im, double by_re,
+                    double *restrict to)
+{
+#pragma omp simd
+    for (int k = 0; k < ALIAS_TAPS; k++)
+        to[k] = fma(by_im, im[k], fma(by_re, re[k], to[k]));
+}
+
 static void taps_at(struct ring_alias *s, const struct ring *g, const struct ring_output *v, long frame,
                     struct known *to)
 {
@@ -57,8 +67,7 @@ static void taps_at(struct ring_alias *s, const struct ring *g, const struct rin
         if (s->moves && s->separate)
             alias_add(s->fit, s->at.frequency[i], s->at.decay[i], (double[2]){s->at.re[i], s->at.im[i]}, to->tap);
         else
-            for (int k = 0; k < ALIAS_TAPS; k++)
-                to->tap[k] += s->at.re[i] * s->im[cached ? i : 0][k] + s->at.im[i] * s->re[cached ? i : 0][k];
+            taps_of(s->re[cached ? i : 0], s->im[cached ? i : 0], s->at.re[i], s->at.im[i], to->tap);
     }
 }
 
@@ -104,7 +113,7 @@ static void scatter(const double *restrict start, const double *restrict end, do
 {
 #pragma omp simd
     for (int k = 0; k < ALIAS_TAPS; k++)
-        to[k] += f * (start[k] + u * (end[k] - start[k]));
+        to[k] = fma(f, fma(u, end[k] - start[k], start[k]), to[k]);
 }
 
 static double share(const struct ring_alias *s, long frame)

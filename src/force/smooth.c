@@ -165,10 +165,10 @@ void smooth_taps(const double *tap, int taps, const double *x, long n, bool adds
             for (int l = 0; l < LANES; l++) {
                 const double *at = x + i + j + l;
                 double by = tap[j];
-                sum[0][l] += by * at[0];
-                sum[1][l] += by * at[LANES];
-                sum[2][l] += by * at[2 * LANES];
-                sum[3][l] += by * at[3 * LANES];
+                sum[0][l] = fma(by, at[0], sum[0][l]);
+                sum[1][l] = fma(by, at[LANES], sum[1][l]);
+                sum[2][l] = fma(by, at[2 * LANES], sum[2][l]);
+                sum[3][l] = fma(by, at[3 * LANES], sum[3][l]);
             }
         memcpy(y + i, sum, some * sizeof *y);
     }
@@ -185,10 +185,10 @@ static void spread_gather(const struct shares *x, const double *const k[3], cons
         for (int l = 0; l < LANES; l++) {
             const double *p = k[0] - i + l, *q = k[1] - i + l, *r = k[2] - i + l;
             double a = x->of[0][i], b = x->of[1][i], c = x->of[2][i];
-            s[0][l] += a * p[0] + b * q[0] + c * r[0];
-            s[1][l] += a * p[LANES] + b * q[LANES] + c * r[LANES];
-            s[2][l] += a * p[2 * LANES] + b * q[2 * LANES] + c * r[2 * LANES];
-            s[3][l] += a * p[3 * LANES] + b * q[3 * LANES] + c * r[3 * LANES];
+            s[0][l] += fma(a, p[0], fma(b, q[0], c * r[0]));
+            s[1][l] += fma(a, p[LANES], fma(b, q[LANES], c * r[LANES]));
+            s[2][l] += fma(a, p[2 * LANES], fma(b, q[2 * LANES], c * r[2 * LANES]));
+            s[3][l] += fma(a, p[3 * LANES], fma(b, q[3 * LANES], c * r[3 * LANES]));
         }
     memcpy(sum, s, sizeof s);
 }

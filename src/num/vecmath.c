@@ -91,15 +91,15 @@ INLINE struct reduced reduce(double x, double x_lo)
 INLINE double exp_tail(double r)
 {
     double p = 0x1.af85bfc843b39p-26;
-    p = p * r + 0x1.28b072c5bdf12p-22;
-    p = p * r + 0x1.71dddfa8a2d1bp-19;
-    p = p * r + 0x1.a0199667d3d2ap-16;
-    p = p * r + 0x1.a01a01baf1f7bp-13;
-    p = p * r + 0x1.6c16c185b7130p-10;
-    p = p * r + 0x1.111111110d60bp-7;
-    p = p * r + 0x1.555555554ffeap-5;
-    p = p * r + 0x1.5555555555561p-3;
-    p = p * r + 0x1.000000000000cp-1;
+    p = fma(p, r, 0x1.28b072c5bdf12p-22);
+    p = fma(p, r, 0x1.71dddfa8a2d1bp-19);
+    p = fma(p, r, 0x1.a0199667d3d2ap-16);
+    p = fma(p, r, 0x1.a01a01baf1f7bp-13);
+    p = fma(p, r, 0x1.6c16c185b7130p-10);
+    p = fma(p, r, 0x1.111111110d60bp-7);
+    p = fma(p, r, 0x1.555555554ffeap-5);
+    p = fma(p, r, 0x1.5555555555561p-3);
+    p = fma(p, r, 0x1.000000000000cp-1);
     return r * r * p;
 }
 
@@ -132,12 +132,12 @@ INLINE double log_tail(double f, double h)
 {
     double s = f / (2 + f), z = s * s;
     double q = 0x1.2f0978bc035a2p-3;
-    q = q * z + 0x1.39a157ec2efddp-3;
-    q = q * z + 0x1.74664289a3262p-3;
-    q = q * z + 0x1.c71c51f8af8a1p-3;
-    q = q * z + 0x1.24924942045b6p-2;
-    q = q * z + 0x1.999999997fc75p-2;
-    q = q * z + 0x1.5555555555593p-1;
+    q = fma(q, z, 0x1.39a157ec2efddp-3);
+    q = fma(q, z, 0x1.74664289a3262p-3);
+    q = fma(q, z, 0x1.c71c51f8af8a1p-3);
+    q = fma(q, z, 0x1.24924942045b6p-2);
+    q = fma(q, z, 0x1.999999997fc75p-2);
+    q = fma(q, z, 0x1.5555555555593p-1);
     return s * (h + z * q);
 }
 
@@ -214,11 +214,11 @@ void vecmath_pow(size_t n, const double *x, double p, double *y)
 INLINE double sinpi_inside(double r, double z)
 {
     double s = 0x1.e3c370cf7d046p-12;
-    s = s * z - 0x1.e2ffddcd5b95dp-8;
-    s = s * z + 0x1.50782f2f4fb89p-4;
-    s = s * z - 0x1.32d2cce230e40p-1;
-    s = s * z + 0x1.466bc67757d80p+1;
-    s = s * z - 0x1.4abbce625be3cp+2;
+    s = fma(s, z, -0x1.e2ffddcd5b95dp-8);
+    s = fma(s, z, 0x1.50782f2f4fb89p-4);
+    s = fma(s, z, -0x1.32d2cce230e40p-1);
+    s = fma(s, z, 0x1.466bc67757d80p+1);
+    s = fma(s, z, -0x1.4abbce625be3cp+2);
     return r * 0x1.921fb54442d18p+1 + r * z * s;
 }
 
@@ -226,12 +226,12 @@ INLINE double sinpi_inside(double r, double z)
 INLINE double cospi_inside(double z)
 {
     double c = -0x1.b26fcb561a389p-14;
-    c = c * z + 0x1.f9cc6a72a7ab3p-10;
-    c = c * z - 0x1.a6d1ecb6cbf5ap-6;
-    c = c * z + 0x1.e1f50683b39f2p-3;
-    c = c * z - 0x1.55d3c7e3c95b7p+0;
-    c = c * z + 0x1.03c1f081b5ab0p+2;
-    c = c * z - 0x1.3bd3cc9be45dep+2;
+    c = fma(c, z, 0x1.f9cc6a72a7ab3p-10);
+    c = fma(c, z, -0x1.a6d1ecb6cbf5ap-6);
+    c = fma(c, z, 0x1.e1f50683b39f2p-3);
+    c = fma(c, z, -0x1.55d3c7e3c95b7p+0);
+    c = fma(c, z, 0x1.03c1f081b5ab0p+2);
+    c = fma(c, z, -0x1.3bd3cc9be45dep+2);
     return 1 + z * c;
 }
 

@@ -98,8 +98,8 @@ static void set_poles(struct ir_sampler *s, const struct modes_point *p)
 /* Im z now; then z turns on by p. */
 static inline __attribute__((always_inline)) double turn_on(double pr, double pi, double *zr, double *zi)
 {
-    double now = *zi, re = pr * *zr - pi * now;
-    *zi = pr * now + pi * *zr;
+    double now = *zi, re = fma(pr, *zr, -(pi * now));
+    *zi = fma(pr, now, pi * *zr);
     *zr = re;
     return now;
 }

@@ -303,7 +303,7 @@ static void add(int n, bool first, double by, const double *x, double *to)
     }
 #pragma omp simd
     for (int i = 0; i < n; i++)
-        to[i] += by * x[i];
+        to[i] = fma(by, x[i], to[i]);
 }
 
 LANES_CLONES

@@ -27,7 +27,7 @@ void object_sum(int n, int modes, const double *rows, const double *weight, doub
         double w = weight[t];
 #pragma omp simd
         for (int i = 0; i < modes; i++)
-            sum[i] += row[i] * w;
+            sum[i] = fma(row[i], w, sum[i]);
     }
 }
 

@@ -530,7 +530,7 @@ static void add(int n, double by, const double *x, double *to)
 {
 #pragma omp simd
     for (int i = 0; i < n; i++)
-        to[i] += by * x[i];
+        to[i] = fma(by, x[i], to[i]);
 }
 
 /* m = by m + 3 (y - x) */

@@ -35,7 +35,9 @@ static struct slopes_fit fitted(struct slopes_series *s, int count)
     ck_assert(f.n >= 1 && f.n <= SLOPES_MOST);
     for (int k = 0; k < f.n; k++)
         ck_assert(f.decay[k] > (k ? f.decay[k - 1] : 0));
-    ck_assert_double_eq_tol(f.error, left(&f, s, count), 1e-9 + 1e-6 * f.error);
+    /* Gains of 1e10 may cancel, of slopes that are nearly alike: the last bits of their exponentials, here by libm, are
+       1e-5 of what is left then. */
+    ck_assert_double_eq_tol(f.error, left(&f, s, count), 1e-9 + 5e-5 * f.error);
     return f;
 }
 
