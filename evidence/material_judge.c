@@ -19,8 +19,8 @@
 #include "analysis/material_set.h"
 #include "base/stopwatch.h"
 #include "cmd/modes_compute.h"
-#include "fem/mesh_check.h"
 #include "fem/grade.h"
+#include "fem/mesh_check.h"
 #include "fem/shapes.h"
 #include "fem/topology.h"
 #include "num/noise.h"
@@ -50,8 +50,9 @@ static struct careless {
     {"peak", 0.8},    /* of the sound; above 1 it clips */
     {"seconds", 2.5}, /* of the recording from the strike on */
     {"bits", 32},     /* of a sample; 32: floating point */
+    {"fade", 0},      /* s after the strike, at which an editor has faded it out, straight; 0: it has not */
 };
-enum { PULSE, BOUNCE, HOLD, ECHO, HUM, PEAK, SECONDS, BITS, CARELESS };
+enum { PULSE, BOUNCE, HOLD, ECHO, HUM, PEAK, SECONDS, BITS, FADE, CARELESS };
 
 static void careless_read(char **argv)
 {
@@ -131,6 +132,8 @@ static int make(char **argv)
     for (size_t k = t.first[place]; k < t.first[place + 1]; k++)
         if (t.entry[k].frequency <= 0.45 * RATE) ring(&t.entry[k], f, n, y);
     spoil(number(argv[4]), (uint64_t)number(argv[5]), n, y, gauss);
+    for (int i = LEAD; i < n && careless[FADE].x > 0.0; i++)
+        y[i] *= fmax(1.0 - (i - LEAD) / (careless[FADE].x * RATE), 0.0);
     for (int i = 0; i < n; i++)
         most = fmax(most, fabs(y[i]));
     for (int i = 0; i < n; i++) {
@@ -221,7 +224,8 @@ static int fit(char **argv)
         struct material_set set[2];
         int sets = 0;
         bool read = true;
-        for (int k = place ? place : 1; k <= (place ? place : 2); k++) { /* 0: both places, of FILE-1.csv and FILE-2.csv */
+        for (int k = place ? place : 1; k <= (place ? place : 2);
+             k++) { /* 0: both places, of FILE-1.csv and FILE-2.csv */
             read = read && mode_table_read(place ? file : arena_format(room, "%s-%d.csv", file, k), room, &t, &e);
             if (!read) break;
             set[sets] = material_set_make(&t, 0, room);

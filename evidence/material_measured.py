@@ -99,10 +99,10 @@ for name in sys.argv[2:]:
     heard = ["--force-channel", 2, "--json", "-f"]
     whole = rasp("modes", "extract", sound, *heard, "-o", name + ".csv")
     left = rasp("modes", "residual", sound, name + ".csv", *heard, "-o", name + "_residual")
-    first = rasp("modes", "residual", sound, name + ".csv", *heard, "--strikes", 1, "--keep-noise", "-o", name + "_first")
+    kept = rasp("modes", "residual", sound, name + ".csv", *heard, "--keep-noise", "-o", name + "_kept")
     x = samples(sound, 0)
-    start = round(first["start_s"] * 44100)
-    both = [samples(f"{name}_first/strike.wav", k) for k in (0, 1)]
+    start = round(kept["start_s"] * 44100)
+    both = [samples(f"{name}_kept/strike.wav", k) for k in (0, 1)]
     both = [a + b for a, b in zip(*both)]
     back, count, pulse = through(name + "_residual", left, sound)
     beside = in_scene(name, left, pulse)
@@ -130,7 +130,7 @@ for name in sys.argv[2:]:
     middle = [sorted(p[k] for p in pairs)[len(pairs) // 2] for k in (0, 1)]
     rows["halves"].append(f"| {name} | {len(strikes[::2])}, {len(strikes[1::2])} | {len(pairs)} of {len(strong)} | {100 * middle[0]:.2f} % | {100 * middle[1]:.0f} % "
                           f"| {other['left_db']:.1f} dB | {own['left_db']:.1f} dB |")
-print("| object | strike | modes | represented, dB of the recording | residual | noise | the first strike, both added beside its recording, farthest third octave, dB | the residual through the recorded force beside what was left, dB, where the force is within 20 dB | the residual beside the modes, dB: of the strike, of a scene with its force |\n|---|---|---|---|---|---|---|---|---|")
+print("| object | strike | modes | represented, dB of the recording | residual | noise | both added beside the recording, noise kept, farthest third octave, dB | the residual through the recorded force beside what was left, dB, where the force is within 20 dB | the residual beside the modes, dB: of the strike, of a scene with its force |\n|---|---|---|---|---|---|---|---|---|")
 print("\n".join(rows["residual"]))
 print("\n| object | modes | Rayleigh (95 %) | scatter | loss factor (95 %) | scatter | likeliest law | warnings |\n|---|---|---|---|---|---|---|---|")
 print("\n".join(rows["damping"]))

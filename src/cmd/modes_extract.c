@@ -89,7 +89,10 @@ static bool outputs(struct modes_extract *x, struct err *e)
     g->svg = plot && text_ends_in(plot, ".svg");
     if (plot && !g->svg && !text_ends_in(plot, ".png"))
         return err_set(e, ERR_USAGE, "--plot: '%s' ends in neither .png nor .svg", plot);
-    return g->file[MODES_EXTRACT_TABLE] || err_set(e, ERR_USAGE, "-o FILE.csv is needed: the mode table to write");
+    const char *table = g->file[MODES_EXTRACT_TABLE];
+    if (table && !text_ends_in(table, ".csv"))
+        return err_set(e, ERR_USAGE, "-o %s: a mode table is CSV: write for instance -o modes.csv", table);
+    return table || err_set(e, ERR_USAGE, "-o FILE.csv is needed: the mode table to write");
 }
 
 bool modes_extract_options(struct modes_extract *x, struct err *e)

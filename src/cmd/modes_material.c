@@ -120,7 +120,7 @@ static bool read_range(struct modes_material *j, struct err *e)
     j->range[1] = 5e8; /* diamond */
     if (!text) return true;
     j->range[0] = strtod(text, &end);
-    if (*end == ',') j->range[1] = strtod(end + 1, &end);
+    j->range[1] = *end == ',' ? strtod(end + 1, &end) : NAN;
     return (!*end && j->range[0] > 0.0 && j->range[1] >= 1.2 * j->range[0] && j->range[1] <= 1e12) ||
            err_set(e, ERR_USAGE,
                    "--gamma: '%s' is not LOW,HIGH in m^2/s^2, such as 1e6,1e8, HIGH a fifth above LOW at least", text);
@@ -152,6 +152,8 @@ static bool read_options(struct modes_material *j, struct err *e)
     const struct args *g = &j->c->args;
     j->file = args_value(g, "output");
     if (!j->file) return err_set(e, ERR_USAGE, "-o FILE.yaml is needed: the material to write");
+    if (!text_ends_in(j->file, ".yaml") && !text_ends_in(j->file, ".yml"))
+        return err_set(e, ERR_USAGE, "-o %s: a material is YAML: write for instance -o my_glass.yaml", j->file);
     j->name = args_value(g, "name");
     if (!j->name) {
         const char *slash = strrchr(j->file, '/'), *from = slash ? slash + 1 : j->file;
@@ -307,12 +309,20 @@ static bool compute_family(struct modes_material *j, int o, struct err *e)
 
 static bool find_density(struct modes_material *j, struct err *e)
 {
-    double mass = 0.0, volume = 0.0;
+    double mass = 0.0, volume = 0.0, least = INFINITY, most = 0.0;
     for (int o = 0; o < j->n; o++) {
+        double own = j->thing[o].mass / j->thing[o].solid.boundary.volume;
         mass += j->thing[o].mass;
         volume += j->thing[o].solid.boundary.volume;
+        least = fmin(least, own);
+        most = fmax(most, own);
     }
     if (isnan(mass)) return true;
+    if (most > 1.2 * least)
+        return err_set(e, ERR_USAGE,
+                       "--mass: with these masses the objects have densities from %.4g to %.4g kg/m^3, and they are of "
+                       "one material: do masses and sizes stand in the order of the objects?",
+                       least, most);
     j->density = mass / volume;
     return (j->density >= 1.0 && j->density <= 1e5) ||
            err_set(e, ERR_USAGE,

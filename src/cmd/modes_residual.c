@@ -51,6 +51,8 @@ static const double fade = 0.005;   /* s at the end */
 static const double nothing = 1e-8; /* of the energy: a tail of less is cut */
 #define THIRD_LOWEST 100.0          /* Hz */
 #define THIRD 1.2599210498948732    /* 2^(1/3) */
+#define OWN 0.97                    /* share of a strike's sound that is its own */
+#define AUDIBLE (-20.0)             /* dB, of what earlier strikes left */
 #define LITTLE (-1.0)               /* dB that are left: a table of another object */
 
 struct table { /* features of a mode table */
@@ -79,6 +81,7 @@ struct job {
     int stretch;                                      /* of the strike */
     long start, length;                               /* samples of the recording, of the strike's sound */
     double *recorded, *represented, *left, *residual; /* [length] */
+    double earlier;                                   /* dB of the recording, what earlier strikes left; NAN: nothing */
     double *response;                                 /* [length] the residual by the strike's force */
     double reach;                                     /* Hz, up to which that is the residual's; NAN: no force */
     double *noise;                                    /* [bins] power; NULL: no lead shows it, or it is kept */
@@ -137,7 +140,21 @@ static bool table_read(struct job *j, const char *file, struct table *to, struct
 
 /* ------------------------------------------------------------------ the strike */
 
-/* The loudest that is neither doubled nor clipped, else the loudest. */
+/* How much of what sounds from a strike on is its own: 1 less the mean power of the 20 ms before its onset, over that.
+ */
+static double fresh(const struct job *j, const struct modal_stretch *st)
+{
+    const double *x = j->place->recording.sound.x;
+    long onset = j->place->strikes.strike[st->strike].onset +
+                 (j->x.given.force_channel ? (long)rint(j->place->delay * j->x.rate) : 0),
+         n = (long)(0.02 * j->x.rate), before = onset < n ? onset : n, length = st->first + st->n - onset;
+    if (before < 1) return 1.0;
+    double earlier = scaled_squares(x + onset - before, before) / (double)before,
+           all = scaled_squares(x + onset, length) / (double)length;
+    return fmax(1.0 - earlier / all, 1e-3);
+}
+
+/* The loudest that is neither doubled nor clipped nor begins while much of an earlier one rings, else the loudest. */
 static void choose(struct job *j)
 {
     double most = -1.0;
@@ -146,7 +163,8 @@ static void choose(struct job *j)
         const struct modal_stretch *st = &j->x.data.stretch[s];
         if (st->strike < 0 || !st->fitted) continue;
         const struct strikes_one *v = &j->place->strikes.strike[st->strike];
-        double worth = v->peak * (v->doubled || v->clipped ? 1e-6 : 1.0);
+        double own = fresh(j, st),
+               worth = v->peak * (own < OWN ? 1e-3 * own : 1.0) * (v->doubled || v->clipped ? 1e-6 : 1.0);
         if (worth <= most) continue;
         most = worth;
         j->stretch = s;
@@ -175,6 +193,11 @@ static double before_start(const struct job *j)
     for (long i = j->start - 1; i >= from; i--)
         if (fabs(x[i]) > 0.1 * peak && fabs(x[i]) > 2.0 * earlier) first = i;
     return (double)(j->start - first) / j->x.rate;
+}
+
+static double decibel(double power, double reference)
+{
+    return power > 0.0 && reference > 0.0 ? 10.0 * real_log10(power / reference) : NAN;
 }
 
 /* What strike s makes of a mode, times `factor`, is added to y[n], whose first sample is j->start. */
@@ -250,15 +273,16 @@ static bool subtract(struct job *j, struct modal_options *o, struct err *e)
     j->represented = ARENA_TAKE(j->arena, double, j->length);
     j->left = ARENA_TAKE(j->arena, double, j->length);
     memcpy(j->recorded, j->place->recording.sound.x + j->start, (size_t)j->length * sizeof *j->recorded);
+    double *earlier = ARENA_TAKE(j->arena, double, j->length);
     for (int i = 0; i < inside; i++) {
         struct feature *f = &j->table.feature[of[i]];
         memcpy(j->gain + of[i] * stretches, gain + i * stretches, (size_t)stretches * sizeof *gain);
         f->energy = cplx_square(gain[i * stretches + j->stretch]) / (4.0 * f->decay);
-        double *earlier = ARENA_TAKE(j->arena, double, j->length);
         for (int s = 0; s < j->stretch; s++)
             if (j->x.data.stretch[s].strike >= 0) ring(j, s, pole[i], gain[i * stretches + s], earlier);
-        scaled_add(j->recorded, -1.0, earlier, j->length);
     }
+    j->earlier = decibel(scaled_squares(earlier, j->length), scaled_squares(j->recorded, j->length));
+    scaled_add(j->recorded, -1.0, earlier, j->length);
     j->ratio = ARENA_TAKE(j->arena, double, n);
     if (j->estimated.file)
         feature_match(j->table.feature, n, j->estimated.feature, j->estimated.n, NULL, j->arena, &j->match);
@@ -476,11 +500,6 @@ static void modes_write(FILE *f, const struct job *j)
     }
 }
 
-static double decibel(double power, double reference)
-{
-    return power > 0.0 && reference > 0.0 ? 10.0 * real_log10(power / reference) : NAN;
-}
-
 struct figures { /* of the strike's sound, dB relative to the recording's energy; NAN: not known, or nothing */
     double represented, left, noise, residual, least, mean;
 };
@@ -536,6 +555,7 @@ static void yaml_write(FILE *f, const struct job *j, const struct figures *g)
     yaml_number(f, "match_ratio_least", g->least);
     if (j->estimated.file) yaml_number(f, "match_ratio_by_energy", j->match.represented);
     if (j->estimated.file) yaml_number(f, "match_score", j->match.score);
+    yaml_number(f, "earlier_db", j->earlier);
     yaml_number(f, "represented_db", g->represented);
     yaml_number(f, "left_db", g->left);
     yaml_number(f, "noise_db", g->noise);
@@ -625,6 +645,13 @@ static void warn(struct job *j, const struct figures *g)
             arena_format(j->arena, "the sound sets in %.2g s before the %s%s: what is there is lost", early,
                          j->x.given.force_channel ? "force" : "onset",
                          j->x.given.force_channel && j->place->delay > 0.0 ? " and its delay" : ""));
+    if (j->earlier > AUDIBLE)
+        modes_extract_find_note(
+            &j->x, NULL,
+            arena_format(j->arena,
+                         "what earlier strikes left ringing is %.1f dB of this one's sound: it is taken off, as far as "
+                         "the table's modes hold it; leave more time between strikes, or take the first (--strikes 1)",
+                         j->earlier));
     if (strike_of(j)->doubled && !divided(j))
         modes_extract_find_note(&j->x, NULL,
                                 "the strike is doubled, and no other can be used: its second blow is in the residual");
@@ -659,8 +686,8 @@ static void report(const struct job *j, const struct figures *g, bool json, stru
     report_set(&r, "noise_removed:b match_ratio_mean:n match_ratio_least:n match_ratio_by_energy:n match_score:n",
                j->noise != NULL, g->mean, g->least, j->estimated.file ? j->match.represented : 1.0,
                j->estimated.file ? j->match.score : 1.0);
-    report_set(&r, "represented_db:n left_db:n noise_db:n residual_db:n", g->represented, g->left, g->noise,
-               g->residual);
+    report_set(&r, "earlier_db:n represented_db:n left_db:n noise_db:n residual_db:n", j->earlier, g->represented,
+               g->left, g->noise, g->residual);
     report_set(&r, "warnings:t", j->x.note, j->x.notes);
     report_list(&r, "match_ratios");
     for (int i = 0; i < j->table.n; i++)

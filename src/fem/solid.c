@@ -66,7 +66,7 @@ static bool rigid_agree(const struct work *w, struct err *e)
     return err_set(e, ERR_NUMBERS,
                    "%s: %d motions of the solid as a whole should cost no energy, and %d were found (lowest modes %.3g "
                    "and %.3g Hz): either parts of it are joined by no more than an edge or a corner, or it is so "
-                   "slender that rounding hides its lowest mode",
+                   "slender that rounding hides its lowest mode (are sizes in the units that are meant?)",
                    w->mesh->name, rigid, still, sqrt(fmax(lambda[0], 0.0)) / (2.0 * REAL_PI),
                    sqrt(fmax(lambda[rigid], 0.0)) / (2.0 * REAL_PI));
 }

@@ -43,7 +43,8 @@ bool hertz_stiffness(const struct contact *c, double *stiffness, struct err *e)
     const char *body = isnan(tool) ? contact_tool(c) : "surface";
     if (isnan(tool) || isnan(surface))
         return err_set(e, ERR_SCENE,
-                       "contact '%s': the stiffness of the %s is not known: give %s.material (such as steel), or "
+                       "contact '%s': the stiffness of the %s is not known: give %s.material (such as steel; one of "
+                       "your own needs a density, too), or "
                        "youngs_modulus and poisson of %s.object, or %s",
                        c->name, what, body, body, own_key(c));
     *stiffness = 4.0 / 3 * sqrt(c->scraper.radius) / (tool + surface);

@@ -30,7 +30,9 @@ tables() {
     "$1" modes compute --shape sphere:diameter=20cm,fineness=1 --material steel --modes 20 --top 60kHz -q -o rendered/table_ball.csv &&
         "$1" modes compute --shape ring:diameter=14cm,width=1cm,thickness=6mm --material steel --modes 20 -q -o rendered/table_ring.csv &&
         "$1" modes extract strikes.wav --force-channel 2 -q -o rendered/table_strikes.csv \
-            --resynthesis rendered/table_made.wav --residual rendered/table_left.wav
+            --resynthesis rendered/table_made.wav --residual rendered/table_left.wav &&
+        "$1" modes material ring:diameter=14cm,width=1cm,thickness=6mm rendered/table_ring.csv --order 2 --modes 20 --json -f -o rendered/material.yaml > rendered/material.csv &&
+        "$1" modes residual strikes.wav rendered/table_strikes.csv --force-channel 2 --strikes 1 -f -q -o rendered/residual
 }
 
 # same NAME PROGRAM: its sums must be those of the first program asked.

@@ -83,6 +83,10 @@ try rasp modes material two.csv -o x.yaml
 rasp modes compute --shape $bar --order 2 --modes 3 --material size.yaml:size --density 2500 --at 1cm,5mm -o again.csv | tail -1
 try rasp modes compute --shape $bar --order 2 --modes 3 --material size.yaml:size --at 1cm,5mm -o again.csv
 try rasp modes material $bar bar.csv --gamma 1e8,1e6 -o x.yaml
+try rasp modes material $bar bar.csv --gamma 1e6 -o x.yaml
+try rasp modes material $bar bar.csv -f -o bar.wav
+try rasp modes material $bar bar.csv $plate plate.csv --mass 0.162kg --mass 50g -o x.yaml
+rasp modes material bar:length=1m,width=12cm,thickness=4cm bar.csv --order 2 -o diamond.yaml | grep -c "more than diamond's"
 try rasp modes material $bar bar.csv --material glass -o x.yaml
 try rasp modes material $bar bar.csv --polish perceptual --method paper -o x.yaml
 try rasp modes material $bar bar.csv@90cm,1cm -o x.yaml
