@@ -52,6 +52,8 @@ object steel_sphere "a hollow ball: bright, 10 kHz, nothing low"
 object glass_sphere "the same of glass: 8 kHz, dry"
 object oak_sphere "a solid ball: 4 kHz, hardly a pitch"
 object steel_ring "nearly one tone, 1.5 kHz, with a little of 4.1 kHz; long"
-printf '%-25s ' "out/basswood_scrape.png"
-"$rasp" plot out/basswood_scrape.wav | sed 's/^[^ ]* */what that looks like: /'
+for one in basswood_scrape porcelain_scrape_fitted; do
+    printf '%-25s ' "out/$one.png"
+    "$rasp" plot "out/$one.wav" | sed 's/^[^ ]* */what that looks like: /'
+done
 echo "Beside each sound: .json (level, cost), .scene.yaml (all that the scene left unsaid) and, where asked for, .csv (the forces)."
