@@ -31,6 +31,7 @@ struct ring_overlap {
     long first, count;      /* frames that mix[] is of */
     double *t, *u, *x, *y;  /* [CHUNK] */
     struct places_mix *mix; /* [CHUNK] */
+    bool *used;             /* [set.n]: has the place a share in mix[] */
     struct places_mix *one; /* of the one place that counts; NULL: all do */
 };
 
@@ -55,22 +56,23 @@ static void locate(struct ring_overlap *s, long first, int n)
                y = tr->straight ? tr->from[1] + s->u[i] * tr->e[1] : s->y[i];
         places_at(s->set.places, x, y, &s->mix[i]);
     }
+    memset(s->used, 0, (size_t)s->set.n * sizeof *s->used);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < s->mix[i].n; j++)
+            s->used[s->mix[i].index[j]] |= s->mix[i].weight[j] != 0;
 }
 
 static int share_places(void *self, long first, int n, int k, double *w)
 {
     struct ring_overlap *s = ((struct overlap_output *)self)->all;
-    int any = 0;
     locate(s, first, n);
+    if (!s->used[k]) return 0;
     for (int i = 0; i < n; i++) {
         w[i] = 0;
         for (int j = 0; j < s->mix[i].n; j++)
-            if (s->mix[i].index[j] == k && s->mix[i].weight[j] != 0) {
-                w[i] = s->mix[i].weight[j];
-                any = 1;
-            }
+            if (s->mix[i].index[j] == k) w[i] = s->mix[i].weight[j];
     }
-    return any;
+    return 1;
 }
 
 static void response_recorded(void *self, long k, double *h, size_t length)
@@ -111,6 +113,7 @@ static bool read_folder(struct ring_overlap *s, struct stage_run *r, const struc
     s->x = ARENA_TAKE(r->arena, double, CHUNK);
     s->y = ARENA_TAKE(r->arena, double, CHUNK);
     s->mix = ARENA_TAKE(r->arena, struct places_mix, CHUNK);
+    s->used = ARENA_TAKE(r->arena, bool, s->set.n);
     s->first = -1;
     if (contact_one_place(r->contact)) {
         struct modes_where first = ring_first_place(r->contact, r->board->trajectory);
