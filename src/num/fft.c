@@ -29,7 +29,7 @@ enum { FLAGS = FFTW_ESTIMATE | FFTW_NO_SIMD | FFTW_UNALIGNED, CACHED_MOST = 64 /
 
 struct plans {
     size_t n;
-    fftw_plan forward, inverse;
+    fftw_plan forward, inverse; /* NULL: not wanted yet */
     bool cached;
     struct plans *next; /* of those kept */
 };
@@ -71,19 +71,30 @@ static void *or_end(void *p, size_t n)
     return p;
 }
 
-/* Wisdom, which FFTW gathers even when it estimates, is forgotten first: a plan must not depend on those made before
- * it. */
-static struct plans *plans_make(const struct fft *f)
+/* One direction, when it is first wanted: each takes as long as a dozen transforms, and who looks at spectra needs one.
+   Wisdom, which FFTW gathers even when it estimates, is forgotten first: a plan must not depend on those made before
+   it. */
+static fftw_plan plan_of(const struct fft *f, bool forward)
 {
     fftw_iodim64 dim = {.n = (ptrdiff_t)f->n, .is = 1, .os = 1};
     double *re = f->spectrum, *im = f->spectrum + f->bins;
+    pthread_mutex_lock(&planner);
+    fftw_plan *p = forward ? &f->plans->forward : &f->plans->inverse;
+    if (!*p) {
+        fftw_forget_wisdom();
+        *p = or_end(forward
+                        ? fftw_plan_guru64_split_dft_r2c(1, &dim, 0, NULL, f->time, re, im, FLAGS | FFTW_PRESERVE_INPUT)
+                        : fftw_plan_guru64_split_dft_c2r(1, &dim, 0, NULL, re, im, f->time, FLAGS | FFTW_DESTROY_INPUT),
+                    f->n);
+    }
+    pthread_mutex_unlock(&planner);
+    return *p;
+}
+
+static struct plans *plans_make(const struct fft *f)
+{
     struct plans *p = or_end(calloc(1, sizeof *p), f->n);
     p->n = f->n;
-    fftw_forget_wisdom();
-    p->forward =
-        or_end(fftw_plan_guru64_split_dft_r2c(1, &dim, 0, NULL, f->time, re, im, FLAGS | FFTW_PRESERVE_INPUT), f->n);
-    p->inverse =
-        or_end(fftw_plan_guru64_split_dft_c2r(1, &dim, 0, NULL, re, im, f->time, FLAGS | FFTW_DESTROY_INPUT), f->n);
     p->cached = keeping.n < CACHED_MOST && f->n <= CACHED_POINTS;
     if (p->cached) {
         p->next = keeping.first;
@@ -95,8 +106,8 @@ static struct plans *plans_make(const struct fft *f)
 
 static void plans_drop(struct plans *p)
 {
-    fftw_destroy_plan(p->forward);
-    fftw_destroy_plan(p->inverse);
+    if (p->forward) fftw_destroy_plan(p->forward);
+    if (p->inverse) fftw_destroy_plan(p->inverse);
     free(p);
 }
 
@@ -130,7 +141,7 @@ void fft_close(struct fft *f)
 void fft_forward(struct fft *f, const double *x, double *re, double *im)
 {
     memcpy(f->time, x, f->n * sizeof *x);
-    fftw_execute_split_dft_r2c(f->plans->forward, f->time, f->spectrum, f->spectrum + f->bins);
+    fftw_execute_split_dft_r2c(plan_of(f, true), f->time, f->spectrum, f->spectrum + f->bins);
     memcpy(re, f->spectrum, f->bins * sizeof *re);
     memcpy(im, f->spectrum + f->bins, f->bins * sizeof *im);
 }
@@ -139,7 +150,7 @@ void fft_inverse(struct fft *f, const double *re, const double *im, double *x)
 {
     memcpy(f->spectrum, re, f->bins * sizeof *re);
     memcpy(f->spectrum + f->bins, im, f->bins * sizeof *im);
-    fftw_execute_split_dft_c2r(f->plans->inverse, f->spectrum, f->spectrum + f->bins, f->time);
+    fftw_execute_split_dft_c2r(plan_of(f, false), f->spectrum, f->spectrum + f->bins, f->time);
     memcpy(x, f->time, f->n * sizeof *x);
 }
 

@@ -1,5 +1,7 @@
 #include "pipeline/stages.h"
 
+#include <pthread.h>
+
 #include "scene/params.h"
 
 const struct stage *const stages_table[] = {
@@ -19,13 +21,22 @@ static const struct {
 #undef STAGE
 };
 
-const struct params *stages_params(int i)
+static const struct params *found[sizeof all / sizeof *all + 1]; /* asked for thousands of times when a scene is read */
+
+static void find(void)
 {
+    int n = 0;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         const struct params *p = all[k].stage ? all[k].stage->params : all[k].params;
-        if (p && i-- == 0) return p;
+        if (p) found[n++] = p;
     }
-    return NULL;
+}
+
+const struct params *stages_params(int i)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, find);
+    return found[i];
 }
 
 bool stages_wanted(const struct stage *st, const struct contact *c, const struct scene *s)
