@@ -507,7 +507,7 @@ START_TEST(what_cannot_be_is_refused)
     ((struct hertz *)params_edit(s.contacts, &hertz_params, rig_arena()))->stiffness = NAN;
     opened(
         &s,
-        "give ball.material (such as steel), or youngs_modulus and poisson of ball.object, or contact.roll.stiffness");
+        "give ball.material (such as steel; one of your own needs a density, too), or youngs_modulus and poisson of ball.object, or contact.roll.stiffness");
     s = on_rigid("path: still, duration: 0.1 s", "stiffness: 1e18 N/m^1.5", "accuracy: {contact_steps: 100000}");
     opened(&s, "lower accuracy.contact_steps");
     s = scene_of("", PLATE, "path: line, from: [1 cm, 2 cm], to: [28 cm, 17 cm], speed: 30 cm/s",
