@@ -136,6 +136,7 @@ struct board {
     double lifted;                   /* s during which the scraper was lifted off         */
     struct roll_report roll;
     bool rolls;       /* the report holds something                        */
+    bool lingers; /* there is force after the motion's end: contact.enhance */
     bool unstated;    /* a recorded response, whose quantity is not stated, rings */
     double energy[2]; /* quantity^2, summed over frames and channels: of the surface's sound and of the scraper's or
                          ball's, where both are heard */

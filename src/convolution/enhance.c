@@ -184,6 +184,7 @@ static bool enhance_open(struct stage_run *r, struct err *e)
                                                                  .ramp = ENHANCE_RAMP});
     resonators_set(s->bank, &s->to);
     r->board->ring = fmax(r->board->ring, ring);
+    r->board->lingers = true;
     r->state = s;
     return true;
 }

@@ -369,7 +369,8 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
                        .weight = surface ? 1 : r->contact->scraper.weight,
                        .moves = given->choice->moves,
                        .ramp = (int)r->scene->accuracy.gain_ramp,
-                       .stays = given->choice->reading == MOVING_GLIDE || given->choice->reading == MOVING_READOUT,
+                       .stays = given->choice->reading == MOVING_GLIDE || given->choice->reading == MOVING_READOUT ||
+                                r->board->lingers,
                        .channels = r->board->channels};
     if (surface) r->board->surface_ring = g;
     g->outputs = ARENA_TAKE(r->arena, struct ring_output, g->channels);

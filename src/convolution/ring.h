@@ -28,7 +28,7 @@ struct ring {
     double weight; /* eta for the scraper, 1 for the surface */
     int ramp;      /* frames from one evaluation of gains, poles and taps to the next (accuracy.gain_ramp) */
     bool moves;    /* gains or poles change on the way */
-    bool stays;    /* after the motion's end what rings is still retuned or read at a place: the end */
+    bool stays;    /* after the motion's end there is still force, or what rings is retuned or read: at the end */
     int channels;
     struct ring_output *outputs; /* [channels] */
     long delay;                  /* frames, the largest of the voices' */
@@ -43,7 +43,7 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
 /* Gains (weight included) of the contact at frame `frame`, and poles into p->frequency and p->decay, unless they are
    NULL. p is [voice->n]. Before the motion's start and after its end, where there is no force, they go on so that
    interpolation between instants keeps its order up to there: straight in the logarithm, or back where the motion
-   rests. What is retuned or read out there (`stays`) is that of the end. */
+   rests. What is retuned or read out there, or still has force (`stays`), is that of the end. */
 void ring_point_at(const struct ring *g, const struct ring_output *v, double frame, const struct modes_point *p);
 
 /* The same at a place. */
