@@ -33,7 +33,11 @@
 #else
 #define COMPILER "gcc " __VERSION__
 #endif
-#if defined __AVX512F__
+#ifdef __aarch64__
+#define BUILT_FOR "aarch64"
+#elif !defined __x86_64__
+#define BUILT_FOR "another kind of CPU"
+#elif defined __AVX512F__
 #define BUILT_FOR "x86-64-v4"
 #elif defined __AVX2__
 #define BUILT_FOR "x86-64-v3"
@@ -57,12 +61,17 @@ void version_print(bool verbose)
        hot functions are compiled for (num/lanes.h), or the one that all is compiled for. */
 #define TEXT(...) #__VA_ARGS__
 #define TEXT_OF(...) TEXT(__VA_ARGS__)
+#ifdef __x86_64__
     __builtin_cpu_init();
     bool v4 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
               __builtin_cpu_supports("avx512vl"),
          v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"), v2 = __builtin_cpu_supports("sse4.2"),
          clones = sizeof TEXT_OF(LANES_CLONES) > 1;
     const char *level = v4 ? "x86-64-v4" : v3 ? "x86-64-v3" : v2 ? "x86-64-v2" : "x86-64";
+#else
+    bool v4 = false, v3 = false, clones = false;
+    const char *level = BUILT_FOR;
+#endif
     printf("built for    %s\nthis CPU     %s\nhot loops    %s, %s\n", BUILT_FOR, level,
            !clones    ? BUILT_FOR
            : v4 || v3 ? level
