@@ -184,7 +184,7 @@ In two of the four a strike is explained better by the modes of the other half: 
 Steel's decays differ most: it rings for 3 to 30 s in pairs of modes 1 to 4 Hz apart, and its strikes follow one another after 0.3 to 1.2 s, so that the recording
 does not hold those decays; their errors between strikes, which the tables give, are a third to all of them.
 
-By power (\`--residual-domain power\`), as the paper prints it, the residuals of the four are -16.3, -7.0, -14.6 and -4.8 dB. Of renders that are nothing but modes
+By power (\`--residual-domain power\`), as the paper prints it, the residuals of the four are -16.3, -7.6, -14.6 and -13.7 dB. Of renders that are nothing but modes
 -39 dB are left (of a strike) and -28 (with its force), where by time it is -79 and -56: beats and phases are no mode's power.
 END
     } > "$REPORT"
