@@ -53,7 +53,7 @@ struct modal_mode {
 };
 
 struct modal_result {
-    int n, modes, undamped;      /* components, modes, lines that do not decay and are left out */
+    int n, modes, undamped;  /* components, modes, lines that do not decay and are left out */
     struct modal_mode *mode; /* [n] */
     double *explained;       /* [stretches] share of the energy in the band, noise and what is direct taken off */
     double *fitted;   /* [stretches] the same of the fit, with modes that are weaker than those that are wanted */

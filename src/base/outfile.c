@@ -59,8 +59,8 @@ static bool try_name(struct outfile *o)
     return linkat(AT_FDCWD, proc, AT_FDCWD, o->temporary, AT_SYMLINK_FOLLOW) == 0;
 }
 
-/* Tries to give it a hidden name, which goes with the program if that is interrupted or out of memory: that is noted
-   before there is such a file, since noting it takes memory. */
+/* Tries to give it a hidden name, which goes with the program if that is interrupted or out of memory: it is
+   registered before there is such a file, since to register it takes memory. */
 static bool try_registered(struct outfile *o, bool (*try)(struct outfile *o))
 {
     bool ok = false;

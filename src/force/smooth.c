@@ -21,8 +21,8 @@
    Kernels are those of num/filter.h at the sub-rate, also where sigma is less than a sub-sample: a sampled Gaussian has
    no width then, and the force would brighten as sub-samples grow. While sigma varies, every element spreads with its
    own: the parabola in the variance through three kernels of a table, the nearest and one of 3 % more and less variance
-   (narrow: of 0.02 more and less). The kernel is off by less than 2.5e-6 at any frequency, however fast sigma changes:
-   a third of the cubic's bound, (d/v)^3 0.064 (3/e)^3 at v omega^2 = 6.
+   (narrow: of 0.02 more and less). However fast sigma changes, a kernel's spectrum is off by less than (0.03 3/e)^3 /
+   (9 sqrt 3) = 2.4e-6, where v omega^2 = 6; a narrow one's by 6e-8 up to 1/6 of the sub-rate, 6e-5 at half of it.
 
    Nothing comes before the start: what would be spread to there is reflected at it, as heat is at an insulated end.
    Momentum is kept, and what begins at full height stays at full height, where without it it would begin at half. (What
@@ -211,7 +211,7 @@ struct node {
 };
 
 static const double step = 0.03, narrow_step = 0.02; /* of the variance; sub-samples^2 */
-enum { KERNELS_MOST = 1 << 23 };                     /* values that are kept: 64 MiB */
+enum { KERNELS_MOST = 1 << 23 };                     /* values in memory: 64 MiB */
 
 struct smooth {
     enum item item;
@@ -226,7 +226,7 @@ struct smooth {
     struct node *node; /* [nodes] by rising variance, each from where the one before ends */
     int nodes, at;     /* at: of the last element */
     struct arena *kernels;
-    size_t kept;          /* values in it */
+    size_t values;        /* in it */
     double *sum;          /* smoothed so far, from sub-sample sum_first on     */
     long sum_first, next; /* next: the element that is to be spread next */
     size_t room;
@@ -374,13 +374,13 @@ static void node_make(struct smooth *s, struct node *n)
 {
     n->reach = filter_gaussian_reach(sqrt(n->above));
     size_t room = (size_t)(2 * n->reach + 1 + 2 * SPREAD_WIDE);
-    s->kept += 3 * room;
-    if (s->kept > KERNELS_MOST && s->kept > 3 * room) { /* all anew */
+    s->values += 3 * room;
+    if (s->values > KERNELS_MOST && s->values > 3 * room) { /* all anew */
         arena_close(s->kernels);
         s->kernels = arena_open();
         for (int k = 0; k < s->nodes; k++)
             s->node[k].kernel[0] = NULL;
-        s->kept = 3 * room;
+        s->values = 3 * room;
     }
     struct arena *a = arena_open();
     for (int k = 0; k < 3; k++) {
