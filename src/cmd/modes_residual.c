@@ -33,7 +33,6 @@
 #include "cmd/modes_extract.h"
 #include "cmd/report.h"
 #include "convolution/alias.h"
-#include "file/csv.h"
 #include "file/wav.h"
 #include "num/deconvolve.h"
 #include "num/fft.h"
@@ -105,13 +104,11 @@ static const struct strikes_one *strike_of(const struct job *j)
 static bool table_read(struct job *j, const char *file, struct table *to, struct err *e)
 {
     struct mode_table t;
-    struct csv csv;
     int most = 0;
     to->file = file;
     to->name = strrchr(file, '/') ? strrchr(file, '/') + 1 : file;
-    if (!mode_table_read(file, j->arena, &t, e) || !hash_file(file, to->hash, e) || !csv_read(file, j->arena, &csv, e))
-        return false;
-    to->hum = csv_comment(&csv, "hum") != NULL;
+    if (!mode_table_read(file, j->arena, &t, e) || !hash_file(file, to->hash, e)) return false;
+    to->hum = csv_comment(&t.csv, "hum") != NULL;
     to->quantity = t.quantity;
     to->radius = t.radius;
     for (const struct mode_entry *v = t.entry; v < t.entry + t.first[t.places]; v++)
@@ -142,7 +139,7 @@ static bool table_read(struct job *j, const char *file, struct table *to, struct
 
 /* How much of what sounds from a strike on is its own: 1 less the mean power of the 20 ms before its onset, over that.
  */
-static double fresh(const struct job *j, const struct modal_stretch *st)
+static double own_share(const struct job *j, const struct modal_stretch *st)
 {
     const double *x = j->place->recording.sound.x;
     long onset = j->place->strikes.strike[st->strike].onset +
@@ -163,7 +160,7 @@ static void choose(struct job *j)
         const struct modal_stretch *st = &j->x.data.stretch[s];
         if (st->strike < 0 || !st->fitted) continue;
         const struct strikes_one *v = &j->place->strikes.strike[st->strike];
-        double own = fresh(j, st),
+        double own = own_share(j, st),
                worth = v->peak * (own < OWN ? 1e-3 * own : 1.0) * (v->doubled || v->clipped ? 1e-6 : 1.0);
         if (worth <= most) continue;
         most = worth;
