@@ -27,7 +27,6 @@ import recipes
 from checks import Judge
 from keys import Keys
 
-SANITIZED = 4       # one scene in so many is run by the sanitized program, too
 
 
 def one(k):
@@ -36,7 +35,7 @@ def one(k):
     folder.mkdir(exist_ok=True)
     rng, before = random.Random(f"{OPTIONS.seed}:{k}"), cpu()
     programs = {"rasp": OPTIONS.rasp}
-    if OPTIONS.sanitized and k % SANITIZED == SANITIZED - 1:
+    if OPTIONS.sanitized and k % OPTIONS.every == OPTIONS.every - 1:
         programs["sanitized"] = OPTIONS.sanitized
     try:
         scene = recipes.make(KEYS, rng, folder, OPTIONS.rasp)
@@ -116,7 +115,8 @@ def main():
     options.add_argument("--jobs", type=int, default=2, help="scenes at a time (2)")
     options.add_argument("--rasp", default=str(top / "build/rasp"), help="the program (build/rasp)")
     options.add_argument("--sanitized",
-        help="the same with sanitizers: one scene in four is run by it, too, and must have the same bytes")
+        help="the same with sanitizers: it runs a part of the scenes, too, and must have the same bytes")
+    options.add_argument("--every", type=int, default=4, help="of so many scenes one is run by --sanitized, too (4)")
     options.add_argument("--keep", help="folder that keeps the scene's files (with --scene)")
     options.add_argument("--rows", type=int, default=25, help="lines of each list of the report")
     OPTIONS = options.parse_args()
@@ -144,7 +144,7 @@ def main():
 
 def again(k):
     """The command that makes a scene once more, and keeps its files."""
-    sanitized = f" --sanitized {OPTIONS.sanitized}" if OPTIONS.sanitized else ""
+    sanitized = f" --sanitized {OPTIONS.sanitized} --every {OPTIONS.every}" if OPTIONS.sanitized else ""
     options = f"--seed {OPTIONS.seed} --scene {k} --limit {OPTIONS.limit:g}{sanitized}"
     return f"tests/torture/torture.py {options} --keep FOLDER"
 
