@@ -23,7 +23,8 @@
 #include "surface/block_cache.h"
 #include "surface/envelope.h"
 
-enum { KERNEL = 28, INVERSE = 40, LINE = 1024, SQUARE = 16, EDGE = 3, WIDEST = LINE + EDGE + 2 * KERNEL };
+/* SQUARE: with EDGE two registers of lanes. */
+enum { KERNEL = 28, INVERSE = 40, LINE = 1024, SQUARE = 13, EDGE = 3, WIDEST = LINE + EDGE + 2 * KERNEL };
 
 /* ------------------------------------------------------------------ the envelope on the lattice */
 
@@ -38,14 +39,12 @@ enum { KERNEL = 28, INVERSE = 40, LINE = 1024, SQUARE = 16, EDGE = 3, WIDEST = L
    leave; and where two asperities bear it alike to d^2/8 (1/R + |z''|) the lower one may be taken. The force of
    scenes/round_tip is off by -75, -86, -103 dB where accuracy.tip_heights is 1, 2, 3 (by heights alone -49, -58, -67).
  */
-enum { ENVELOPE = 32, READ = 64, EIGHT = 8 };
+enum { READ = 64, EIGHT = 8 };
 
 struct on_lattice {
     const struct relief *under;
     struct rolling_plan plan;
-    double h, d; /* m; d: of the plane */
-    long reach;  /* in d */
-    struct lattice heights;
+    double h, d;               /* m; d: of the plane */
     struct envelope *envelope; /* of the plane */
     struct relief line;        /* the envelope in one coordinate */
 };
@@ -79,29 +78,30 @@ static void squares_put(const struct reading *r, double s, double *out, long str
 /* Parts work out all derivatives anyway: one point is read for each square of 2 x 2 heights, in its middle, and they
    are its Taylor polynomial of second degree. 64 points are read at a time, in a square of the lattice, as parts that
    keep patches of coefficients like it. */
-static void heights_fill(void *self, long column, long row, double *out)
+static void heights_put(void *self, long column, long row, double *out)
 {
     struct on_lattice *w = self;
     struct reading r;
     double x[READ], y[READ];
-    long side = w->heights.side[0], first_x = column * side, first_y = row * side;
-    for (long at = 0; at < side * side / (2 * EIGHT * 2 * EIGHT); at++) {
-        long left = at % (side / (2 * EIGHT)) * 2 * EIGHT, below = at / (side / (2 * EIGHT)) * 2 * EIGHT;
-        for (long k = 0; k < READ; k++) {
-            x[k] = ((double)(first_x + left + 2 * (k % EIGHT)) + 0.5) * w->d;
-            y[k] = ((double)(first_y + below + 2 * (k / EIGHT)) + 0.5) * w->d;
+    for (long below = 0; below < ENVELOPE_HEIGHTS; below += 2 * EIGHT)
+        for (long left = 0; left < ENVELOPE_HEIGHTS; left += 2 * EIGHT) {
+            for (long k = 0; k < READ; k++) {
+                x[k] = ((double)(column * ENVELOPE_HEIGHTS + left + 2 * (k % EIGHT)) + 0.5) * w->d;
+                y[k] = ((double)(row * ENVELOPE_HEIGHTS + below + 2 * (k / EIGHT)) + 0.5) * w->d;
+            }
+            relief_at(w->under, &(struct relief_points){READ, x, y},
+                      &(struct relief_values){r.z, r.x, r.y, r.xx, r.xy, r.yy});
+            squares_put(&r, w->d / 2, out + below * ENVELOPE_HEIGHTS + left, ENVELOPE_HEIGHTS);
         }
-        relief_at(w->under, &(struct relief_points){READ, x, y},
-                  &(struct relief_values){r.z, r.x, r.y, r.xx, r.xy, r.yy});
-        squares_put(&r, w->d / 2, out + below * side + left, side);
-    }
-    rolling_envelope_watch(&w->plan, out, side * side);
+    rolling_envelope_watch(&w->plan, out, ENVELOPE_HEIGHTS * ENVELOPE_HEIGHTS);
 }
 
-long contact_patch_side(const struct rolling_plan *p)
+static long plane_reach(const struct rolling_plan *p)
 {
-    return (ENVELOPE - 1) * p->finer + 1 + 2 * (long)ceil(p->reach / (p->patch / PATCH_POINTS / p->finer));
+    return (long)ceil(p->reach / (p->patch / PATCH_POINTS / p->finer));
 }
+
+long contact_patch_side(const struct rolling_plan *p) { return envelope_side(plane_reach(p), p->finer); }
 
 /* What bears the ball at a place of the surface, its centre at -d from it, and a step of Newton's method towards the
    top of that, `most` long at most:
@@ -130,19 +130,18 @@ static double bears(const struct reading *r, long k, const double d[2], double r
    read at the lattice's place, and where a step of Newton's method leads from there. */
 static void lattice_square(void *self, long column, long row, double *out)
 {
+    enum { POINTS = ENVELOPE_POINTS };
     struct on_lattice *w = self;
-    long finer = w->plan.finer, side = contact_patch_side(&w->plan), stride,
-         from[2] = {column * ENVELOPE * finer - w->reach, row * ENVELOPE * finer - w->reach};
-    double *heights = envelope_heights(w->envelope, &stride), x[READ], y[READ], d[READ][2], step[READ][2];
+    long finer = w->plan.finer, places[POINTS * POINTS][2];
+    double x[READ], y[READ], d[READ][2], step[READ][2];
     struct reading r;
-    block_cache_gather(&w->heights, from, (long[]){side, side}, heights, stride);
-    envelope_prepare(w->envelope);
-    for (long at = 0; at < ENVELOPE * ENVELOPE; at += READ) {
+    envelope_square(w->envelope, column, row, out, places);
+    for (long at = 0; at < POINTS * POINTS; at += READ) {
         for (long k = 0; k < READ; k++) {
-            long i = w->reach + (at + k) % ENVELOPE * finer, j = w->reach + (at + k) / ENVELOPE * finer, place[2];
-            envelope_at(w->envelope, i, j, place);
-            x[k] = (double)(from[0] + place[0]) * w->d;
-            y[k] = (double)(from[1] + place[1]) * w->d;
+            long *place = places[at + k], i = (column * POINTS + (at + k) % POINTS) * finer,
+                 j = (row * POINTS + (at + k) / POINTS) * finer;
+            x[k] = (double)place[0] * w->d;
+            y[k] = (double)place[1] * w->d;
             d[k][0] = (double)(place[0] - i) * w->d;
             d[k][1] = (double)(place[1] - j) * w->d;
         }
@@ -168,17 +167,12 @@ static void lattice_row(void *self, long column, long row, double *out)
     relief_at(&w->line, &(struct relief_points){LINE, x, NULL}, &(struct relief_values){.z = out});
 }
 
-/* Blocks held: of heights, what one block of envelope needs, and as much again; of envelope, what one of splines does,
- * many times. */
+/* Blocks held: what one of splines needs, many times. */
 static struct lattice lattice_plane(struct on_lattice *w, struct arena *a)
 {
-    long side = contact_patch_side(&w->plan);
-    size_t across = (size_t)(side / READ + 2), needed = 2 * across * across;
-    w->reach = (long)ceil(w->plan.reach / w->d);
-    w->envelope = envelope_make(a, w->plan.radius, w->d, side, side);
-    w->heights =
-        (struct lattice){block_cache_make(a, READ * READ, needed > 512 ? needed : 512, heights_fill, w), {READ, READ}};
-    return (struct lattice){block_cache_make(a, ENVELOPE * ENVELOPE, 1024, lattice_square, w), {ENVELOPE, ENVELOPE}};
+    w->envelope = envelope_make(a, w->plan.radius, w->d, plane_reach(&w->plan), w->plan.finer, heights_put, w);
+    return (struct lattice){block_cache_make(a, ENVELOPE_POINTS * ENVELOPE_POINTS, 4096, lattice_square, w),
+                            {ENVELOPE_POINTS, ENVELOPE_POINTS}};
 }
 
 static struct lattice lattice_make(struct arena *a, const struct relief *under, const struct rolling_plan *p)

@@ -466,14 +466,31 @@ struct underlying {
     long column, hint;           /* the block that was read last, and its stretch */
 };
 
+/* n: whole LANES. */
+LANES_CLONES
+static void span_put(const double *z, long n, double span[2])
+{
+    double least[LANES], most[LANES];
+    memcpy(least, z, sizeof least);
+    memcpy(most, z, sizeof most);
+    for (long i = LANES; i < n; i += LANES) {
+#pragma omp simd
+        for (long l = 0; l < LANES; l++) {
+            least[l] = lanes_select(z[i + l] < least[l], z[i + l], least[l]);
+            most[l] = lanes_select(z[i + l] > most[l], z[i + l], most[l]);
+        }
+    }
+    for (int l = 0; l < LANES; l++) {
+        span[0] = fmin(span[0], least[l]);
+        span[1] = fmax(span[1], most[l]);
+    }
+}
+
 void rolling_envelope_watch(struct rolling_plan *p, const double *z, long n)
 {
     if (!p->begun) p->read[0] = p->read[1] = z[0];
     p->begun = true;
-    for (long i = 0; i < n; i++) {
-        p->read[0] = z[i] < p->read[0] ? z[i] : p->read[0];
-        p->read[1] = z[i] > p->read[1] ? z[i] : p->read[1];
-    }
+    span_put(z, n, p->read);
     if (p->warned || !(p->read[1] - p->read[0] > p->span)) return;
     p->warned = true;
     if (p->exceeded) p->exceeded(p->self);

@@ -88,7 +88,7 @@ struct rolling_plan {
     void *self;
 };
 
-/* Of n heights that have been read: is it more than span now? */
+/* Of n heights, whole LANES, that have been read: is it more than span now? */
 void rolling_envelope_watch(struct rolling_plan *p, const double *z, long n);
 
 /* How many places of the ground are held at a time for a piece of the envelope. */

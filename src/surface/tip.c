@@ -35,6 +35,7 @@
 #include "scene/scene_part.h"
 #include "stage.h"
 #include "surface/contact_patch.h"
+#include "surface/envelope.h"
 #include "surface/height_map.h"
 #include "surface/relief.h"
 #include "trajectory/contact.h"
@@ -94,23 +95,21 @@ static double tip_map_span(const struct height_map *m)
 /* Cycles per metre of ground that the tip has not been over. In the plane (surface/contact_patch.c) a way of the ball
    that goes along an axis takes, every h = patch / 4,
 
-     WIDE points of its envelope     POINT cycles of search each, and GATHER for each of the heights that a block of
-                                     SQUARE x SQUARE points looks at
-     a row of heights d apart        over WIDE points' width, the reach on both sides, and a block's own side;
+     WIDE points of its envelope     POINT cycles of search each, and NODE for each square of heights that a square of
+                                     its points looks at
+     a row of heights d apart        over WIDE points' width, the reach on both sides, and a square's own side;
                                      HEIGHT cycles each, the surface's and its coefficients' in it
 
-   and one that goes aslant |cos| + |sin| times as many blocks. Fitted to 15 lines over roughness of 0.1 to 10 um from 5
-   to 100 um on, under balls of 0.5 mm to 2 cm with patches of 5 to 100 um, of 1.6e10 to 2.2e11 cycles a metre: within
-   20 % of all (one CPU with AVX-512; tests/bench/planned.py has other scenes). The reach is sqrt(2 R H), H 1.5 times
-   what heights are likely to span. */
+   and one that goes aslant |cos| + |sin| times as many squares. HEIGHT was fitted to 15 lines over roughness of 0.1 to
+   10 um from 5 to 100 um on, under balls of 0.5 mm to 2 cm with patches of 5 to 100 um (one CPU with AVX-512;
+   tests/bench/planned.py has other scenes). The reach is sqrt(2 R H), H 1.5 times what heights are likely to span. */
 enum {
-    SQUARE = 32,
-    BLOCK = 64,
-    WIDE = 16 + 3 + 2 * 28 + SQUARE - 1
-}; /* a block of splines, what their kernel reads beyond, and what a block of the envelope has too many */
+    SQUARE = ENVELOPE_POINTS,
+    WIDE = 13 + 3 + 2 * 28 + SQUARE - 1
+}; /* a block of splines, what their kernel reads beyond, and what a square of the envelope has too many */
 
-#define POINT 1500
-#define GATHER 3.5
+#define POINT 2000
+#define NODE 100
 #define HEIGHT 45
 
 /* m, between places where the ground under a tip without a patch is read. */
@@ -136,8 +135,9 @@ static double plane_metre(const struct contact *c, double dense)
     double reach = fmin(s->radius, sqrt(2 * s->radius * 1.5 * params_span(c)));
     struct rolling_plan p = {
         .radius = s->radius, .patch = s->patch, .reach = reach, .finer = finer > 1 ? (int)fmin(finer, 1e6) : 1};
-    double side = (double)contact_patch_side(&p), envelope = WIDE * (POINT + GATHER * side * side / (SQUARE * SQUARE));
-    double heights = finer * (WIDE * finer + 2 * reach / d + BLOCK) * HEIGHT;
+    double across = (double)contact_patch_side(&p) / ENVELOPE_HEIGHTS + 1,
+           envelope = WIDE * (POINT + NODE * across * across / (SQUARE * SQUARE));
+    double heights = finer * (WIDE * finer + 2 * reach / d + ENVELOPE_HEIGHTS) * HEIGHT;
     return aslant(&c->motion) * (envelope + heights) / h;
 }
 
