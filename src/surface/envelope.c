@@ -14,6 +14,7 @@
    1e-14; so rounding leaves nothing out. */
 #include "surface/envelope.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
@@ -147,7 +148,7 @@ static inline __attribute__((always_inline)) double apart(double at, double last
 }
 
 /* Of each LANES of n nodes those that may bear at least so much somewhere in the part, as bits. The last group must be
- * filled up with what is no number (list_end). */
+ * filled up with what bears nothing (list_end). */
 LANES_CLONES
 static void nodes_bear(const struct envelope *e, const struct part *p, double last, long n, const double *x,
                        const double *y, const double *most, double least, unsigned char *marks)
@@ -305,7 +306,7 @@ static void node_put(struct list *l, double x, double y, double most, const doub
 static void list_end(struct list *l)
 {
     for (long i = l->n; i % LANES; i++)
-        l->x[i] = l->y[i] = 0, l->most[i] = NAN;
+        l->x[i] = l->y[i] = 0, l->most[i] = -HUGE_VAL;
 }
 
 static void search(struct envelope *e, const struct part *p, int level, double least);
@@ -379,10 +380,10 @@ void envelope_square(struct envelope *e, long column, long row, double *reached,
         for (long i = from[0]; i <= to[0]; i++) {
             const double *square = block_cache_at(e->squares, i, j);
             if (l->n == MOST) {
-                search_parts(e, &whole, LEVELS - 1, -HUGE_VAL);
+                search_parts(e, &whole, LEVELS - 1, -DBL_MAX);
                 l->n = 0;
             }
             node_put(l, (double)(i * SIDE), (double)(j * SIDE), square[starts[LEVELS - 1]], square, 0);
         }
-    search_parts(e, &whole, LEVELS - 1, -HUGE_VAL);
+    search_parts(e, &whole, LEVELS - 1, -DBL_MAX);
 }
