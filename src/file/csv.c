@@ -106,7 +106,9 @@ static bool csv_header(struct csv_reader *r, struct csv *t)
     for (enum csv_ends ends = CSV_COMMA; ends == CSV_COMMA;) {
         char *cell;
         if ((ends = csv_cell(r, &cell)) == CSV_BAD) return false;
-        if (!*cell) return err_set(r->e, ERR_SCENE, "%s:%d: column %zu has no name", r->file, line, t->columns + 1);
+        if (!*cell)
+            return err_set(r->e, ERR_SCENE, "%s:%d: column %zu has no name: give it one", r->file, line,
+                           t->columns + 1);
         if (csv_column(t, cell) >= 0)
             return err_set(r->e, ERR_SCENE, "%s:%d: two columns are called '%s'", r->file, line, cell);
         if (t->columns == MOST_COLUMNS)

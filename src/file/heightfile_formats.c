@@ -237,8 +237,8 @@ static bool gsf_header(struct gsf *g, char *at)
 
 static bool gsf_bad(const struct gsf *g, int name, const char *wants)
 {
-    return err_set(g->e, ERR_SCENE, "%s: GSF header, line %d: %s is '%s', not %s", g->path, g->line[name],
-                   gsf_names[name], g->value[name], wants);
+    return err_set(g->e, ERR_SCENE, "%s: GSF header, line %d: %s must be %s, not '%s'", g->path, g->line[name],
+                   gsf_names[name], wants, g->value[name]);
 }
 
 static bool gsf_resolution(const struct gsf *g, int name, size_t *n)
@@ -310,7 +310,7 @@ bool heightfile_formats_gsf_read(const char *path, const struct bytes *b, struct
         return err_set(e, ERR_SCENE, "%s: GSF header, line 1: is not '%s' with a line feed%s", path, gsf_magic,
                        b->n > n && b->at[n] == '\r' ? " (it ends in CR LF)" : "");
     if (!memchr(b->at, '\0', b->n))
-        return err_set(e, ERR_SCENE, "%s: the GSF header has no end: no NUL byte follows it", path);
+        return err_set(e, ERR_SCENE, "%s: it is cut short: no NUL byte ends the GSF header", path);
     return gsf_header(&g, b->at + n + 1) && gsf_resolution(&g, GSF_XRES, &h->columns) &&
            gsf_resolution(&g, GSF_YRES, &h->rows) && gsf_pitch(&g, GSF_XREAL, h->columns, &h->pitch_x) &&
            gsf_pitch(&g, GSF_YREAL, h->rows, &h->pitch_y) && gsf_data(&g, b, a, h);

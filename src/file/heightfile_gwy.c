@@ -62,7 +62,7 @@ static bool gwy_object(const struct gwy *g, struct gwy_part *p, const char **nam
 {
     const char *from = p->at;
     *name = gwy_text(p);
-    if (!*name || p->end - p->at < 4) return gwy_bad(g, from, "an object ends inside its head");
+    if (!*name || p->end - p->at < 4) return gwy_bad(g, from, "it is cut short: an object ends inside its head");
     size_t n = (size_t)bytes_word(p->at, 4);
     if ((size_t)(p->end - p->at) - 4 < n)
         return gwy_bad(g, p->at, "an object is larger than what is left of the file: it is cut short");
@@ -75,7 +75,7 @@ static bool gwy_item(const struct gwy *g, struct gwy_part *p, struct gwy_item *t
 {
     const char *from = p->at;
     t->name = gwy_text(p);
-    if (!t->name || p->at == p->end) return gwy_bad(g, from, "a component ends inside its head");
+    if (!t->name || p->at == p->end) return gwy_bad(g, from, "it is cut short: a component ends inside its head");
     t->type = *p->at++;
     t->data = p->at;
     t->count = 1;

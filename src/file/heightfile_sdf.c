@@ -59,8 +59,8 @@ static bool sdf_whole(const struct sdf *s, int key, double low, double high)
 {
     double v = s->value[key];
     return (v >= low && v <= high && v == floor(v)) ||
-           err_set(s->e, ERR_SCENE, "%s: SDF header: %s is %g, not a whole number from %g to %g", s->path,
-                   sdf_keys[key], v, low, high);
+           err_set(s->e, ERR_SCENE, "%s: SDF header: %s must be a whole number from %g to %g, not %g", s->path,
+                   sdf_keys[key], low, high, v);
 }
 
 static bool sdf_positive(const struct sdf *s, int key, bool zero)

@@ -102,8 +102,8 @@ static bool check_values(const struct rows *r, const double *v, struct err *e)
         return err_set(e, ERR_SCENE, "time_s %g must lie between 0 (the impulse) and 3600", v[TIME]);
     if (!(fabs(v[X]) <= 1000.0 && fabs(v[Y]) <= 1000.0))
         return err_set(e, ERR_SCENE,
-                       "the place (%g, %g) m lies farther than 1000 m from the origin; x_m and y_m are in metres", v[X],
-                       v[Y]);
+                       "the place (%g, %g) m lies farther than 1000 m from the origin; give x_m and y_m in metres",
+                       v[X], v[Y]);
     if (!whole(v[SLOPE])) return err_set(e, ERR_SCENE, "slope %g is not a whole number from 1 to 100", v[SLOPE]);
     return true;
 }

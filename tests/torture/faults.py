@@ -41,7 +41,7 @@ def at_key(scene, want, text):
     lines = scene.texts[file].split("\n")
     name = where.split(".")[-1]
     old = value_of(lines[line - 1], name)
-    if old is None:
+    if old is None or len(re.findall(rf"\b{re.escape(name)}: ", lines[line - 1])) > 1:  # two of that name in one line
         scene.planted = "none fitted"
         return
     lines[line - 1] = lines[line - 1].replace(f"{name}: {old}", text(scene, where, name, old), 1)

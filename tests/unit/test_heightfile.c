@@ -221,18 +221,18 @@ START_TEST(gsf_hostile)
 {
     gsf_refused("YRes = 1\n", "has no XRes");
     gsf_refused("XRes = 2\n", "has no YRes");
-    gsf_refused("XRes = 2.0\nYRes = 1\n", "line 2: XRes is '2.0', not a whole number");
-    gsf_refused("XRes = 0\nYRes = 1\n", "XRes is '0'");
-    gsf_refused("XRes = -2\nYRes = 1\n", "XRes is '-2'");
-    gsf_refused("XRes = 99999999999999999999\nYRes = 1\n", "XRes is '9999");
+    gsf_refused("XRes = 2.0\nYRes = 1\n", "line 2: XRes must be a whole number from 1 to 999999999, not '2.0'");
+    gsf_refused("XRes = 0\nYRes = 1\n", "XRes must be a whole number from 1 to 999999999, not '0'");
+    gsf_refused("XRes = -2\nYRes = 1\n", "999999999, not '-2'");
+    gsf_refused("XRes = 99999999999999999999\nYRes = 1\n", "999999999, not '9999");
     gsf_refused("XRes = 999999999\nYRes = 999999999\n", "and 8 bytes do");
     gsf_refused("XRes = 1\nYRes = 1\n", "(4 bytes) should follow byte 48, and 8 bytes do");
     gsf_refused("XRes = 3\nYRes = 1\n", "(12 bytes) should follow byte 48, and 8 bytes do");
-    gsf_refused("XRes = 2\nYRes = 1\nXReal = 0\n", "XReal is '0', not a positive number");
-    gsf_refused("XRes = 2\nYRes = 1\nXReal = nan\n", "XReal is 'nan'");
-    gsf_refused("XRes = 2\nYRes = 1\nXReal = 1 mm\n", "XReal is '1 mm'");
-    gsf_refused("XRes = 2\nYRes = 1\nXYUnits = s\n", "XYUnits is 's', not a length");
-    gsf_refused("XRes = 2\nYRes = 1\nZUnits = V\n", "line 4: ZUnits is 'V', not a length");
+    gsf_refused("XRes = 2\nYRes = 1\nXReal = 0\n", "XReal must be a positive number, not '0'");
+    gsf_refused("XRes = 2\nYRes = 1\nXReal = nan\n", "a positive number, not 'nan'");
+    gsf_refused("XRes = 2\nYRes = 1\nXReal = 1 mm\n", "a positive number, not '1 mm'");
+    gsf_refused("XRes = 2\nYRes = 1\nXYUnits = s\n", "XYUnits must be a length");
+    gsf_refused("XRes = 2\nYRes = 1\nZUnits = V\n", "line 4: ZUnits must be a length (m, mm, um, nm), not 'V'");
     gsf_refused("XRes = 2\nYRes = 1\nXRes = 2\n", "line 4: XRes is there already, in line 2");
     gsf_refused("XRes = 2\r\nYRes = 1\r\n", "line 2: the line ends in CR LF");
     gsf_refused("XRes = 2\nYRes\n", "line 3: 'YRes' is not of the form");

@@ -92,11 +92,11 @@ START_TEST(binary_damaged)
 {
     static const int good[3] = {0, 1, 0};
     bad_header(scales, (const int[]){1, 1, 0}, 2, "Compression is 1");
-    bad_header(scales, (const int[]){0, 8, 0}, 2, "DataType is 8");
+    bad_header(scales, (const int[]){0, 8, 0}, 2, "DataType must be a whole number from 0 to 7, not 8");
     bad_header((const double[]){0, 1e-6, 1e-9}, good, 2, "Xscale is 0");
     bad_header((const double[]){1e-6, -1e-6, 1e-9}, good, 2, "Yscale is -1e-06");
     bad_header((const double[]){1e-6, 1e-6, NAN}, good, 2, "Zscale is nan");
-    bad_header(scales, good, 0, "NumPoints is 0");
+    bad_header(scales, good, 0, "4.29497e+09, not 0");
     bad_header(scales, good, 3, "3 x 2 numbers of 2 bytes should follow byte 81, and 8 bytes do");
     bad_header(scales, good, 65535, "65535 x 2 heights should follow");
     header("bBCR-0.0", 2, 2, 2, scales, good);
@@ -165,9 +165,9 @@ START_TEST(text_damaged)
     sdf("aBC-1.0\nNumPoints = 60000\nNumProfiles = 60000\nXscale = 1\nYscale = 1\nZscale = 1\n*\n", "1 2");
     refused("60000 x 60000 heights should follow");
     sdf("aBC-1.0\nNumPoints = -1e300\nNumProfiles = 2\nXscale = 1\nYscale = 1\nZscale = 1\n*\n", "1 2");
-    refused("NumPoints is -1e+300");
+    refused("4.29497e+09, not -1e+300");
     sdf("aBC-1.0\nNumPoints = 1.5\nNumProfiles = 2\nXscale = 1\nYscale = 1\nZscale = 1\n*\n", "1 2 3");
-    refused("NumPoints is 1.5");
+    refused("4.29497e+09, not 1.5");
     sdf("a letter to NumPoints\n", "");
     refused("has no end");
     sdf("a letter\n", "");
