@@ -1,6 +1,6 @@
 #!/bin/bash
 # Random scenes over the whole legal range, a third of them with a fault planted (tests/torture): what came of SCENES
-# (default 20000, some two hours of one core) of SEED (default T20), EVERY (16) one of them once more with sanitizers.
+# (default 20000, some eight hours of one core) of SEED (default T20), EVERY (16) one of them once more with sanitizers.
 # Makes evidence/torture.md.
 set -euo pipefail
 ROOT=$(realpath "$(dirname "$0")/..")
@@ -21,7 +21,7 @@ tests/torture/torture.py --rasp "$BUILD/rasp" --sanitized "$BUILD/sanitize/rasp"
     cat << END
 # Random scenes
 
-Made by \`evidence/torture.sh\` at $commit: \`tests/torture/torture.py --seed $SEED --scenes $SCENES\`.
+Made by \`evidence/torture.sh\` at $commit: \`tests/torture/torture.py --seed $SEED --scenes $SCENES --every $EVERY\`.
 What a scene is held to is in [tests/README.md](../tests/README.md). One scene in $EVERY is rendered once more by the
 program under the address and undefined-behaviour sanitizers (clang $(clang -dumpversion)) and must have the same bytes.
 Limits: 20 s of CPU time for a command (80 s sanitized), 4 GiB of memory.

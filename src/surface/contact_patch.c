@@ -31,7 +31,7 @@ enum { KERNEL = 28, INVERSE = 40, LINE = 1024, SQUARE = 13, EDGE = 3, WIDEST = L
 /* Two memories of blocks on lattices through 0, each made from the one before when it is asked for:
 
      heights    z of the surface at multiples of d = h / finer, read every 2 d, and between by Taylor's formula;
-                in one coordinate rolling_envelope.c keeps them, at a pitch of their own
+                envelope.c keeps them, in one coordinate rolling_envelope.c at a pitch of their own
      envelope   E at multiples of h = patch / 4
 
    Errors. In one coordinate those of rolling_envelope.c. In the plane the heights only tell on which asperity the ball

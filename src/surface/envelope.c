@@ -45,7 +45,7 @@ struct envelope {
     void *self;
     struct block_cache *squares; /* of NUMBERS */
     struct list lists[LEVELS];
-    int nested[SIDE / ROW * SIDE / ROW];
+    int nested[SIDE / ROW * SIDE / ROW]; /* of each 4 x 4 heights, row by row: which node of a square they are */
     int points[LEVELS]; /* of a side of the squares for which a level's nodes are looked through */
     double *best;       /* of the square's points: the highest so far */
     long (*places)[2];  /* the height that reaches it */

@@ -145,7 +145,6 @@ START_TEST(a_slope)
 }
 END_TEST
 
-/* Around a spike the envelope is the ball itself, the sphere and not the paraboloid: at 0.9 R they are 0.16 R apart. */
 static void spike_heights(void *self, long column, long row, double *z)
 {
     (void)self;
@@ -156,6 +155,7 @@ static void spike_heights(void *self, long column, long row, double *z)
                 : 0;
 }
 
+/* Around a spike the envelope is the ball itself, the sphere and not the paraboloid: at 0.9 R they are 0.16 R apart. */
 START_TEST(a_spike_is_the_ball)
 {
     struct arena *a = arena_open();
