@@ -46,11 +46,11 @@ struct envelope {
     struct block_cache *squares; /* of NUMBERS */
     struct list lists[LEVELS];
     int nested[SIDE / ROW * SIDE / ROW]; /* of each 4 x 4 heights, row by row: which node of a square they are */
-    int points[LEVELS]; /* of a side of the squares for which a level's nodes are looked through */
-    double *best;       /* of the square's points: the highest so far */
-    long (*places)[2];  /* the height that reaches it */
-    long first[2];      /* the square's first point, in samples */
-    double seed[3];     /* the height that was touched last: its place, in samples, and itself, m */
+    int points[LEVELS];                  /* of a side of the squares for which a level's nodes are looked through */
+    double *best;                        /* of the square's points: the highest so far */
+    long (*places)[2];                   /* the height that reaches it */
+    long first[2];                       /* the square's first point, in samples */
+    double seed[3];                      /* the height that was touched last: its place, in samples, and itself, m */
 };
 
 /* Points of a part of the square: which they are, and where the first and last lie, in samples. */
