@@ -10,7 +10,9 @@ export LC_ALL=C
 cd "$ROOT"
 command -v clang > /dev/null || { echo "clang is not installed: skipped"; exit 0; }
 make --no-print-directory -s BUILD="$BUILD" all
-make --no-print-directory -s BUILD="$BUILD/sanitize" CC=clang SAN=1 OPT="-O2 -g1" all
+fused= # as the Makefile does
+! grep -qw avx2 /proc/cpuinfo || fused=ISA=v3
+make --no-print-directory -s BUILD="$BUILD/sanitize" CC=clang SAN=1 OPT="-O2 -g1" ${fused:+"$fused"} all
 commit=$(git rev-parse --short HEAD)$(git diff --quiet HEAD -- src tests/torture || echo +)
 report=$(mktemp)
 trap 'rm -f "$report"' EXIT
