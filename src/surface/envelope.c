@@ -130,7 +130,7 @@ struct envelope *envelope_make(struct arena *a, double radius, double pitch, lon
     e->points[0] = e->points[1] = 1;
     for (int level = 2; level < LEVELS; level++) {
         e->points[level] = ENVELOPE_POINTS;
-        while (e->points[level] > 1 && e->points[level] * finer > spans[level] / 2)
+        while (e->points[level] > 1 && (double)(e->points[level] * finer) > spans[level] / 2)
             e->points[level] /= 2;
     }
     size_t needed = 2 * (size_t)(e->across * e->across);
