@@ -41,7 +41,7 @@ VERSION := $(shell sed -n 's/^.define VERSION "\(.*\)"/\1/p' src/cmd/version.c)
 
 SRC = $(filter-out src/main%.c,$(wildcard src/*.c src/*/*.c))
 OBJ = $(SRC:src/%.c=$(BUILD)/%.o)
-UNIT = $(patsubst tests/unit/%.c,$(BUILD)/tests/%,$(wildcard tests/unit/test_*.c))
+UNIT = $(patsubst tests/unit/%.c,$(BUILD)/tests/%.o,$(wildcard tests/unit/test_*.c))
 FUZZ = $(patsubst tests/fuzz/%.c,$(BUILD)/%,$(wildcard tests/fuzz/fuzz_*.c))
 BENCH = $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
 SUB = @$(MAKE) --no-print-directory -j$(JOBS)
@@ -81,17 +81,23 @@ $(BUILD)/analysis/modal_block.o $(BUILD)/force/smooth.o $(BUILD)/force/decimate.
 $(BUILD)/cmd/version.o: private DEFINES = -DRASP_REVISION='"$(REVISION)"' -DRASP_FLAGS='"$(strip $(CFLAGS))"' -DRASP_PACKAGES='"$(PACKAGES)"'
 $(BUILD)/cmd/version.o: $(BUILD)/revision
 
-unit: $(UNIT)
-$(BUILD)/tests/%: tests/unit/%.c $(BUILD)/librasp.a
+# One program of all unit tests, build/unit NAME, as linking takes longer than compiling: their main() is called after them, and a table has its address.
+unit: $(BUILD)/unit
+$(BUILD)/tests/%.o: tests/unit/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call say,$(CC))
-	$Q$(CC) $(CFLAGS) -MMD -MP -Itests/unit -o $@ $< $(BUILD)/librasp.a $(shell pkg-config --libs check) -Wl,--as-needed $(HEAVY) $(LIBS)
+	$Q$(CC) $(CFLAGS) -Dmain=$* -MMD -MP -Itests/unit -c -o $@ $<
+$(BUILD)/tests/table.h: $(BUILD)/files
+	@mkdir -p $(@D); printf 'TEST(%s)\n' $(notdir $(UNIT:.o=)) > $@
+$(BUILD)/unit: tests/unit/unit.c $(BUILD)/tests/table.h $(UNIT) $(BUILD)/librasp.a
+	$(call say,link)
+	$Q$(CC) $(CFLAGS) -I$(BUILD)/tests -o $@ $< $(UNIT) $(BUILD)/librasp.a $(shell pkg-config --libs check) $(HEAVY) $(LIBS)
 
 # Other flags, another compiler, another list of files in the same folder: what depends on them is made again.
 $(BUILD)/flags: FORCE
 	@mkdir -p $(@D); echo '$(CC) $(CFLAGS)' | cmp -s - $@ || echo '$(CC) $(CFLAGS)' > $@
 $(BUILD)/files: FORCE
-	@mkdir -p $(@D); echo '$(OBJ)' | cmp -s - $@ || echo '$(OBJ)' > $@
+	@mkdir -p $(@D); echo '$(OBJ) $(UNIT)' | cmp -s - $@ || echo '$(OBJ) $(UNIT)' > $@
 $(BUILD)/revision: FORCE
 	@mkdir -p $(@D); echo '$(REVISION)' | cmp -s - $@ || echo '$(REVISION)' > $@
 
@@ -213,7 +219,7 @@ help:
 	@echo 'variables: BUILD CC OPT ISA=v2|v3|v4 SAN=1 WERROR=-Werror JOBS V=1 PREFIX DESTDIR'
 	@echo '           LONG=1 (check: the longest tests, too) ISAS OPTS (bytes: more builds)'
 
--include $(OBJ:.o=.d) $(BUILD)/main.d $(BUILD)/main_modes.d $(UNIT:=.d) $(BENCH:=.d)
+-include $(OBJ:.o=.d) $(BUILD)/main.d $(BUILD)/main_modes.d $(UNIT:.o=.d) $(BENCH:=.d)
 FORCE:
 .PHONY: all unit demo check blas warnings warnings-gcc warnings-clang sanitize bytes fuzz fuzzers torture evidence bench irs install uninstall dist deb clean \
     help FORCE

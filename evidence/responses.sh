@@ -1,6 +1,6 @@
 #!/bin/bash
 # Makes evidence/responses.md: how well and at what cost a response that moves with the contact is rendered, from the command line (about 5 minutes on two cores).
-# Needs build/tests/test_glide (make unit).
+# Needs build/unit (make unit).
 set -euo pipefail
 ROOT=$(realpath "$(dirname "$0")/..")
 BUILD=$(realpath -m "${BUILD:-$ROOT/build}")
@@ -130,7 +130,7 @@ readings() {
 modulations() {
     echo '| modulation | least and largest amplitude, normal form | direct form |'
     echo '|---|---|---|'
-    "$BUILD/tests/test_glide" | sed -nE 's/^(.*[^ ]) +([0-9.]+ to [0-9.]+); direct form (.*)$/| \1 | \2 | \3 |/p'
+    "$BUILD/unit" test_glide | sed -nE 's/^(.*[^ ]) +([0-9.]+ to [0-9.]+); direct form (.*)$/| \1 | \2 | \3 |/p'
 }
 
 {

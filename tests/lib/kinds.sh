@@ -2,8 +2,8 @@
 # shellcheck shell=bash
 
 kind_unit() {
-    [ -x "$BUILD/tests/$1" ] || { echo "not built: $BUILD/tests/$1 (make unit)"; return 1; }
-    "$BUILD/tests/$1"
+    [ -x "$BUILD/unit" ] || { echo "not built: $BUILD/unit (make unit)"; return 1; }
+    "$BUILD/unit" "$1"
 }
 
 kind_tidy() { bash "$ROOT/tests/tidy/$1.sh"; }

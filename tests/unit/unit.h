@@ -1,4 +1,4 @@
-/* A unit test program: START_TEST functions, then UNIT("name", test_a, test_b, ...). Each test runs in its own process
+/* A file of unit tests: START_TEST functions, then UNIT("name", test_a, test_b, ...). Each test runs in its own process
    (Check), so that a crash is one failure. The last line of its output, "name: N passed, N failed", is what
    tests/run.sh counts. UNIT_LONG(test_c) runs where the environment has LONG, and never with sanitizers, which are five
    times as slow: long numbers from code that other tests run too. */
@@ -9,6 +9,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+int main(void); /* which the Makefile calls after the file, for tests/unit/unit.c */
 
 static inline int unit_run(const char *name, const TTest *const *tests, size_t n)
 {
