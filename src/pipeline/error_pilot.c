@@ -55,6 +55,7 @@ static void strike(struct contact *c, const double place[2], double rate, struct
 {
     double mass = 0.01;
     c->start = 0;
+    *(bool *)params_edit(c, enhance_stage.params, a) = false; /* the pilot's force has it */
     c->contact.model = CONTACT_STRIKE;
     *(struct strike *)params_edit(c, strike_stage.params, a) =
         (struct strike){.pulse = PULSE_HALF_SINE,
@@ -190,7 +191,6 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
                               .power = ARENA_TAKE(a, double, PILOT_PLACES *PILOT_BINS)};
     if (c->gain == 0) /* it is here for its table, which holds its force as it is */
         p->gain = p->contact.gain = 1;
-    *(bool *)params_edit(&p->contact, enhance_stage.params, a) = false; /* the weighting has it */
     p->scene.contacts = &p->contact;
     p->scene.n_contacts = 1;
     p->scene.output.quantity = QUANTITY_FORCE;
@@ -219,7 +219,8 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
     p->knobs = plan_knobs(&p->plan);
     int spread = p->knobs & KNOB_BIT(tip_heights) ? PILOT_SAMPLED / 2 : PILOT_SAMPLED;
     p->followed = sampled ? spread + PILOT_ENDS : PILOT_FOLLOWED;
-    p->follows = anywhere && p->blocks > 2 * p->followed; /* else as dear */
+    bool enhanced = *(const bool *)params_of(c, enhance_stage.params); /* the force rings: it begins with its motion */
+    p->follows = anywhere && !enhanced && p->blocks > 2 * p->followed; /* else as dear */
     p->block = p->follows ? ARENA_TAKE(a, struct pilot_block, p->followed) : NULL;
     for (int k = 0; sampled && p->follows && k < p->followed; k++) /* 0, those spread, the last two */
         p->block[k].number = k == 0        ? 0
