@@ -350,20 +350,19 @@ int compare_table(const struct compare_ask *ask, struct err *e)
  */
 bool compare_is_sound(const char *path, bool *sound, struct err *e)
 {
-    static const char *const magics[] = {"RIFF", "RF64", "riff", "FORM", "fLaC", "OggS", "caff", ".snd", NULL};
-    static const char *const names[] = {".wav", ".w64", ".aif", ".aiff", ".flac", ".ogg", ".caf", ".au", NULL};
+    static const char *const names[] = {".wav", ".w64", ".aif", ".aiff", ".flac", ".caf", ".au", ".mp3", ".ogg", NULL};
     struct stat s;
-    char head[5] = "";
+    char head[4];
     *sound = false;
     if (stat(path, &s) != 0) return err_set(e, ERR_INPUT, "%s: %s", path, strerror(errno));
     FILE *f = S_ISREG(s.st_mode) ? memory_fopen(path, "rb") : NULL;
     if (f) {
-        head[fread(head, 1, 4, f)] = '\0';
+        *sound = fread(head, 1, 4, f) == 4 && wav_begins(head);
         fclose(f);
     }
     const char *dot = strrchr(path, '.');
-    for (int i = 0; magics[i]; i++)
-        *sound = *sound || !strcmp(head, magics[i]) || (dot && !strcasecmp(dot, names[i]));
+    for (int i = 0; names[i]; i++)
+        *sound = *sound || (dot && !strcasecmp(dot, names[i]));
     return true;
 }
 

@@ -57,6 +57,16 @@ static const struct {
                  {32, SF_FORMAT_PCM_32}, {8, SF_FORMAT_PCM_S8},  {8, SF_FORMAT_PCM_U8}};
 enum { WRITTEN = 4, ENCODINGS = sizeof encodings / sizeof encodings[0] }; /* the first of them */
 
+/* Those whose samples are what was written. Decoders of MP3 and Opus give other bits on another CPU; and libsndfile looks
+   for MP3 in all that it does not know, which a few bytes can make take for ever. */
+bool wav_begins(const char head[4])
+{
+    static const char lossless[][5] = {"RIFF", "RIFX", "RF64", "FORM", "fLaC", ".snd", "dns.", "caff", "riff"};
+    for (size_t k = 0; k < sizeof lossless / sizeof lossless[0]; k++)
+        if (!memcmp(head, lossless[k], 4)) return true;
+    return false;
+}
+
 static SNDFILE *sound_read(const char *path, SF_INFO *i, struct err *e)
 {
     /* libsndfile shortens a truncated RIFF file without a word: the data chunk's length is held against the file's */
@@ -68,8 +78,19 @@ static SNDFILE *sound_read(const char *path, SF_INFO *i, struct err *e)
                 special ? "is not a file" : strerror(errno));
         return NULL;
     }
-    double missing = missing_bytes(raw);
+    char head[4];
+    bool known = fread(head, 1, 4, raw) == 4 && wav_begins(head);
+    rewind(raw);
+    double missing = known ? missing_bytes(raw) : 0;
     fclose(raw);
+    if (!known) {
+        err_set(e, ERR_SCENE,
+                "%s: is not a sound file that can be read: export it as WAV, FLAC, AIFF, AU, CAF or W64; MP3 and Ogg "
+                "are not "
+                "decoded alike everywhere",
+                path);
+        return NULL;
+    }
     if (missing > 0) {
         err_set(e, ERR_SCENE, "%s: is truncated: its last %.0f bytes are missing: copy or export it again", path,
                 missing);

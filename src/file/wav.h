@@ -16,6 +16,9 @@ struct wav {
     int bits;  /* 8, 16, 24, 32 of an integer file; 0: anything else     */
 };
 
+/* Is that how a sound file begins that can be read here: WAV, RF64, AIFF, FLAC, AU, CAF, W64? */
+bool wav_begins(const char head[4]);
+
 /* Whatever libsndfile reads. Errors: ERR_INPUT missing or unreadable, ERR_SCENE not a sound file, truncated, no
    samples, or not finite. */
 bool wav_read(const char *path, struct arena *a, struct wav *w, struct err *e);
