@@ -94,11 +94,11 @@ struct hermite {                             /* Hermite curve of a curved path o
 };
 
 struct stretch {
-    double u, whole; /* m: where the stretch begins, how long it is */
-    int heading;     /* 1: u grows; -1                        */
-    double alpha;    /* m, of channel 0                       */
+    double whole; /* m: how long it is */
+    int heading;  /* 1: u grows; -1                        */
+    double alpha; /* m, of channel 0                       */
     int interval;
-    struct hermite path; /* of a curved path                       */
+    struct hermite path;
 };
 
 struct spot {
@@ -122,10 +122,8 @@ static struct spot curve_at(const struct hermite *c, double w)
 }
 
 /* `done` m into the stretch. */
-INLINE struct spot spot_at(const struct path_cells *w, const struct stretch *s, double done, bool curved)
+static struct spot spot_at(const struct stretch *s, double done)
 {
-    double u = s->u + s->heading * done;
-    if (!curved) return (struct spot){w->from[0] + u * w->e[0], w->from[1] + u * w->e[1], w->e[0], w->e[1]};
     struct spot r = curve_at(&s->path, done);
     r.ex *= s->heading;
     r.ey *= s->heading;
@@ -143,21 +141,21 @@ static double curve_along(const struct hermite *c, int axis, double w, double *r
 
 /* Where the stretch reaches the family's next knot, along the tangent; corrected once if that may be before `nearest`.
  */
-INLINE double grid_next(const struct knot_lines *g, const struct stretch *s, double done, const struct spot *at,
-                        double nearest, bool curved)
+static double grid_next(const struct knot_lines *g, const struct stretch *s, double done, const struct spot *at,
+                        double nearest)
 {
     double rate = s->heading * (g->axis ? at->ey : at->ex) / g->pitch;
     if (fabs(rate) * (s->whole - done) < 1e-9) return HUGE_VAL;
     double q = ((g->axis ? at->y : at->x) - g->origin) / g->pitch;
     double slack = 1e-7 * (1 + fabs(q) * 1e-6); /* a knot just reached is not the next one */
     double edge = rate > 0 ? lanes_floor(q + slack) + 1 : lanes_ceil(q - slack) - 1, next = done + (edge - q) / rate;
-    if (!curved || !(next < s->path.length) || next - done > 2 * (nearest - done)) return next;
+    if (!(next < s->path.length) || next - done > 2 * (nearest - done)) return next;
     double speed, left = edge - (curve_along(&s->path, g->axis, next, &speed) - g->origin) / g->pitch,
                   better = next + left * g->pitch / speed;
     return fabs(speed) > 0.1 * fabs(rate * g->pitch) && better > done ? better : next;
 }
 
-INLINE void add_point(struct path_cells *w, const struct stretch *s, const struct spot *at)
+INLINE void add_point(struct path_cells *w, double alpha, const struct spot *at)
 {
     struct cells *p = &w->cells;
     int k = p->points++;
@@ -165,8 +163,8 @@ INLINE void add_point(struct path_cells *w, const struct stretch *s, const struc
     p->y[k] = at->y;
     p->ex[k] = at->ex;
     p->ey[k] = at->ey;
-    p->alpha[0][k] = s->alpha;
-    p->alpha[1][k] = s->alpha * w->ratio;
+    p->alpha[0][k] = alpha;
+    p->alpha[1][k] = alpha * w->ratio;
 }
 
 /* Is the last point this very one, and of the same alpha? */
@@ -177,45 +175,142 @@ INLINE bool last_point(const struct cells *p, const struct stretch *s, const str
            p->alpha[0][k] == s->alpha;
 }
 
-INLINE void add_cell(struct path_cells *w, const struct stretch *s, double length, const struct spot *end)
+/* It begins at the last point and ends at the next. */
+INLINE void add_cell(struct cells *p, int interval, int heading, double length)
 {
-    struct cells *p = &w->cells;
     int i = p->n++;
     p->at[i] = p->points - 1;
-    p->interval[i] = s->interval;
-    p->heading[i] = s->heading;
+    p->interval[i] = interval;
+    p->heading[i] = heading;
     p->length[i] = length;
-    add_point(w, s, end);
 }
 
 /* Adds the stretch's cells. */
-INLINE void cut_stretch(struct path_cells *w, const struct stretch *s, bool curved)
+static void cut_stretch(struct path_cells *w, const struct stretch *s)
 {
     struct cells *p = &w->cells;
     double done = 0;
-    struct spot at = spot_at(w, s, done, curved);
+    struct spot at = spot_at(s, done);
     while (done < s->whole) {
         double next = done + w->longest;
         next = next < s->whole ? next : s->whole;
         if (p->n + 2 > LIMITER_CELLS || p->points + 3 > LIMITER_POINTS) cells_flush(w);
         for (int k = 0; k < w->n_knots; k++) {
-            double knot = grid_next(&w->knots[k], s, done, &at, next, curved);
+            double knot = grid_next(&w->knots[k], s, done, &at, next);
             next = knot < next ? knot : next;
         }
         if (!(next > done))
             next = done + fmax(1e-12 * s->whole, 4e-16 * fabs(done)); /* no progress in floating point */
-        struct spot end = spot_at(w, s, next, curved);
-        if (!last_point(p, s, &at)) add_point(w, s, &at);
+        struct spot end = spot_at(s, next);
+        if (!last_point(p, s, &at)) add_point(w, s->alpha, &at);
         if (w->halves) {
-            struct spot middle = spot_at(w, s, 0.5 * (done + next), curved);
-            add_cell(w, s, 0.5 * (next - done), &middle);
-            add_cell(w, s, 0.5 * (next - done), &end);
-        } else {
-            add_cell(w, s, next - done, &end);
+            struct spot middle = spot_at(s, 0.5 * (done + next));
+            add_cell(p, s->interval, s->heading, 0.5 * (next - done));
+            add_point(w, s->alpha, &middle);
         }
+        add_cell(p, s->interval, s->heading, (w->halves ? 0.5 : 1) * (next - done));
+        add_point(w, s->alpha, &end);
         at = end;
         done = next;
     }
+}
+
+/* ------------------------------------------------------------------ straight ways */
+
+/* u of the knot that comes next from u on; a knot just reached is not the next one. */
+static double knot_next(const struct path_cells *w, double u, int heading)
+{
+    double next = heading * HUGE_VAL;
+    for (int k = 0; k < w->n_knots; k++) {
+        const struct knot_lines *g = &w->knots[k];
+        if (g->step == 0) continue;
+        double q = (u - g->first) / g->step, slack = 1e-7 * (1 + fabs(q) * 1e-6),
+               knot = g->first + g->step * (heading > 0 ? lanes_floor(q + slack) + 1 : lanes_ceil(q - slack) - 1);
+        next = heading * (knot - next) < 0 ? knot : next;
+    }
+    return next;
+}
+
+INLINE void straight_point(struct path_cells *w, double u, double alpha)
+{
+    add_point(w, alpha, &(struct spot){w->from[0] + u * w->e[0], w->from[1] + u * w->e[1], w->e[0], w->e[1]});
+    w->at = u;
+}
+
+/* The cells from u to `end`. */
+static void cut_straight(struct path_cells *w, double u, double end, double alpha, int interval)
+{
+    struct cells *p = &w->cells;
+    int heading = end > u ? 1 : -1;
+    if (!(heading * (u - w->gap[0]) >= 0 && heading * (w->gap[1] - u) > 0))
+        w->gap[0] = u, w->gap[1] = knot_next(w, u, heading);
+    for (double stop; u != end; u = stop) {
+        stop = heading * (w->gap[1] - end) < 0 ? w->gap[1] : end;
+        if (heading * (stop - u) > w->longest && u + heading * w->longest != u) stop = u + heading * w->longest;
+        if (p->n + 2 > LIMITER_CELLS || p->points + 3 > LIMITER_POINTS) cells_flush(w);
+        if (p->points == 0 || w->at != u || p->alpha[0][p->points - 1] != alpha) straight_point(w, u, alpha);
+        double length = heading * (stop - u);
+        if (w->halves) {
+            length *= 0.5;
+            add_cell(p, interval, heading, length);
+            straight_point(w, u + heading * length, alpha);
+        }
+        add_cell(p, interval, heading, length);
+        straight_point(w, stop, alpha);
+        if (stop == w->gap[1]) w->gap[0] = stop, w->gap[1] = knot_next(w, stop, heading);
+    }
+}
+
+/* The cells of m sub-intervals without a knot, which begin at u[0] to u[m - 1], number `first` and on. */
+LANES_CLONES
+static void clear_fill(struct path_cells *w, const double *u, double alpha, int first, int m)
+{
+    struct cells *p = &w->cells;
+    int each = w->halves ? 2 : 1, heading = u[1] > u[0] ? 1 : -1, from = p->points - 1, cell = p->n;
+    double way[2 * CELLS_CHUNK], share = w->halves ? 0.5 : 1, x = w->from[0], y = w->from[1], ex = w->e[0],
+                                 ey = w->e[1], other = alpha * w->ratio;
+    for (int j = 0; j < m; j++) {
+        double length = share * (heading * (u[j + 1] - u[j]));
+        for (int k = 0; k < each; k++) {
+            p->length[cell + j * each + k] = length;
+            way[j * each + k] = k + 1 == each ? u[j + 1] : u[j] + heading * length;
+        }
+    }
+#pragma omp simd
+    for (int i = 0; i < m * each; i++) {
+        p->at[cell + i] = from + i;
+        p->heading[cell + i] = heading;
+        p->interval[cell + i] = first + (i >> (each - 1));
+    }
+#pragma omp simd
+    for (int i = 0; i < m * each; i++) {
+        p->x[from + 1 + i] = x + way[i] * ex;
+        p->y[from + 1 + i] = y + way[i] * ey;
+        p->ex[from + 1 + i] = ex;
+        p->ey[from + 1 + i] = ey;
+        p->alpha[0][from + 1 + i] = alpha;
+        p->alpha[1][from + 1 + i] = other;
+    }
+    p->n += m * each;
+    p->points += m * each;
+    w->at = u[m];
+}
+
+/* Cuts those of n sub-intervals, from the first on, that go the same way without a knot, alpha being the same; how many
+   these are. du: velocity. */
+static int cut_clear(struct path_cells *w, const double *u, const double *du, double alpha, int first, int n)
+{
+    struct cells *p = &w->cells;
+    int m = 0, heading = u[1] > u[0] ? 1 : -1;
+    if (!(heading * (u[0] - w->gap[0]) >= 0)) return 0;
+    while (m < n && heading * (u[m + 1] - u[m]) > 0 && heading * (w->gap[1] - u[m + 1]) > 0 &&
+           heading * (u[m + 1] - u[m]) <= w->longest && du[m] * du[m + 1] >= 0)
+        m++;
+    if (m == 0) return 0;
+    if (p->n + 2 * m > LIMITER_CELLS || p->points + 2 * m + 1 > LIMITER_POINTS) cells_flush(w);
+    if (p->points == 0 || w->at != u[0] || p->alpha[0][p->points - 1] != alpha) straight_point(w, u[0], alpha);
+    clear_fill(w, u, alpha, first, m);
+    return m;
 }
 
 /* ------------------------------------------------------------------ sub-intervals */
@@ -224,19 +319,17 @@ struct instant {
     double u, x, y, ex, ey;
 };
 
-/* At the ends of n sub-intervals, n + 1 of them. The direction is 0, 0 where the contact rests. */
-static void instants_of(const struct path_cells *w, const struct board *b, long first, int n, struct instant *to)
+/* At the ends of n sub-intervals of a curved path, n + 1 of them. The direction is 0, 0 where the contact rests. */
+static void instants_of(const struct board *b, long first, int n, struct instant *to)
 {
-    const double *u = cells_values(b, ITEM_POSITION, first);
+    const double *u = cells_values(b, ITEM_POSITION, first), *x = cells_values(b, ITEM_X, first),
+                 *y = cells_values(b, ITEM_Y, first), *vx = cells_values(b, ITEM_VX, first),
+                 *vy = cells_values(b, ITEM_VY, first);
     double slow = 1e-6 * b->trajectory->top_speed;
-    for (int k = 0; k <= n; k++)
-        to[k] = (struct instant){.u = u[k]};
-    for (int k = 0; k <= n && w->curved; k++) {
-        double vx = cells_values(b, ITEM_VX, first)[k], vy = cells_values(b, ITEM_VY, first)[k],
-               v = sqrt(vx * vx + vy * vy);
-        to[k].x = cells_values(b, ITEM_X, first)[k];
-        to[k].y = cells_values(b, ITEM_Y, first)[k];
-        if (v > slow) to[k].ex = vx / v, to[k].ey = vy / v;
+    for (int k = 0; k <= n; k++) {
+        double v = sqrt(vx[k] * vx[k] + vy[k] * vy[k]);
+        to[k] = (struct instant){.u = u[k], .x = x[k], .y = y[k]};
+        if (v > slow) to[k].ex = vx[k] / v, to[k].ey = vy[k] / v;
     }
 }
 
@@ -262,16 +355,12 @@ static bool curve_between(const struct instant *a, const struct instant *b, stru
 static void cut_between(struct path_cells *w, const struct instant *a, const struct instant *b, double alpha,
                         int interval)
 {
-    struct stretch s;
-    s.u = a->u;
-    s.whole = fabs(b->u - a->u);
-    s.heading = b->u > a->u ? 1 : -1;
-    s.alpha = alpha;
-    s.interval = interval;
+    struct stretch s = {
+        .whole = fabs(b->u - a->u), .heading = b->u > a->u ? 1 : -1, .alpha = alpha, .interval = interval};
     if (!w->curved)
-        cut_stretch(w, &s, false);
+        cut_straight(w, a->u, b->u, alpha, interval);
     else if (curve_between(a, b, &s.path))
-        cut_stretch(w, &s, true);
+        cut_stretch(w, &s);
 }
 
 /* A sub-interval from t0 to t1, s, in which the motion turns round on itself: two stretches, each in its own side's
@@ -298,19 +387,23 @@ void path_cells_run(struct path_cells *w, const struct stage_run *r, long first,
 {
     const struct board *b = r->board;
     const double *du = cells_values(b, ITEM_VELOCITY, first), dt = 1 / (b->rate * b->over);
+    const double *u = cells_values(b, ITEM_POSITION, first),
+                 *varies = board_has(b, ITEM_ALPHA) ? cells_values(b, ITEM_ALPHA, first) : NULL;
     struct instant at[CELLS_CHUNK + 1];
-    double alpha[CELLS_CHUNK];
-    instants_of(w, b, first, n, at);
-    const double *varies = board_has(b, ITEM_ALPHA) ? cells_values(b, ITEM_ALPHA, first) : NULL;
     double fixed = varies ? NAN : limiter_constant(r->contact);
-    for (int i = 0; i < n; i++)
-        alpha[i] = varies ? 0.5 * (varies[i] + varies[i + 1]) : fixed;
-    for (int i = 0; i < n; i++)
+    if (w->curved) instants_of(b, first, n, at);
+    for (int i = 0, m; i < n; i += m) {
+        double alpha = varies ? 0.5 * (varies[i] + varies[i + 1]) : fixed;
+        m = w->curved ? 0 : cut_clear(w, u + i, du + i, alpha, i, varies ? 1 : n - i);
+        if (m > 0) continue;
+        m = 1;
+        if (!w->curved) at[i].u = u[i], at[i + 1].u = u[i + 1];
         if (w->curved ? at[i].ex * at[i + 1].ex + at[i].ey * at[i + 1].ey < 0 : du[i] * du[i + 1] < 0)
             cut_turning(w, b->trajectory, (double[]){(double)(first + i) * dt, (double)(first + i + 1) * dt}, at + i,
-                        alpha[i], i);
+                        alpha, i);
         else
-            cut_between(w, at + i, at + i + 1, alpha[i], i);
+            cut_between(w, at + i, at + i + 1, alpha, i);
+    }
     cells_flush(w);
 }
 
@@ -332,6 +425,10 @@ static bool knots_of(struct path_cells *w, const char *contact, struct err *e)
                                "contact '%s': the surface is made of too many parts: leave out one of height_map, "
                                "roughness, ridges, grit",
                                contact);
+            if (w->e[axis] != 0) {
+                g.first = (g.origin - w->from[axis]) / w->e[axis];
+                g.step = g.pitch / fabs(w->e[axis]);
+            }
             w->knots[w->n_knots++] = g;
         }
     return true;

@@ -81,6 +81,8 @@ struct profile *profile_from_coefficients(struct arena *a, const double *c, size
     return p;
 }
 
+#define INLINE static inline __attribute__((always_inline))
+
 /* ------------------------------------------------------------------ as a part of a relief */
 
 enum { WINDOW = 1024 };
@@ -102,18 +104,54 @@ static const double *window_at(struct window *w, long cell)
     return w->c + (cell - 1 - w->first);
 }
 
+/* z, z' and z'' in a cell with these coefficients about it, f of the way into it. */
+INLINE double window_value(const double *c, double f, double h, int order)
+{
+    double b0 = (c[0] - c[1]) + (c[2] - c[1]), b1 = (c[1] - c[2]) + (c[3] - c[2]), rise = b1 - b0,
+           s0 = 0.5 * (c[2] - c[0]);
+    if (order == 0) return (c[0] + 4 * c[1] + c[2]) / 6 + f * (s0 + f * (0.5 * b0 + f / 6 * rise));
+    return order == 1 ? (s0 + f * (b0 + 0.5 * f * rise)) / h : (b0 + f * rise) / (h * h);
+}
+
+/* All points at once, where all lie in what is held: else false. */
+LANES_CLONES
+static int window_all(const struct window *w, size_t n, const double *x, double *to, int order)
+{
+    double h = w->profile->pitch, origin = w->origin, first = (double)w->first + 1;
+    int all = w->first != LONG_MIN;
+#pragma omp simd reduction(& : all)
+    for (size_t i = 0; i < n; i++) {
+        double cell = lanes_floor((x[i] - origin) / h) - first;
+        all &= (cell >= 0) & (cell < WINDOW - 3);
+    }
+    n = all ? n : 0;
+#define VALUES(order)                                                                                                  \
+    for (size_t i = 0; i < n; i++) {                                                                                   \
+        double q = (x[i] - origin) / h, cell = lanes_floor(q);                                                         \
+        to[i] += window_value(w->c + (int)(cell - first), q - cell, h, order);                                         \
+    }
+    if (order == 0)
+#pragma omp simd
+        VALUES(0)
+    else if (order == 1)
+#pragma omp simd
+        VALUES(1)
+    else
+#pragma omp simd
+        VALUES(2)
+    return all;
+}
+
 static void window_add(struct relief_part *part, const struct relief_points *p, const struct relief_values *v)
 {
     struct window *w = part->state;
-    double h = w->profile->pitch;
-    for (size_t i = 0; i < p->n; i++) {
-        double q = (p->x[i] - w->origin) / h, cell = lanes_floor(q), f = q - cell;
-        const double *c = window_at(w, (long)cell);
-        double b0 = (c[0] - c[1]) + (c[2] - c[1]), b1 = (c[1] - c[2]) + (c[3] - c[2]), rise = b1 - b0,
-               s0 = 0.5 * (c[2] - c[0]);
-        if (v->z) v->z[i] += (c[0] + 4 * c[1] + c[2]) / 6 + f * (s0 + f * (0.5 * b0 + f / 6 * rise));
-        if (v->x) v->x[i] += (s0 + f * (b0 + 0.5 * f * rise)) / h;
-        if (v->xx) v->xx[i] += (b0 + f * rise) / (h * h);
+    double h = w->profile->pitch, *const to[3] = {v->z, v->x, v->xx};
+    for (int order = 0; order < 3; order++) {
+        if (!to[order] || window_all(w, p->n, p->x, to[order], order)) continue;
+        for (size_t i = 0; i < p->n; i++) {
+            double q = (p->x[i] - w->origin) / h, cell = lanes_floor(q);
+            to[order][i] += window_value(window_at(w, (long)cell), q - cell, h, order);
+        }
     }
 }
 
