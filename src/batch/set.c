@@ -23,6 +23,7 @@
 #include "pipeline/outputs.h"
 #include "pipeline/plan.h"
 #include "response/modes.h"
+#include "scene/accuracy.h"
 #include "scene/keys_yaml.h"
 #include "scene/scene_places.h"
 #include "scene/scene_write.h"
@@ -160,7 +161,8 @@ static bool estimate(const struct planning *p, int i, struct look *l)
         l->drawn = l->drawn || s->contacts[k].motion.path == PATH_SCRIBBLE;
     set_lay(p->set, s);
     design_scene_places(p->set->design, s, t->arena);
-    if (!plan_scene_estimate(s, t->arena, &x, &t->e)) return scene_places_report(s, &t->e);
+    struct scene coarse = accuracy_coarsest(s);
+    if (!plan_scene_estimate(&coarse, t->arena, &x, &t->e)) return scene_places_report(s, &t->e);
     t->warnings = x.warnings;
     struct track_format f = sound_format(s, x.length.frames);
     l->seconds = (double)x.length.frames / f.rate;

@@ -18,7 +18,6 @@
 #include "pipeline/error_budget.h"
 #include "pipeline/plan.h"
 #include "scene/accuracy.h"
-#include "scene/keys.h"
 #include "scene/scene_places.h"
 
 struct promises {
@@ -105,16 +104,6 @@ static bool check_design(struct cmd_call *c, const char *file, const char **rema
     return ok;
 }
 
-/* The scene that is looked at: a preset that aims at an error takes knobs as coarse as its renders may, and refuses
- * nothing; with those of its own, finer ones, a ground could be too fine to be held. */
-static struct scene coarse(const struct scene *s)
-{
-    struct scene c = *s;
-    for (int k = 0; k < KNOBS && !isnan(accuracy_target(&s->accuracy)); k++)
-        if (!(s->accuracy.by_user & 1u << k)) accuracy_turn(&c.accuracy, (enum knob)k, keys_knobs[k].preset[0]);
-    return c;
-}
-
 static int check_run(struct cmd_call *c, struct err *e)
 {
     int worst = 0;
@@ -129,7 +118,7 @@ static int check_run(struct cmd_call *c, struct err *e)
             check_design(c, file, &remark, &mine);
         else if (cmd_read_scene(c, file, &s, &mine)) {
             bool asked = !isnan(s.accuracy.error);
-            if (!asked) chosen = coarse(&s);
+            if (!asked) chosen = accuracy_coarsest(&s);
             if ((asked && !error_budget_apply(&s, c->arena, &chosen, NULL, &mine)) ||
                 !plan_scene(&chosen, c->arena, &warnings, &mine))
                 scene_places_report(&s, &mine);

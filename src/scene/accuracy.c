@@ -32,6 +32,14 @@ double accuracy_target(const struct accuracy *accuracy)
     return NAN;
 }
 
+struct scene accuracy_coarsest(const struct scene *s)
+{
+    struct scene c = *s;
+    for (int k = 0; k < KNOBS && !isnan(accuracy_target(&s->accuracy)); k++)
+        if (!(s->accuracy.by_user & 1u << k)) accuracy_turn(&c.accuracy, (enum knob)k, keys_knobs[k].preset[0]);
+    return c;
+}
+
 static void preset_read(struct yaml *y, const struct yaml_node *node, struct accuracy *accuracy)
 {
     const char *near = NULL;
