@@ -105,28 +105,27 @@ struct spot {
     double x, y, ex, ey; /* as the relief wants it; e in the direction of increasing u */
 };
 
-/* Hermite basis at share q, and its derivatives over q. */
-static struct spot curve_at(const struct hermite *c, double w)
+/* Where it begins (0) or ends (1). */
+static struct spot stretch_end(const struct stretch *s, int k)
 {
-    double q = w / c->length, p = 1 - q, h = c->length;
-    double a = p * p * (1 + 2 * q), b = q * q * (1 + 2 * p), s = q * p * p * h, t = -q * q * p * h;
-    double da = -6 * q * p / h, ds = p * (p - 2 * q), dt = q * (q - 2 * p);
-    struct spot r = {.x = a * c->x[0] + b * c->x[1] + s * c->ex[0] + t * c->ex[1],
-                     .y = a * c->y[0] + b * c->y[1] + s * c->ey[0] + t * c->ey[1]};
-    double dx = da * (c->x[0] - c->x[1]) + ds * c->ex[0] + dt * c->ex[1],
-           dy = da * (c->y[0] - c->y[1]) + ds * c->ey[0] + dt * c->ey[1];
-    double d = sqrt(dx * dx + dy * dy);
-    r.ex = d > 0 ? dx / d : c->ex[0];
-    r.ey = d > 0 ? dy / d : c->ey[0];
-    return r;
+    const struct hermite *c = &s->path;
+    return (struct spot){c->x[k], c->y[k], s->heading * c->ex[k], s->heading * c->ey[k]};
 }
 
-/* `done` m into the stretch. */
-static struct spot spot_at(const struct stretch *s, double done)
+/* `done` m into the stretch: Hermite basis at share q, and its derivatives over q. */
+static struct spot stretch_at(const struct stretch *s, double done)
 {
-    struct spot r = curve_at(&s->path, done);
-    r.ex *= s->heading;
-    r.ey *= s->heading;
+    const struct hermite *c = &s->path;
+    double h = c->length, per = 1 / h, q = done * per, p = 1 - q, away = q * p;
+    double a = p * p * (1 + 2 * q), b = q * q * (1 + 2 * p), from = p * away * h, to = -q * away * h;
+    double da = -6 * away * per, ds = p * (p - 2 * q), dt = q * (q - 2 * p);
+    double dx = da * (c->x[0] - c->x[1]) + ds * c->ex[0] + dt * c->ex[1],
+           dy = da * (c->y[0] - c->y[1]) + ds * c->ey[0] + dt * c->ey[1], d = sqrt(dx * dx + dy * dy);
+    struct spot r = {.x = a * c->x[0] + b * c->x[1] + from * c->ex[0] + to * c->ex[1],
+                     .y = a * c->y[0] + b * c->y[1] + from * c->ey[0] + to * c->ey[1],
+                     .ex = s->heading * c->ex[0],
+                     .ey = s->heading * c->ey[0]};
+    if (d > 0) r.ex = dx * (s->heading / d), r.ey = dy * (s->heading / d);
     return r;
 }
 
@@ -190,7 +189,7 @@ static void cut_stretch(struct path_cells *w, const struct stretch *s)
 {
     struct cells *p = &w->cells;
     double done = 0;
-    struct spot at = spot_at(s, done);
+    struct spot at = stretch_end(s, 0);
     while (done < s->whole) {
         double next = done + w->longest;
         next = next < s->whole ? next : s->whole;
@@ -201,10 +200,10 @@ static void cut_stretch(struct path_cells *w, const struct stretch *s)
         }
         if (!(next > done))
             next = done + fmax(1e-12 * s->whole, 4e-16 * fabs(done)); /* no progress in floating point */
-        struct spot end = spot_at(s, next);
+        struct spot end = next < s->whole ? stretch_at(s, next) : stretch_end(s, 1);
         if (!last_point(p, s, &at)) add_point(w, s->alpha, &at);
         if (w->halves) {
-            struct spot middle = spot_at(s, 0.5 * (done + next));
+            struct spot middle = stretch_at(s, 0.5 * (done + next));
             add_cell(p, s->interval, s->heading, 0.5 * (next - done));
             add_point(w, s->alpha, &middle);
         }
