@@ -168,11 +168,23 @@ const struct args_option *cmd_options(const struct command *m, struct arena *a)
 
 /* ------------------------------------------------------------------ every command, in the order of the usage */
 
-const struct command *const cmd_table[] = {
-    &render_command,  &plan_command,    &batch_command,      &batch_merge_command,
-    &new_command,     &explain_command, &check_command,      &compare_command,
-    &golden_command,  &plot_command,    &accuracy_command,   &analyse_command,
-    &surface_command, &modes_command,   &completion_command, NULL};
+const struct command *const cmd_table[] = {&render_command,
+                                           &plan_command,
+                                           &batch_command,
+                                           &batch_merge_command,
+                                           &new_command,
+                                           &explain_command,
+                                           &check_command,
+                                           &compare_command,
+                                           &golden_command,
+                                           &plot_command,
+                                           &accuracy_command,
+                                           &analyse_command,
+                                           &judge_command,
+                                           &surface_command,
+                                           &modes_command,
+                                           &completion_command,
+                                           NULL};
 
 const struct command *cmd_find(const char *name)
 {

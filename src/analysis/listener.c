@@ -1,0 +1,128 @@
+/* See listener.h. The papers have no such listener: this one is ours. Frames do not overlap; a frame's level is that of
+   its mean square, floor 40 dB below the loudest; its centroid that of its power spectrum under Hann's window. Below the
+   floor the centroid is not heard, and taken to be the mean. Each track less its mean, over its deviation, is what is
+   compared, so that a sound's level and colour as such do not count. To the deviation is added, in squares, what a
+   listener hardly hears, 1 dB and a semitone: what does not change is not blown up to noise. Of sounds of different
+   length the shorter goes on at the floor. */
+#include "analysis/listener.h"
+
+#include <math.h>
+
+#include "num/fft.h"
+#include "num/real.h"
+
+#define FRAME 0.025
+#define LOWEST (-40.0)
+
+static const double hardly[2] = {1, 1.0 / 12};
+
+/* Mean square, and centroid in Hz, of count samples of every channel from `first` on. */
+static double frame_of(const struct wav *w, size_t first, int count, struct fft *f, int padded, double *work,
+                       double *centroid)
+{
+    double square = 0, power = 0, moment = 0, *re = work + padded, *im = re + padded / 2 + 1;
+    for (int c = 0; c < w->channels; c++) {
+        for (int i = 0; i < padded; i++) {
+            double x = i < count ? w->x[(first + (size_t)i) * (size_t)w->channels + (size_t)c] : 0;
+            double s = real_sinpi((i + 0.5) / count);
+            square += x * x / count;
+            work[i] = x * s * s;
+        }
+        fft_forward(f, work, re, im);
+        for (int k = 1; k <= padded / 2; k++) {
+            power += re[k] * re[k] + im[k] * im[k];
+            moment += (re[k] * re[k] + im[k] * im[k]) * k;
+        }
+    }
+    *centroid = power > 0 ? moment / power * w->rate / padded : 0;
+    return square;
+}
+
+static void normalise(struct listener_sound *s)
+{
+    for (int t = 0; t < 2; t++) {
+        double sum = 0, square = 0;
+        int n = 0;
+        for (int i = 0; i < s->n; i++)
+            if (!isnan(s->track[t][i])) {
+                sum += s->track[t][i];
+                square += s->track[t][i] * s->track[t][i];
+                n++;
+            }
+        s->mean[t] = sum / n;
+        s->deviation[t] = sqrt(fmax(0, square / n - s->mean[t] * s->mean[t]) + hardly[t] * hardly[t]);
+    }
+}
+
+bool listener_hear(const char *path, const struct wav *w, struct arena *a, struct listener_sound *s, struct err *e)
+{
+    int count = (int)rint(FRAME * w->rate), first = 0, last = -1, n = (int)(w->frames / (size_t)(count + !count));
+    double *level = ARENA_TAKE(a, double, n + 1), *centroid = ARENA_TAKE(a, double, n + 1), loudest = 0;
+    if (count < 8) return err_set(e, ERR_SCENE, "%s: a rate of %g Hz is no sound's", path, w->rate);
+    int padded = (int)fft_good_size((size_t)count);
+    double *work = ARENA_TAKE(a, double, 2 * padded + 2);
+    struct fft *f = fft_open((size_t)padded);
+    for (int i = 0; i < n; i++) {
+        level[i] = frame_of(w, (size_t)i * (size_t)count, count, f, padded, work, &centroid[i]);
+        loudest = fmax(loudest, level[i]);
+    }
+    fft_close(f);
+    for (int i = n - 1; i >= 0; i--) {
+        level[i] = level[i] > 0 ? fmax(LOWEST, 10 * real_log10(level[i] / loudest)) : LOWEST;
+        bool heard = level[i] > LOWEST && centroid[i] > 0;
+        centroid[i] = heard ? real_log(centroid[i]) / real_log(2) : (double)NAN;
+        if (heard) first = i;
+        if (heard && last < 0) last = i;
+    }
+    if (last < 0) return err_set(e, ERR_SCENE, "%s: is silent, or shorter than 25 ms: nothing is heard of it", path);
+    *s = (struct listener_sound){.n = last + 1 - first, .track = {level + first, centroid + first}};
+    normalise(s);
+    return true;
+}
+
+static double heard(const struct listener_sound *s, int t, int i)
+{
+    double x = i < s->n ? s->track[t][i] : t ? (double)NAN : LOWEST;
+    return isnan(x) ? 0 : (x - s->mean[t]) / s->deviation[t];
+}
+
+double listener_distance(const struct listener_sound *a, const struct listener_sound *b)
+{
+    int n = a->n > b->n ? a->n : b->n;
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        for (int t = 0; t < 2; t++) {
+            double off = heard(a, t, i) - heard(b, t, i);
+            sum += off * off / (2 * n);
+        }
+    return sum;
+}
+
+void listener_choose(const struct listener_sound *s, const struct listener_sound *templates, int n, int skip,
+                     int classes, double spread, double *share)
+{
+    double least = HUGE_VAL, sum = 0;
+    for (int c = 0; c < classes; c++) {
+        share[c] = HUGE_VAL;
+        for (int i = 0; i < n; i++)
+            if (i != skip && templates[i].class == c) share[c] = fmin(share[c], listener_distance(s, &templates[i]));
+        least = fmin(least, share[c]);
+    }
+    for (int c = 0; c < classes; c++)
+        sum += share[c] = real_exp((least - share[c]) / (2 * spread));
+    for (int c = 0; c < classes; c++)
+        share[c] /= sum;
+}
+
+double listener_spread(const struct listener_sound *templates, int n)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++) {
+        double least = HUGE_VAL;
+        for (int j = 0; j < n; j++)
+            if (j != i && templates[j].class == templates[i].class)
+                least = fmin(least, listener_distance(&templates[i], &templates[j]));
+        sum += least / n;
+    }
+    return isfinite(sum) ? sum : (double)NAN;
+}

@@ -1,0 +1,213 @@
+/* rasp judge ACTION: what listeners, or a program in their place, made of a set of sounds; and the papers' numbers
+   beside it. */
+#include "cmd/judge.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+int judge_place(const char *const *words, int n, const char *word)
+{
+    int i = 0;
+    while (i < n && strcmp(words[i], word) != 0)
+        i++;
+    return i < n ? i : -1;
+}
+
+const char **judge_words(const struct cmd_call *c, const char *name, int *n, struct err *e)
+{
+    const char *given = args_value(&c->args, name), **words = NULL;
+    *n = 0;
+    for (char *word = given ? arena_text(c->arena, given) : NULL, *next; word; word = next) {
+        if ((next = strchr(word, ','))) *next++ = '\0';
+        if (!*word || judge_place(words, *n, word) >= 0)
+            err_set(e, ERR_USAGE, "--%s: '%s': %s", name, given, *word ? "a word comes twice" : "a word is missing");
+        words = arena_more(c->arena, words, *n, sizeof *words);
+        words[(*n)++] = word;
+    }
+    return words;
+}
+
+/* ------------------------------------------------------------------ the papers' numbers */
+
+void judge_figure(struct judge *j, double value, const char *format, ...)
+{
+    char key[512];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(key, sizeof key, format, list);
+    va_end(list);
+    if (!j->item) return;
+    j->figures = arena_more(j->arena, j->figures, j->n_figures, sizeof *j->figures);
+    j->figures[j->n_figures++] = (struct judge_figure){arena_text(j->arena, key), value};
+}
+
+static const char *const columns[] = {"item", "condition", "value", "deviation", "source"};
+
+static bool paper_open(struct judge *j, struct err *e)
+{
+    const char *file = args_value(&j->call->args, "paper");
+    j->item = args_value(&j->call->args, "item");
+    if (!file != !j->item) return err_set(e, ERR_USAGE, "--paper FILE and --item ITEM go together");
+    if (!file) return true;
+    if (!csv_read(file, j->arena, &j->paper, e)) return false;
+    for (int k = 0; k < 5; k++)
+        if (csv_column(&j->paper, columns[k]) < 0)
+            return err_set(e, ERR_SCENE, "%s: there is no column '%s'", file, columns[k]);
+    for (size_t i = 0; i < j->paper.rows; i++)
+        if (!strcmp(j->paper.cells[i * j->paper.columns + (size_t)csv_column(&j->paper, "item")], j->item)) return true;
+    return err_set(e, ERR_USAGE, "--item: %s has no item '%s'", file, j->item);
+}
+
+/* Each row of the item beside the figure of that name; a row that has none is told. */
+static void paper_report(struct judge *j)
+{
+    struct report *r = &j->report;
+    if (!j->item) return;
+    report_text(r, "\n%s: the paper's numbers and ours\n", j->item);
+    report_set(r, "item:s paper:[", j->item);
+    for (size_t i = 0; i < j->paper.rows; i++) {
+        const char *cell[5];
+        for (int k = 0; k < 5; k++)
+            cell[k] = j->paper.cells[i * j->paper.columns + (size_t)csv_column(&j->paper, columns[k])];
+        if (strcmp(cell[0], j->item) != 0) continue;
+        double ours = NAN;
+        bool found = false;
+        for (int k = 0; k < j->n_figures; k++)
+            if (!strcmp(j->figures[k].key, cell[1])) {
+                ours = j->figures[k].value;
+                found = true;
+            }
+        report_row(r, cell[1], "paper %s%s%-8s ours %-12s %s", cell[2], *cell[3] ? " +- " : "", cell[3],
+                   found ? arena_format(j->arena, "%.6g", ours) : "none", cell[4]);
+        report_set(r, ":{ figure:s paper:s deviation:e ours:n source:s }", cell[1], cell[2], cell[3], ours, cell[4]);
+    }
+    report_end(r);
+}
+
+/* ------------------------------------------------------------------ running */
+
+/* What is printed waits until nothing can fail any more. */
+static int act(struct cmd_call *c, bool (*run)(struct judge *j, struct err *e), struct err *e)
+{
+    struct judge j = {.call = c, .arena = c->arena};
+    char *text = NULL;
+    size_t n = 0;
+    FILE *out = open_memstream(&text, &n);
+    if (!out) memory_out("the report");
+    j.report = report_open(out, args_given(&c->args, "json"));
+    if (paper_open(&j, e) && run(&j, e)) {
+        paper_report(&j);
+        report_close(&j.report, 0, e);
+    } else if (j.report.json)
+        json_decref(j.report.open.at[0]);
+    if (fclose(out) != 0) memory_out("the report");
+    if (!e->kind) fwrite(text, 1, n, stdout);
+    free(text);
+    return (int)e->kind;
+}
+
+#define ACT(name, run)                                                                                                 \
+    static int name(struct cmd_call *c, struct err *e) { return act(c, run, e); }
+ACT(similarity, judge_choices_similarity)
+ACT(choices, judge_choices_run)
+ACT(ratings, judge_ratings_run)
+ACT(pairs, judge_ratings_pairs)
+ACT(listen, judge_listen_run)
+
+static const struct action actions[] = {
+    {"choices",
+     "ANSWERS",
+     1,
+     1,
+     {"column", "classes", "groups", "reference", "confidence", "simultaneous", "bound", "draws", "seed", "output",
+      "force", "paper", "item", "json"},
+     choices},
+    {"similarity",
+     "TABLE...",
+     1,
+     -1,
+     {"column", "classes", "groups", "reference", "paper", "item", "json"},
+     similarity},
+    {"ratings", "RATINGS", 1, 1, {"column", "factors", "tukey", "paper", "item", "json"}, ratings},
+    {"pairs", "ANSWERS", 1, 1, {"column", "paper", "item", "json"}, pairs},
+    {"listen",
+     "SET",
+     1,
+     1,
+     {"templates", "where", "factor", "spread", "column", "reference", "output", "force", "paper", "item", "json"},
+     listen},
+    {NULL, NULL, 0, 0, {NULL}, NULL},
+};
+
+static const struct args_option options[] = {
+    {"column", 'c', "ROLE=NAME", true,
+     "which column is the participant, condition, played, chosen, rating, a, b, answer or set; default: the one called "
+     "so"},
+    {"classes", 0, "WORD,...", false,
+     "choices, similarity: all that could be chosen, in this order; default: all that was played"},
+    {"groups", 0, "A+B,...", false, "choices, similarity: these classes count as one"},
+    {"reference", 'r', "CONDITION", false, "the condition that the others are compared with, as recordings"},
+    {"confidence", 0, "SHARE", false, "choices: of the intervals (default 0.95)"},
+    {"simultaneous", 0, NULL, false, "choices: intervals of shares hold for all cells of a matrix at once"},
+    {"bound", 0, "POINTS", false,
+     "choices: percentage points within which two conditions count as equivalent (default 10)"},
+    {"draws", 0, "N", false, "choices: changes of sign that are drawn where not all can be tried (default 10000)"},
+    {"seed", 0, "NUMBER", false, "choices: of these draws (default 1)"},
+    {"factors", 0, "COLUMN,...", false,
+     "ratings: the columns that are factors; default: all but participant and rating"},
+    {"tukey", 0, "FACTOR:...", true, "ratings: compares the means of a factor's levels, or of combinations of levels"},
+    {"templates", 't', "SET", true,
+     "listen: sounds whose class is known, a folder of rasp batch or a table with file_name"},
+    {"where", 0, "COLUMN=VALUE", true, "listen: only these of the templates"},
+    {"factor", 0, "COLUMN", false, "listen: what is to be told apart (default motion)"},
+    {"spread", 0, "X", false, "listen: how far apart takes of one class are; default: as the templates' are"},
+    {"output", 'o', "FILE.csv", false, "choices, listen: writes the matrices, too"},
+    {"force", 'f', NULL, false, "replaces that file if it exists"},
+    {"paper", 0, "FILE.csv", false,
+     "a table of printed numbers (item, condition, value, deviation, source), shown beside ours"},
+    {"item", 0, "ITEM", false, "which of its items"},
+    {"json", 'j', NULL, false, "prints the figures as one JSON object; null stands for one that is not there"},
+    {0}};
+
+const struct command judge_command = {
+    .name = "judge",
+    .summary = "what listeners made of the sounds: confusions, ratings, pairs",
+    .does =
+        "rasp judge choices ANSWERS: confusion matrices of forced choices, with Wilson's intervals. A table has a row "
+        "for each answer (columns participant, condition, played, chosen; participant and condition may be missing), "
+        "or is matrices already (condition, played, and a column for each class that could be chosen: answers, "
+        "shares, or percent). With --reference each other condition is compared with it: equation 14 of Agarwal et "
+        "al. 2021; the share of right answers by a permutation test over listeners, and by two one-sided t tests of "
+        "equivalence; each row by chi-squared, which takes answers as independent.\n"
+        "rasp judge similarity TABLE...: equation 14 by both norms, of all conditions, against the first table's (or "
+        "its --reference): 1 is the same matrix. The paper does not say which norm; the spectral one comes first.\n"
+        "rasp judge ratings RATINGS: means, standard errors, and analysis of variance with repeated measures, of a "
+        "table with participant, rating and up to six factors. Everybody rates every combination equally often; "
+        "several ratings of one are averaged. epsilon is Greenhouse and Geisser's.\n",
+    .also =
+        "rasp judge pairs ANSWERS: paired comparisons (participant, a, b, answer A>B, A=B or B>A; set and condition "
+        "may "
+        "be missing): scores as of Conan et al. 2014, analysis of variance of each condition's, Tukey's "
+        "comparisons.\n"
+        "rasp judge listen SET --templates SET: a program listens. By level and brightness over time it compares each "
+        "sound of a set (rasp batch) with templates whose class it knows, and gives shares of answers: "
+        "exp(-d/(2 spread)), d the distance to the nearest template of a class. A template among the sounds is "
+        "judged without itself. It is no model of a person.\n"
+        "What is missing, unbalanced, unknown or twice there is an error with its place: nothing is left out or "
+        "filled in.",
+    .operands = "ACTION FILE...",
+    .least = 1,
+    .most = -1,
+    .options = options,
+    .actions = actions,
+    .examples = "rasp judge choices answers.csv --reference recorded -o matrices.csv\n"
+                "rasp judge choices answers.csv --groups wood+plastic,porcelain+glass\n"
+                "rasp judge similarity matrices.csv --reference recorded\n"
+                "rasp judge ratings ratings.csv --factors kappa,mu --tukey kappa:mu\n"
+                "rasp judge pairs pairs.csv --paper evidence/papers.csv --item 002_VI\n"
+                "rasp judge listen out/experiment_2 --templates out/takes --where condition=full\n",
+};

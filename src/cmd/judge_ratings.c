@@ -1,0 +1,333 @@
+/* rasp judge ratings, pairs: means and their errors, analysis of variance with repeated measures, Tukey's comparisons. */
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "cmd/judge.h"
+
+struct ratings {
+    struct anova_design design;
+    struct judge_factor factor[ANOVA_FACTORS];
+    struct anova_effect effect[1 << ANOVA_FACTORS];
+};
+
+/* "kappa:mu", of a mask. */
+static const char *effect_name(const struct ratings *t, unsigned mask, struct arena *a)
+{
+    const char *name = "";
+    for (int k = 0; k < t->design.factors; k++)
+        if (mask >> k & 1) name = arena_format(a, "%s%s%s", name, *name ? ":" : "", t->factor[k].name);
+    return name;
+}
+
+/* "kappa=1:mu=2", of a cell's levels of a mask. */
+static const char *cell_name(const struct ratings *t, unsigned mask, int cell, struct arena *a)
+{
+    const char *name = "";
+    for (int k = 0, below = t->design.cells; k < t->design.factors; k++) {
+        below /= t->design.levels[k];
+        if (mask >> k & 1)
+            name = arena_format(a, "%s%s%s=%s", name, *name ? ":" : "", t->factor[k].name,
+                                t->factor[k].levels[cell / below % t->design.levels[k]]);
+    }
+    return name;
+}
+
+/* Is it the first cell of its levels of the mask? */
+static bool leads(const struct anova_design *d, unsigned mask, int cell)
+{
+    for (int k = 0, below = d->cells; k < d->factors; k++) {
+        below /= d->levels[k];
+        if (!(mask >> k & 1) && cell / below % d->levels[k]) return false;
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------ the report */
+
+static void report_means(struct judge *j, const struct ratings *t, unsigned mask)
+{
+    const struct anova_design *d = &t->design;
+    double *mean = ARENA_TAKE(j->arena, double, d->cells), *sem = ARENA_TAKE(j->arena, double, d->cells);
+    double t95 = gsl_cdf_tdist_Pinv(0.975, d->people - 1);
+    anova_means(d, mask, j->arena, mean, sem);
+    for (int c = 0; c < d->cells; c++) {
+        if (!leads(d, mask, c)) continue;
+        const char *name = cell_name(t, mask, c, j->arena);
+        report_row(&j->report, name, "%9.4g   SEM %-9.4g 95 %%: %.4g to %.4g", mean[c], sem[c], mean[c] - t95 * sem[c],
+                   mean[c] + t95 * sem[c]);
+        report_set(&j->report, ":{ cell:s mean:n sem:n low:n high:n }", name, mean[c], sem[c], mean[c] - t95 * sem[c],
+                   mean[c] + t95 * sem[c]);
+        judge_figure(j, mean[c], "mean(%s)", name);
+        judge_figure(j, sem[c], "sem(%s)", name);
+    }
+}
+
+static void report_tukey(struct judge *j, const struct ratings *t, unsigned mask)
+{
+    const struct anova_design *d = &t->design;
+    double *mean = ARENA_TAKE(j->arena, double, d->cells), *sem = ARENA_TAKE(j->arena, double, d->cells);
+    anova_means(d, mask, j->arena, mean, sem);
+    report_text(&j->report, "\nTukey's comparisons of %s\n", effect_name(t, mask, j->arena));
+    for (int b = 0; b < d->cells; b++)
+        for (int a = 0; a < b; a++) {
+            if (!leads(d, mask, a) || !leads(d, mask, b)) continue;
+            const char *name =
+                arena_format(j->arena, "%s - %s", cell_name(t, mask, a, j->arena), cell_name(t, mask, b, j->arena));
+            double p = anova_tukey(d, &t->effect[mask - 1], mean[a] - mean[b]);
+            report_row(&j->report, name, "%9.4g   p %.4g", mean[a] - mean[b], p);
+            report_set(&j->report, ":{ effect:s pair:s difference:n p:n }", effect_name(t, mask, j->arena), name,
+                       mean[a] - mean[b], p);
+            judge_figure(j, p, "tukey(%s)", name);
+        }
+}
+
+static void report_effect(struct judge *j, const struct anova_effect *f, const char *name)
+{
+    report_row(&j->report, name, "%3d, %-4d F %-9.6g p %-9.4g epsilon %.4f p %-9.4g eta2 %.4f", f->df, f->df_error,
+               f->f, f->p, f->epsilon, f->p_gg, f->eta);
+    report_set(&j->report,
+               ":{ effect:s df:i df_error:i ss:n ss_error:n f:n p:n epsilon:n p_greenhouse_geisser:n eta_squared:n }",
+               name, f->df, f->df_error, f->ss, f->ss_error, f->f, f->p, f->epsilon, f->p_gg, f->eta);
+    judge_figure(j, f->f, "F(%s)", name);
+    judge_figure(j, f->p, "p(%s)", name);
+    judge_figure(j, f->df, "df(%s)", name);
+    judge_figure(j, f->df_error, "df_error(%s)", name);
+}
+
+/* tukey [n]: masks. */
+static void report_anova(struct judge *j, struct ratings *t, const unsigned *tukey, int n)
+{
+    const struct anova_design *d = &t->design;
+    unsigned effects = 1u << d->factors;
+    struct report *r = &j->report;
+    anova_within(d, t->effect);
+    judge_figure(j, d->people, "listeners");
+    report_set(r, "listeners:i cells:i means:[", d->people, d->cells);
+    for (int k = 0; k < d->factors; k++)
+        report_means(j, t, 1u << k);
+    for (int k = 0; k < n; k++)
+        if (tukey[k] & (tukey[k] - 1)) report_means(j, t, tukey[k]);
+    report_set(r, "] effects:[");
+    report_text(r, "\nrepeated measures\n");
+    for (unsigned m = 1; m < effects; m++)
+        report_effect(j, &t->effect[m - 1], effect_name(t, m, j->arena));
+    report_set(r, "] tukey:[");
+    for (int k = 0; k < n; k++)
+        report_tukey(j, t, tukey[k]);
+    report_end(r);
+}
+
+/* ------------------------------------------------------------------ ratings */
+
+static bool design_check(struct ratings *t, const char *file, struct err *e)
+{
+    struct anova_design *d = &t->design;
+    double cells = 1;
+    for (int k = 0; k < d->factors; k++) {
+        if (t->factor[k].n < 2)
+            return err_set(e, ERR_SCENE, "%s: column '%s' has one level only, '%s': leave it out of --factors", file,
+                           t->factor[k].name, t->factor[k].levels[0]);
+        cells *= d->levels[k] = t->factor[k].n;
+    }
+    d->cells = (int)fmin(cells, 1e6);
+    if (cells > 5000) return err_set(e, ERR_SCENE, "%s: %g combinations of levels: at most 5000", file, cells);
+    return d->people >= 2 ||
+           err_set(e, ERR_SCENE, "%s: %d listener: at least 2 are needed, or nothing is repeated", file, d->people);
+}
+
+/* Means of each listener's ratings in each cell. */
+static bool cells_take(struct judge *j, struct ratings *t, const struct csv *v, const struct judge_factor *person,
+                       int rating, struct err *e)
+{
+    struct anova_design *d = &t->design;
+    double *y = ARENA_TAKE(j->arena, double, d->people * d->cells), x;
+    int *n = ARENA_TAKE(j->arena, int, d->people * d->cells);
+    for (size_t i = 0; i < v->rows; i++) {
+        int at = person->of_row[i];
+        for (int k = 0; k < d->factors; k++)
+            at = at * d->levels[k] + t->factor[k].of_row[i];
+        if (!csv_number(v, i, rating, &x, e)) return false;
+        y[at] += x;
+        n[at]++;
+    }
+    unsigned whole = (1u << d->factors) - 1;
+    for (int i = 0; i < d->people * d->cells; i++) {
+        const char *who = person->levels[i / d->cells], *cell = cell_name(t, whole, i % d->cells, j->arena);
+        if (n[i] == 0)
+            return err_set(e, ERR_SCENE, "%s: listener '%s' has no rating of %s: each must rate every combination",
+                           v->file, who, cell);
+        if (n[i] != n[0])
+            return err_set(e, ERR_SCENE,
+                           "%s: listener '%s' has %d ratings of %s, where '%s' has %d of the first: as many are needed "
+                           "in every cell",
+                           v->file, who, n[i], cell, person->levels[0], n[0]);
+        y[i] /= n[i];
+    }
+    d->y = y;
+    report_set(&j->report, "ratings_in_a_cell:i", n[0]);
+    report_text(&j->report, "%s: %d listeners, %d cell%s of %d rating%s\n", v->file, d->people, d->cells,
+                d->cells == 1 ? "" : "s", n[0], n[0] == 1 ? "" : "s");
+    return true;
+}
+
+static bool factors_take(struct judge *j, struct ratings *t, const struct csv *v, int person, int rating, struct err *e)
+{
+    int n;
+    const char **given = judge_words(j->call, "factors", &n, e);
+    for (int k = 0; k < (n ? n : (int)v->columns) && !e->kind; k++) {
+        int column = n ? csv_column(v, given[k]) : k;
+        if (!n && (k == person || k == rating)) continue;
+        if (column < 0) return err_set(e, ERR_USAGE, "--factors: %s has no column '%s'", v->file, given[k]);
+        if (t->design.factors == ANOVA_FACTORS)
+            return err_set(e, ERR_USAGE, "%s: more than %d factors: say by --factors which columns are", v->file,
+                           ANOVA_FACTORS);
+        judge_table_factor(v, column, j->arena, &t->factor[t->design.factors++], e);
+    }
+    return !e->kind && (t->design.factors || err_set(e, ERR_SCENE, "%s: no column is a factor", v->file));
+}
+
+/* --tukey kappa:mu, in whatever order; one factor has them anyway. */
+static bool tukey_of(const struct judge *j, const struct ratings *t, unsigned *mask, int *n, struct err *e)
+{
+    int given;
+    const char **names = args_values(&j->call->args, "tukey", &given);
+    *n = 0;
+    for (int i = 0; i < given && i < 16; i++) {
+        unsigned m = 0;
+        char *word = arena_text(j->arena, names[i]);
+        for (char *next; word; word = next) {
+            unsigned was = m;
+            if ((next = strchr(word, ':'))) *next++ = '\0';
+            for (int k = 0; k < t->design.factors; k++)
+                if (!strcmp(word, t->factor[k].name)) m |= 1u << k;
+            if (m == was) return err_set(e, ERR_USAGE, "--tukey: '%s' is no factor, or comes twice", word);
+        }
+        mask[(*n)++] = m;
+    }
+    if (t->design.factors == 1 && !given) mask[(*n)++] = 1;
+    return true;
+}
+
+bool judge_ratings_run(struct judge *j, struct err *e)
+{
+    struct csv v;
+    struct ratings *t = arena_take(j->arena, 1, sizeof *t);
+    struct judge_factor person;
+    unsigned tukey[16];
+    int n;
+    if (!csv_table_read(j->call->args.operands[0], j->arena, &v, e)) return false;
+    int who = judge_table_column(j, &v, "participant", true, e), rating = judge_table_column(j, &v, "rating", true, e);
+    if (e->kind || !judge_table_factor(&v, who, j->arena, &person, e) || !factors_take(j, t, &v, who, rating, e))
+        return false;
+    t->design.people = person.n;
+    if (!design_check(t, v.file, e) || !tukey_of(j, t, tukey, &n, e) || !cells_take(j, t, &v, &person, rating, e))
+        return false;
+    report_anova(j, t, tukey, n);
+    return true;
+}
+
+/* ------------------------------------------------------------------ pairs: 002 VI-C. The printed weights are lost in
+   our text of the paper (it has 1 for all): taken are 1 of a sound that has more, 1/2 each of two alike, 1 on the
+   diagonal, which adds the same to every score */
+
+struct pairs {
+    struct judge_factor person, set, control, a, b, level; /* level: of a and b together */
+    const char *file;
+};
+
+/* 1, 1/2 or 0 of "A>B", "A=B", "B>A", with blanks or without. */
+static bool answer_take(const struct csv *t, size_t row, int column, double *more, struct err *e)
+{
+    char room[CSV_ROOM], bare[4] = "";
+    size_t n = 0;
+    const char *text = csv_text(t, row, column, room);
+    for (const char *p = text; *p && n < 4; p++)
+        if (*p != ' ' && n++ < 3) bare[n - 1] = *p;
+    *more = n != 3 ? -1 : !strcmp(bare, "A>B") ? 1 : !strcmp(bare, "A=B") ? 0.5 : !strcmp(bare, "B>A") ? 0 : -1;
+    return *more >= 0 || err_set(e, ERR_SCENE, "%s:%d: column '%s': '%s' is not A>B, A=B or B>A", t->file,
+                                 t->lines[row], t->names[column], text);
+}
+
+/* score[people][levels] of one control: means over sets. */
+static bool score(struct judge *j, const struct csv *t, const struct pairs *q, int control, int answer,
+                  double *score_of, struct err *e)
+{
+    int n = q->level.n, sets = q->set.n, people = q->person.n;
+    bool *seen = ARENA_TAKE(j->arena, bool, people *sets *n *n);
+    for (int i = 0; i < people * n; i++)
+        score_of[i] = 1;
+    for (size_t i = 0; i < t->rows; i++) {
+        double more;
+        if (q->control.of_row[i] != control) continue;
+        int a = judge_place(q->level.levels, n, q->a.levels[q->a.of_row[i]]),
+            b = judge_place(q->level.levels, n, q->b.levels[q->b.of_row[i]]);
+        int who = q->person.of_row[i], at = (who * sets + q->set.of_row[i]) * n * n;
+        if (!answer_take(t, i, answer, &more, e)) return false;
+        if (a == b || seen[at + a * n + b])
+            return err_set(e, ERR_SCENE, "%s:%d: column '%s': listener '%s' compares '%s' with %s", t->file,
+                           t->lines[i], q->b.name, q->person.levels[who], q->level.levels[a],
+                           a == b ? "itself" : "this one a second time in the set: each pair comes once");
+        seen[at + a * n + b] = seen[at + b * n + a] = true;
+        score_of[who * n + a] += more / sets;
+        score_of[who * n + b] += (1 - more) / sets;
+    }
+    for (int i = 0; i < people * sets * n * n; i++)
+        if (!seen[i] && i / n % n != i % n)
+            return err_set(e, ERR_SCENE, "%s: listener '%s' has not compared '%s' with '%s' in set '%s' of '%s'",
+                           t->file, q->person.levels[i / n / n / sets], q->level.levels[i / n % n],
+                           q->level.levels[i % n], q->set.levels[i / n / n % sets], q->control.levels[control]);
+    return true;
+}
+
+/* The levels of both columns. */
+static bool levels_join(const struct csv *t, struct pairs *q, struct arena *a, struct err *e)
+{
+    char room[CSV_ROOM];
+    struct csv both = *t;
+    int columns[2] = {csv_column(t, q->a.name), csv_column(t, q->b.name)};
+    both.numbers = NULL;
+    both.columns = 1;
+    both.rows = 2 * t->rows;
+    both.cells = ARENA_TAKE(a, const char *, both.rows);
+    both.lines = ARENA_TAKE(a, int, both.rows);
+    for (size_t i = 0; i < both.rows; i++) {
+        both.cells[i] = arena_text(a, csv_text(t, i / 2, columns[i % 2], room));
+        both.lines[i] = t->lines[i / 2];
+    }
+    return judge_table_factor(&both, 0, a, &q->level, e);
+}
+
+bool judge_ratings_pairs(struct judge *j, struct err *e)
+{
+    static const char *const roles[] = {"participant", "a", "b", "answer", "set", "condition"};
+    struct csv v;
+    struct pairs q;
+    int column[6];
+    if (!csv_table_read(j->call->args.operands[0], j->arena, &v, e)) return false;
+    for (int k = 0; k < 6; k++)
+        column[k] = judge_table_column(j, &v, roles[k], k < 4, e);
+    if (e->kind || !judge_table_factor(&v, column[0], j->arena, &q.person, e) ||
+        !judge_table_factor(&v, column[1], j->arena, &q.a, e) ||
+        !judge_table_factor(&v, column[2], j->arena, &q.b, e) ||
+        !judge_table_factor(&v, column[4], j->arena, &q.set, e) ||
+        !judge_table_factor(&v, column[5], j->arena, &q.control, e) || !levels_join(&v, &q, j->arena, e))
+        return false;
+    report_list(&j->report, "conditions");
+    for (int k = 0; k < q.control.n; k++) {
+        struct ratings *t = arena_take(j->arena, 1, sizeof *t);
+        double *y = ARENA_TAKE(j->arena, double, q.person.n *q.level.n);
+        t->factor[0] = q.level;
+        t->factor[0].name = column[5] < 0 ? "level" : q.control.levels[k];
+        t->design = (struct anova_design){.people = q.person.n, .factors = 1, .y = y};
+        if (!design_check(t, v.file, e) || !score(j, &v, &q, k, column[3], y, e)) return false;
+        report_text(&j->report, "%s%s: scores of %d listeners, means of %d set%s (1 more, 1/2 alike, 1 of itself)\n",
+                    k ? "\n" : "", t->factor[0].name, q.person.n, q.set.n, q.set.n == 1 ? "" : "s");
+        report_set(&j->report, ":{ condition:s sets:i", t->factor[0].name, q.set.n);
+        report_anova(j, t, (const unsigned[]){1}, 1);
+        report_end(&j->report);
+    }
+    report_end(&j->report);
+    return true;
+}

@@ -1,0 +1,299 @@
+/* Tables that `rasp judge` reads: their columns by role, words as levels, confusion matrices from answers or as they
+   are. A fault is told by file, line and column. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "analysis/choices.h"
+#include "base/outfile.h"
+#include "base/text.h"
+#include "cmd/judge.h"
+#include "output/mark.h"
+
+int judge_table_column(const struct judge *j, const struct csv *t, const char *role, bool must, struct err *e)
+{
+    int n, column;
+    const char **given = args_values(&j->call->args, "column", &n), *name = role;
+    size_t length = strlen(role);
+    for (int i = 0; i < n; i++)
+        if (!strncmp(given[i], role, length) && given[i][length] == '=') {
+            name = given[i] + length + 1;
+            must = true;
+        }
+    column = csv_column(t, name);
+    if (column < 0 && must)
+        err_set(e, ERR_SCENE, "%s: there is no column '%s': add it, or say which it is by --column %s=NAME", t->file,
+                name, role);
+    return column;
+}
+
+static int by_size(const void *a, const void *b)
+{
+    double x = 0, y = 0;
+    text_double(*(const char *const *)a, &x);
+    text_double(*(const char *const *)b, &y);
+    return (x > y) - (x < y);
+}
+
+bool judge_table_factor(const struct csv *t, int column, struct arena *a, struct judge_factor *f, struct err *e)
+{
+    char room[CSV_ROOM];
+    bool numbers = true;
+    *f = (struct judge_factor){column < 0 ? "condition" : t->names[column], NULL, 0, ARENA_TAKE(a, int, t->rows + 1)};
+    if (t->rows == 0) return err_set(e, ERR_SCENE, "%s: has no rows", t->file);
+    for (size_t i = 0; i < t->rows; i++) {
+        const char *word = column < 0 ? "all" : csv_text(t, i, column, room);
+        double x;
+        if (!*word)
+            return err_set(e, ERR_SCENE, "%s:%d: column '%s': is empty: fill the cell, or take the row out", t->file,
+                           t->lines[i], f->name);
+        if (judge_place(f->levels, f->n, word) >= 0) continue;
+        numbers = numbers && text_double(word, &x);
+        f->levels = arena_more(a, f->levels, f->n, sizeof *f->levels);
+        f->levels[f->n++] = arena_text(a, word);
+    }
+    if (numbers) qsort(f->levels, (size_t)f->n, sizeof *f->levels, by_size);
+    for (size_t i = 0; i < t->rows; i++)
+        f->of_row[i] = column < 0 ? 0 : judge_place(f->levels, f->n, csv_text(t, i, column, room));
+    return true;
+}
+
+/* ------------------------------------------------------------------ classes */
+
+static const char *listed(const char *const *words, int n, struct arena *a)
+{
+    const char *all = "";
+    for (int i = 0; i < n; i++)
+        all = arena_format(a, "%s%s%s", all, i ? ", " : "", words[i]);
+    return all;
+}
+
+struct classes { /* words that may stand in a cell, and what each counts as */
+    const char **word;
+    int n, *as;
+};
+
+/* --groups a+b,c+d: each counts as one; what is in none stands for itself. */
+static bool group(struct judge *j, struct classes *c, struct judge_choices *m, struct err *e)
+{
+    int groups;
+    const char **given = judge_words(j->call, "groups", &groups, e);
+    c->as = ARENA_TAKE(j->arena, int, c->n);
+    m->class = ARENA_TAKE(j->arena, const char *, c->n);
+    for (int i = 0; i < c->n; i++)
+        c->as[i] = -1;
+    for (int g = 0; g < groups && !e->kind; g++) {
+        char *word = arena_text(j->arena, given[g]);
+        for (char *next; word; word = next) {
+            if ((next = strchr(word, '+'))) *next++ = '\0';
+            int k = judge_place(c->word, c->n, word);
+            if (k < 0 || c->as[k] >= 0)
+                return err_set(e, ERR_USAGE, "--groups: '%s' is %s; the classes are: %s", word,
+                               k < 0 ? "no class" : "in two groups", listed(c->word, c->n, j->arena));
+            c->as[k] = g;
+        }
+    }
+    for (int i = 0; i < c->n && !e->kind; i++) { /* in the classes' order */
+        bool first = c->as[i] < 0;
+        const char *name = first ? c->word[i] : given[c->as[i]];
+        int k = judge_place(m->class, m->classes, name);
+        if (k < 0) m->class[k = m->classes++] = name;
+        c->as[i] = -2 - k;
+    }
+    for (int i = 0; i < c->n; i++)
+        c->as[i] = -2 - c->as[i];
+    return !e->kind &&
+           (m->classes > 1 || err_set(e, ERR_SCENE, "%s: one class only: there is nothing to confuse", m->file));
+}
+
+static bool class_of(const struct csv *t, size_t row, int column, const struct classes *c, struct arena *a, int *k,
+                     struct err *e)
+{
+    char room[CSV_ROOM];
+    const char *word = csv_text(t, row, column, room), **names = ARENA_TAKE(a, const char *, c->n + 1);
+    *k = judge_place(c->word, c->n, word);
+    if (*k >= 0) return true;
+    memcpy(names, c->word, (size_t)c->n * sizeof *names);
+    const char *meant = text_nearest(word, names);
+    return err_set(e, ERR_SCENE,
+                   "%s:%d: column '%s': '%s' is no class%s%s%s: the classes are %s (--classes names them)", t->file,
+                   t->lines[row], t->names[column], word, meant ? "; did you mean '" : "", meant ? meant : "",
+                   meant ? "'?" : "", listed(c->word, c->n, a));
+}
+
+static double *cell_of(const struct judge_choices *m, int condition, int played, int chosen)
+{
+    return &m->cell[(condition * m->classes + played) * m->classes + chosen];
+}
+
+/* ------------------------------------------------------------------ answers */
+
+static bool answers_take(struct judge *j, const struct csv *t, int chosen, struct judge_choices *m, struct err *e)
+{
+    struct judge_factor condition, played, person = {0};
+    struct classes c = {0};
+    int column = judge_table_column(j, t, "played", true, e), who = judge_table_column(j, t, "participant", false, e);
+    int of = judge_table_column(j, t, "condition", false, e);
+    if (e->kind || !judge_table_factor(t, of, j->arena, &condition, e) ||
+        !judge_table_factor(t, column, j->arena, &played, e) ||
+        (who >= 0 && !judge_table_factor(t, who, j->arena, &person, e)))
+        return false;
+    c.word = judge_words(j->call, "classes", &c.n, e);
+    if (!c.n) {
+        c.word = played.levels;
+        c.n = played.n;
+    }
+    if (e->kind || !group(j, &c, m, e)) return false;
+    m->condition = condition.levels;
+    m->conditions = condition.n;
+    m->counted = true;
+    m->person = person.levels;
+    m->people = person.n;
+    m->cell = ARENA_TAKE(j->arena, double, m->conditions * m->classes * m->classes);
+    m->right = ARENA_TAKE(j->arena, double, m->people * m->conditions + 1);
+    m->asked = ARENA_TAKE(j->arena, double, m->people * m->conditions + 1);
+    for (size_t i = 0; i < t->rows; i++) {
+        int p, k;
+        if (!class_of(t, i, column, &c, j->arena, &p, e) || !class_of(t, i, chosen, &c, j->arena, &k, e)) return false;
+        ++*cell_of(m, condition.of_row[i], c.as[p], c.as[k]);
+        if (!m->people) continue;
+        int at = person.of_row[i] * m->conditions + condition.of_row[i];
+        m->asked[at]++;
+        m->right[at] += c.as[p] == c.as[k];
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------ matrices */
+
+/* Are the cells answers, or shares (of 1 or of 100)? "# cells: answers", shares or percent says it; else whole numbers
+   are answers. */
+static bool kind_of(const struct csv *t, const struct judge_factor *condition, const int *columns, int n, bool *counted,
+                    struct err *e)
+{
+    static const char *const kinds[] = {"answers", "shares", "percent"};
+    const char *said = csv_comment(t, "cells");
+    int kind = said ? judge_place(kinds, 3, said) : -1;
+    double most = 0, x;
+    bool whole = true;
+    if (said && kind < 0)
+        return err_set(e, ERR_SCENE, "%s: '# cells: %s' is not answers, shares or percent", t->file, said);
+    for (int pass = 0; pass < 2; pass++) {
+        for (size_t i = 0; i < t->rows; i++) {
+            double sum = 0;
+            for (int k = 0; k < n; k++) {
+                if (!csv_number(t, i, columns[k], &x, e)) return false;
+                if (x < 0)
+                    return err_set(e, ERR_SCENE, "%s:%d: column '%s': %g is below 0", t->file, t->lines[i],
+                                   t->names[columns[k]], x);
+                whole = whole && x == rint(x);
+                sum += x;
+            }
+            most = fmax(most, sum);
+            if (pass == 0) continue;
+            double want = kind == 1 ? 1 : 100;
+            if (!(kind ? fabs(sum - want) <= 0.02 * want : whole && sum > 0))
+                return err_set(e, ERR_SCENE,
+                               "%s:%d: the row of condition '%s' sums to %g: answers are whole numbers, more than 0 a "
+                               "row; shares sum to 1, percent to 100, within 2 %%",
+                               t->file, t->lines[i], condition->levels[condition->of_row[i]], sum);
+        }
+        if (kind < 0) kind = most < 1.5 ? 1 : whole ? 0 : 2;
+    }
+    *counted = kind == 0;
+    return true;
+}
+
+static bool matrices_take(struct judge *j, const struct csv *t, struct judge_choices *m, struct err *e)
+{
+    struct judge_factor condition;
+    struct classes c = {0};
+    int played = judge_table_column(j, t, "played", true, e), of = judge_table_column(j, t, "condition", false, e);
+    int *columns = ARENA_TAKE(j->arena, int, t->columns);
+    if (e->kind || !judge_table_factor(t, of, j->arena, &condition, e)) return false;
+    c.word = ARENA_TAKE(j->arena, const char *, t->columns);
+    for (int k = 0; k < (int)t->columns; k++)
+        if (k != played && k != of) {
+            columns[c.n] = k;
+            c.word[c.n++] = t->names[k];
+        }
+    if (!kind_of(t, &condition, columns, c.n, &m->counted, e) || !group(j, &c, m, e)) return false;
+    m->condition = condition.levels;
+    m->conditions = condition.n;
+    m->cell = ARENA_TAKE(j->arena, double, m->conditions * m->classes * m->classes);
+    bool *seen = ARENA_TAKE(j->arena, bool, m->conditions *c.n);
+    for (size_t i = 0; i < t->rows; i++) {
+        int p;
+        double x, sum = 0;
+        if (!class_of(t, i, played, &c, j->arena, &p, e)) return false;
+        bool *there = &seen[condition.of_row[i] * c.n + p];
+        if (*there)
+            return err_set(e, ERR_SCENE, "%s:%d: column '%s': '%s' of condition '%s' has a row already", t->file,
+                           t->lines[i], t->names[played], c.word[p], m->condition[condition.of_row[i]]);
+        *there = true;
+        for (int k = 0; k < c.n; k++)
+            sum += csv_number(t, i, columns[k], &x, e) ? x : 0;
+        for (int k = 0; k < c.n && csv_number(t, i, columns[k], &x, e); k++)
+            *cell_of(m, condition.of_row[i], c.as[p], c.as[k]) += m->counted ? x : x / sum;
+    }
+    return true;
+}
+
+bool judge_table_choices(struct judge *j, const char *file, struct judge_choices *m, struct err *e)
+{
+    struct csv t;
+    *m = (struct judge_choices){.file = file};
+    if (!csv_read(file, j->arena, &t, e)) return false;
+    int chosen = judge_table_column(j, &t, "chosen", false, e);
+    if (e->kind || !(chosen >= 0 ? answers_take(j, &t, chosen, m, e) : matrices_take(j, &t, m, e))) return false;
+    for (int c = 0; c < m->conditions; c++)
+        for (int p = 0; p < m->classes; p++) {
+            double sum = 0;
+            for (int k = 0; k < m->classes; k++)
+                sum += *cell_of(m, c, p, k);
+            if (sum == 0)
+                return err_set(e, ERR_SCENE, "%s: condition '%s': '%s' was never played: each needs every class", file,
+                               m->condition[c], m->class[p]);
+        }
+    return true;
+}
+
+const double *judge_table_shares(const struct judge_choices *m, int condition, struct arena *a)
+{
+    double *shares = ARENA_TAKE(a, double, m->classes * m->classes);
+    choices_shares(cell_of(m, condition, 0, 0), m->classes, shares);
+    return shares;
+}
+
+/* A word as a cell. */
+static void put_word(FILE *f, const char *word, char after)
+{
+    bool quoted = word[strcspn(word, ",\"\r\n")] != '\0';
+    if (quoted) fputc('"', f);
+    for (; *word; word++)
+        fprintf(f, *word == '"' ? "\"\"" : "%c", *word);
+    fprintf(f, quoted ? "\"%c" : "%c", after);
+}
+
+bool judge_table_write(struct judge *j, const struct judge_choices *m, struct err *e)
+{
+    struct outfile o;
+    const char *to = args_value(&j->call->args, "output");
+    if (!to) return true;
+    if (!mark_absent(to, args_given(&j->call->args, "force"), e) ||
+        !cmd_spares(to, "the table", m->file, "-o OTHER.csv", e) || !outfile_open(&o, to, e))
+        return false;
+    int n = m->classes;
+    fprintf(o.stream, "# cells: %s\ncondition,played,", m->counted ? "answers" : "shares");
+    for (int k = 0; k < n; k++)
+        put_word(o.stream, m->class[k], k + 1 < n ? ',' : '\n');
+    for (int i = 0; i < m->conditions * n; i++) {
+        put_word(o.stream, m->condition[i / n], ',');
+        put_word(o.stream, m->class[i % n], ',');
+        for (int k = 0; k < n; k++) {
+            csv_put_number(o.stream, m->cell[i * n + k]);
+            fputc(k + 1 < n ? ',' : '\n', o.stream);
+        }
+    }
+    return outfile_commit(&o, e);
+}
