@@ -1,12 +1,13 @@
 /* See listener.h. The papers have no such listener: this one is ours. Frames do not overlap; a frame's level is that of
-   its mean square, floor 40 dB below the loudest; its centroid that of its power spectrum under Hann's window. Below the
-   floor the centroid is not heard, and taken to be the mean. Each track less its mean, over its deviation, is what is
-   compared, so that a sound's level and colour as such do not count. To the deviation is added, in squares, what a
-   listener hardly hears, 1 dB and a semitone: what does not change is not blown up to noise. Of sounds of different
-   length the shorter goes on at the floor. */
+   its mean square, floor 40 dB below the loudest; its centroid that of its power spectrum under Hann's window, and
+   below the floor, where it is not heard, the mean. Both are smoothed over five frames, so that what noise does by
+   itself counts less. Each track less its mean, over its deviation, is what is compared: a sound's level and colour as
+   such do not count. To the deviation is added, in squares, 1 dB and a quarter of an octave: what hardly changes is not
+   blown up to noise. Of sounds of different length the shorter goes on at the floor. */
 #include "analysis/listener.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "num/fft.h"
 #include "num/real.h"
@@ -14,7 +15,7 @@
 #define FRAME 0.025
 #define LOWEST (-40.0)
 
-static const double hardly[2] = {1, 1.0 / 12};
+static const double hardly[2] = {1, 0.25};
 
 /* Mean square, and centroid in Hz, of count samples of every channel from `first` on. */
 static double frame_of(const struct wav *w, size_t first, int count, struct fft *f, int padded, double *work,
@@ -38,20 +39,33 @@ static double frame_of(const struct wav *w, size_t first, int count, struct fft 
     return square;
 }
 
-static void normalise(struct listener_sound *s)
+/* x[n], NAN where nothing is heard, smoothed by weights 1 2 3 2 1 into y; its mean and deviation. */
+static void normalise(const double *x, int n, double hardly_heard, double *y, double *mean, double *deviation)
 {
-    for (int t = 0; t < 2; t++) {
-        double sum = 0, square = 0;
-        int n = 0;
-        for (int i = 0; i < s->n; i++)
-            if (!isnan(s->track[t][i])) {
-                sum += s->track[t][i];
-                square += s->track[t][i] * s->track[t][i];
-                n++;
+    double sum = 0, square = 0;
+    *mean = 0;
+    int heard = 0;
+    for (int i = 0; i < n; i++)
+        if (!isnan(x[i])) {
+            *mean += x[i];
+            heard++;
+        }
+    *mean /= heard;
+    for (int i = 0; i < n; i++) {
+        double weights = 0;
+        y[i] = 0;
+        for (int k = -2; k <= 2; k++)
+            if (i + k >= 0 && i + k < n) {
+                weights += 3 - abs(k);
+                y[i] += (3 - abs(k)) * (isnan(x[i + k]) ? *mean : x[i + k]);
             }
-        s->mean[t] = sum / n;
-        s->deviation[t] = sqrt(fmax(0, square / n - s->mean[t] * s->mean[t]) + hardly[t] * hardly[t]);
+        y[i] /= weights;
+        sum += y[i];
     }
+    *mean = sum / n;
+    for (int i = 0; i < n; i++)
+        square += (y[i] - *mean) * (y[i] - *mean);
+    *deviation = sqrt(square / n + hardly_heard * hardly_heard);
 }
 
 bool listener_hear(const char *path, const struct wav *w, struct arena *a, struct listener_sound *s, struct err *e)
@@ -75,15 +89,19 @@ bool listener_hear(const char *path, const struct wav *w, struct arena *a, struc
         if (heard && last < 0) last = i;
     }
     if (last < 0) return err_set(e, ERR_SCENE, "%s: is silent, or shorter than 25 ms: nothing is heard of it", path);
-    *s = (struct listener_sound){.n = last + 1 - first, .track = {level + first, centroid + first}};
-    normalise(s);
+    *s = (struct listener_sound){.n = last + 1 - first};
+    for (int t = 0; t < 2; t++) {
+        double *y = ARENA_TAKE(a, double, s->n);
+        normalise((t ? centroid : level) + first, s->n, hardly[t], y, &s->mean[t], &s->deviation[t]);
+        s->track[t] = y;
+    }
     return true;
 }
 
 static double heard(const struct listener_sound *s, int t, int i)
 {
-    double x = i < s->n ? s->track[t][i] : t ? (double)NAN : LOWEST;
-    return isnan(x) ? 0 : (x - s->mean[t]) / s->deviation[t];
+    double x = i < s->n ? s->track[t][i] : t ? s->mean[t] : LOWEST;
+    return (x - s->mean[t]) / s->deviation[t];
 }
 
 double listener_distance(const struct listener_sound *a, const struct listener_sound *b)

@@ -81,8 +81,9 @@ static void paper_report(struct judge *j)
                 ours = j->figures[k].value;
                 found = true;
             }
-        report_row(r, cell[1], "paper %s%s%-8s ours %-12s %s", cell[2], *cell[3] ? " +- " : "", cell[3],
-                   found ? arena_format(j->arena, "%.6g", ours) : "none", cell[4]);
+        report_text(r, "  %-40s paper %-18s ours %-9s %s\n", cell[1],
+                    arena_format(j->arena, "%s%s%s", cell[2], *cell[3] ? " +- " : "", cell[3]),
+                    found ? arena_format(j->arena, "%.4g", ours) : "none", cell[4]);
         report_set(r, ":{ figure:s paper:s deviation:e ours:n source:s }", cell[1], cell[2], cell[3], ours, cell[4]);
     }
     report_end(r);

@@ -95,12 +95,14 @@ static void report_matrix(struct judge *j, const struct judge_choices *m, int c,
 
 /* ------------------------------------------------------------------ against a reference */
 
-static void report_similarity(struct judge *j, const char *name, const double *reference, const double *other, int n)
+/* label: what the line begins with */
+static void report_similarity(struct judge *j, const char *label, const char *name, const double *const shares[2],
+                              int n)
 {
     double both[2];
     for (int f = 0; f < 2; f++)
-        both[f] = choices_similarity(reference, other, n, f);
-    report_row(&j->report, name, "%7.3f   %7.3f", both[0], both[1]);
+        both[f] = choices_similarity(shares[0], shares[1], n, f);
+    report_row(&j->report, label, "%7.3f   %7.3f", both[0], both[1]);
     report_set(&j->report, "condition:s spectral:n frobenius:n", name, both[0], both[1]);
     judge_figure(j, both[0], "similarity(%s)", name);
 }
@@ -177,7 +179,8 @@ bool judge_choices_report(struct judge *j, const struct judge_choices *m, struct
     for (int c = 0; c < m->conditions; c++) {
         if (c == reference) continue;
         report_object(r, NULL);
-        report_similarity(j, m->condition[c], own, judge_table_shares(m, c, j->arena), m->classes);
+        const double *both[] = {own, judge_table_shares(m, c, j->arena)};
+        report_similarity(j, m->condition[c], m->condition[c], both, m->classes);
         if (!report_pair(j, m, c, reference, &o, e)) return false;
         report_end(r);
     }
@@ -219,9 +222,12 @@ bool judge_choices_similarity(struct judge *j, struct err *e)
         }
         for (int k = 0; k < m.conditions; k++) {
             if (f == 0 && k == reference) continue;
-            const char *name = m.conditions > 1 ? m.condition[k] : m.file;
+            const char *label = f == 0             ? m.condition[k]
+                                : m.conditions > 1 ? arena_format(j->arena, "%s: %s", m.file, m.condition[k])
+                                                   : m.file;
             report_set(&j->report, ":{ file:v", files[f]);
-            report_similarity(j, name, own, judge_table_shares(&m, k, j->arena), m.classes);
+            report_similarity(j, label, m.condition[k], (const double *[]){own, judge_table_shares(&m, k, j->arena)},
+                              m.classes);
             report_end(&j->report);
         }
     }

@@ -1,4 +1,5 @@
-/* rasp judge ratings, pairs: means and their errors, analysis of variance with repeated measures, Tukey's comparisons. */
+/* rasp judge ratings, pairs: means and their errors, analysis of variance with repeated measures, Tukey's
+   comparisons. */
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <string.h>
@@ -46,17 +47,27 @@ static bool leads(const struct anova_design *d, unsigned mask, int cell)
 
 /* ------------------------------------------------------------------ the report */
 
+/* Characters of the longest cell's name. */
+static int widest(const struct ratings *t, unsigned mask, struct arena *a)
+{
+    int width = 0;
+    for (int c = 0; c < t->design.cells; c++)
+        width = (int)fmax(width, (double)strlen(cell_name(t, mask, c, a)));
+    return width;
+}
+
 static void report_means(struct judge *j, const struct ratings *t, unsigned mask)
 {
     const struct anova_design *d = &t->design;
     double *mean = ARENA_TAKE(j->arena, double, d->cells), *sem = ARENA_TAKE(j->arena, double, d->cells);
     double t95 = gsl_cdf_tdist_Pinv(0.975, d->people - 1);
+    int width = widest(t, mask, j->arena);
     anova_means(d, mask, j->arena, mean, sem);
     for (int c = 0; c < d->cells; c++) {
         if (!leads(d, mask, c)) continue;
         const char *name = cell_name(t, mask, c, j->arena);
-        report_row(&j->report, name, "%9.4g   SEM %-9.4g 95 %%: %.4g to %.4g", mean[c], sem[c], mean[c] - t95 * sem[c],
-                   mean[c] + t95 * sem[c]);
+        report_text(&j->report, "  %-*s %9.4g   SEM %-9.4g 95 %%: %.4g to %.4g\n", width, name, mean[c], sem[c],
+                    mean[c] - t95 * sem[c], mean[c] + t95 * sem[c]);
         report_set(&j->report, ":{ cell:s mean:n sem:n low:n high:n }", name, mean[c], sem[c], mean[c] - t95 * sem[c],
                    mean[c] + t95 * sem[c]);
         judge_figure(j, mean[c], "mean(%s)", name);
@@ -68,6 +79,7 @@ static void report_tukey(struct judge *j, const struct ratings *t, unsigned mask
 {
     const struct anova_design *d = &t->design;
     double *mean = ARENA_TAKE(j->arena, double, d->cells), *sem = ARENA_TAKE(j->arena, double, d->cells);
+    int width = 2 * widest(t, mask, j->arena) + 3;
     anova_means(d, mask, j->arena, mean, sem);
     report_text(&j->report, "\nTukey's comparisons of %s\n", effect_name(t, mask, j->arena));
     for (int b = 0; b < d->cells; b++)
@@ -76,17 +88,18 @@ static void report_tukey(struct judge *j, const struct ratings *t, unsigned mask
             const char *name =
                 arena_format(j->arena, "%s - %s", cell_name(t, mask, a, j->arena), cell_name(t, mask, b, j->arena));
             double p = anova_tukey(d, &t->effect[mask - 1], mean[a] - mean[b]);
-            report_row(&j->report, name, "%9.4g   p %.4g", mean[a] - mean[b], p);
+            report_text(&j->report, p < 1e-10 ? "  %-*s %9.4g   p <1e-10\n" : "  %-*s %9.4g   p %.4g\n", width, name,
+                        mean[a] - mean[b], p);
             report_set(&j->report, ":{ effect:s pair:s difference:n p:n }", effect_name(t, mask, j->arena), name,
                        mean[a] - mean[b], p);
             judge_figure(j, p, "tukey(%s)", name);
         }
 }
 
-static void report_effect(struct judge *j, const struct anova_effect *f, const char *name)
+static void report_effect(struct judge *j, const struct anova_effect *f, const char *name, int width)
 {
-    report_row(&j->report, name, "%3d, %-4d F %-9.6g p %-9.4g epsilon %.4f p %-9.4g eta2 %.4f", f->df, f->df_error,
-               f->f, f->p, f->epsilon, f->p_gg, f->eta);
+    report_text(&j->report, "  %-*s %3d, %-5d F %-9.6g p %-9.4g epsilon %.4f p %-9.4g eta2 %.4f\n", width, name, f->df,
+                f->df_error, f->f, f->p, f->epsilon, f->p_gg, f->eta);
     report_set(&j->report,
                ":{ effect:s df:i df_error:i ss:n ss_error:n f:n p:n epsilon:n p_greenhouse_geisser:n eta_squared:n }",
                name, f->df, f->df_error, f->ss, f->ss_error, f->f, f->p, f->epsilon, f->p_gg, f->eta);
@@ -102,6 +115,7 @@ static void report_anova(struct judge *j, struct ratings *t, const unsigned *tuk
     const struct anova_design *d = &t->design;
     unsigned effects = 1u << d->factors;
     struct report *r = &j->report;
+    int width = (int)strlen(effect_name(t, effects - 1, j->arena));
     anova_within(d, t->effect);
     judge_figure(j, d->people, "listeners");
     report_set(r, "listeners:i cells:i means:[", d->people, d->cells);
@@ -112,7 +126,7 @@ static void report_anova(struct judge *j, struct ratings *t, const unsigned *tuk
     report_set(r, "] effects:[");
     report_text(r, "\nrepeated measures\n");
     for (unsigned m = 1; m < effects; m++)
-        report_effect(j, &t->effect[m - 1], effect_name(t, m, j->arena));
+        report_effect(j, &t->effect[m - 1], effect_name(t, m, j->arena), width);
     report_set(r, "] tukey:[");
     for (int k = 0; k < n; k++)
         report_tukey(j, t, tukey[k]);

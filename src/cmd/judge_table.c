@@ -115,10 +115,9 @@ static bool class_of(const struct csv *t, size_t row, int column, const struct c
     if (*k >= 0) return true;
     memcpy(names, c->word, (size_t)c->n * sizeof *names);
     const char *meant = text_nearest(word, names);
-    return err_set(e, ERR_SCENE,
-                   "%s:%d: column '%s': '%s' is no class%s%s%s: the classes are %s (--classes names them)", t->file,
-                   t->lines[row], t->names[column], word, meant ? "; did you mean '" : "", meant ? meant : "",
-                   meant ? "'?" : "", listed(c->word, c->n, a));
+    return err_set(e, ERR_SCENE, "%s:%d: column '%s': '%s' is no class (%s; --classes names them)%s%s%s", t->file,
+                   t->lines[row], t->names[column], word, listed(c->word, c->n, a), meant ? ": did you mean '" : "",
+                   meant ? meant : "", meant ? "'?" : "");
 }
 
 static double *cell_of(const struct judge_choices *m, int condition, int played, int chosen)
@@ -244,7 +243,8 @@ bool judge_table_choices(struct judge *j, const char *file, struct judge_choices
     struct csv t;
     *m = (struct judge_choices){.file = file};
     if (!csv_read(file, j->arena, &t, e)) return false;
-    int chosen = judge_table_column(j, &t, "chosen", false, e);
+    bool answers = judge_table_column(j, &t, "participant", false, e) >= 0;
+    int chosen = judge_table_column(j, &t, "chosen", answers, e);
     if (e->kind || !(chosen >= 0 ? answers_take(j, &t, chosen, m, e) : matrices_take(j, &t, m, e))) return false;
     for (int c = 0; c < m->conditions; c++)
         for (int p = 0; p < m->classes; p++) {

@@ -30,7 +30,8 @@ static void against(const struct anova_design *d, const double *want, const doub
     int last = d->levels[d->factors - 1];
     anova_within(d, effect);
     for (unsigned m = 0; m + 1 < 1u << d->factors; m++, want += 6) {
-        const double got[] = {effect[m].df, effect[m].df_error, effect[m].f, effect[m].p, effect[m].epsilon, effect[m].p_gg};
+        const double got[] = {effect[m].df, effect[m].df_error, effect[m].f,
+                              effect[m].p,  effect[m].epsilon,  effect[m].p_gg};
         for (int k = 0; k < 6; k++)
             WITHIN(got[k], want[k]);
     }
