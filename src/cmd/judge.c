@@ -181,18 +181,19 @@ const struct command judge_command = {
         "rasp judge choices ANSWERS: confusion matrices of forced choices, with Wilson's intervals. A table has a row "
         "for each answer (columns participant, condition, played, chosen; participant and condition may be missing), "
         "or is matrices already (condition, played, and a column for each class that could be chosen: answers, "
-        "shares, or percent). With --reference each other condition is compared with it: equation 14 of Agarwal et "
-        "al. 2021; the share of right answers by a permutation test over listeners, and by two one-sided t tests of "
+        "shares, or percent). With --reference each other condition is compared with it: equation 14 of Agarwal and "
+        "others (2021); the share of right answers by a permutation test over listeners, and by two one-sided t tests "
+        "of "
         "equivalence; each row by chi-squared, which takes answers as independent.\n"
         "rasp judge similarity TABLE...: equation 14 by both norms, of all conditions, against the first table's (or "
         "its --reference): 1 is the same matrix. The paper does not say which norm; the spectral one comes first.\n"
         "rasp judge ratings RATINGS: means, standard errors, and analysis of variance with repeated measures, of a "
         "table with participant, rating and up to six factors. Everybody rates every combination equally often; "
-        "several ratings of one are averaged. epsilon is Greenhouse and Geisser's.\n",
+        "several ratings of one are averaged. epsilon is Greenhouse and Geisser's.",
     .also =
         "rasp judge pairs ANSWERS: paired comparisons (participant, a, b, answer A>B, A=B or B>A; set and condition "
         "may "
-        "be missing): scores as of Conan et al. 2014, analysis of variance of each condition's, Tukey's "
+        "be missing): scores as of Conan and others (2014), analysis of variance of each condition's, Tukey's "
         "comparisons.\n"
         "rasp judge listen SET --templates SET: a program listens. By level and brightness over time it compares each "
         "sound of a set (rasp batch) with templates whose class it knows, and gives shares of answers: "

@@ -83,7 +83,7 @@ static bool add(struct judge *j, const char *set, bool some, struct heard *h, st
         h->file[h->n] = arena_format(j->arena, "%s%s", *sound == '/' ? "" : folder, sound);
         h->class[h->n] = class.levels[class.of_row[i]];
         h->condition[h->n] = condition.levels[condition.of_row[i]];
-        if (!hear(j, h->file[h->n], &h->sound[h->n], e)) return false;
+        if (!hear(j, h->file[h->n], &h->sound[h->n], e)) return err_at(e, "%s:%d", file, t.lines[i]);
         h->n++;
     }
     return h->n > before || err_set(e, ERR_SCENE, "%s: no row is as --where says", file);

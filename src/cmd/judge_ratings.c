@@ -98,7 +98,7 @@ static void report_tukey(struct judge *j, const struct ratings *t, unsigned mask
 
 static void report_effect(struct judge *j, const struct anova_effect *f, const char *name, int width)
 {
-    report_text(&j->report, "  %-*s %3d, %-5d F %-9.6g p %-9.4g epsilon %.4f p %-9.4g eta2 %.4f\n", width, name, f->df,
+    report_text(&j->report, "  %-*s %3d, %-5d F %-10.6g p %-9.4g epsilon %.4f p %-9.4g eta2 %.4f\n", width, name, f->df,
                 f->df_error, f->f, f->p, f->epsilon, f->p_gg, f->eta);
     report_set(&j->report,
                ":{ effect:s df:i df_error:i ss:n ss_error:n f:n p:n epsilon:n p_greenhouse_geisser:n eta_squared:n }",

@@ -18,6 +18,6 @@ for command in $(sed -n '/^[A-Z].*:$/,/^$/s/^  \([a-z]*\) .*/\1/p' e | sort -u);
     echo "$command"
 done > h
 sed -n '/ /p' h
-for command in render golden plan new explain check compare plot accuracy analyse surface modes completion; do
+for command in render golden plan new explain check compare plot accuracy analyse judge surface modes completion; do
     grep -qx "$command" h || echo "not in the usage: $command"
 done
