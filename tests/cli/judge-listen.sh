@@ -3,6 +3,7 @@
 . "$ROOT/tests/cli/compare-make.inc"
 mkdir sounds
 printf 'file_name,motion,condition,note\n' > sounds/manifest.csv
+# shellcheck disable=SC2046
 sound() { # NAME BURSTS FIRST
     wav 4000 1 $(draw "BEGIN { x = $3; for (i = 0; i < 2000; i++) { s = sin(3.14159265 * $2 * i / 2000); printf \"%d \", 12000 * s * s * normal() } }") > "sounds/$1.wav"
 }
