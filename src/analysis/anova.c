@@ -13,6 +13,7 @@
 #include "analysis/anova.h"
 
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_pow_int.h>
 #include <gsl/gsl_sf_gamma.h>
 #include <math.h>
 #include <stdbool.h>
@@ -113,18 +114,26 @@ enum { POINTS = 16, PANELS = 12 };
 
 struct rule {
     double node[POINTS], weight[POINTS];
+    double z[PANELS * POINTS], below[PANELS * POINTS], mass[PANELS * POINTS]; /* Phi(z), phi(z) dz */
 };
+
+static void rule_make(struct rule *g)
+{
+    double half = 9.0 / PANELS;
+    special_gauss_legendre(POINTS, g->node, g->weight);
+    for (int i = 0; i < PANELS * POINTS; i++) {
+        g->z[i] = -9 + half * (2 * (i / POINTS) + 1 + g->node[i % POINTS]);
+        g->below[i] = special_normal_cdf(g->z[i]);
+        g->mass[i] = half * g->weight[i % POINTS] * special_normal_density(g->z[i]);
+    }
+}
 
 /* 1 - W(w): the range of k standard normal numbers is more than w. */
 static double range_tail(double w, int k, const struct rule *g)
 {
     double sum = 0;
-    for (int p = 0; p < PANELS; p++)
-        for (int i = 0; i < POINTS; i++) {
-            double half = 9.0 / PANELS, z = -9 + half * (2 * p + 1 + g->node[i]);
-            double inside = special_normal_cdf(z) - special_normal_cdf(z - w);
-            sum += half * g->weight[i] * special_normal_density(z) * (inside > 0 ? real_pow(inside, k - 1) : 0);
-        }
+    for (int i = 0; i < PANELS * POINTS; i++)
+        sum += g->mass[i] * gsl_pow_int(fmax(0, g->below[i] - special_normal_cdf(g->z[i] - w)), k - 1);
     return 1 - k * sum;
 }
 
@@ -132,7 +141,7 @@ double anova_studentized_range(double q, int groups, double df)
 {
     if (!(q > 0)) return isnan(q) ? (double)NAN : 1;
     struct rule g;
-    special_gauss_legendre(POINTS, g.node, g.weight);
+    rule_make(&g);
     double from = fmax(0, 1 - 9 / sqrt(df)), to = fmin(1 + 9 / sqrt(df), 19 / q), sum = 0;
     if (isinf(df)) return fmax(0, range_tail(q, groups, &g));
     double scale = df / 2 * real_log(df) - gsl_sf_lngamma(df / 2) - (df / 2 - 1) * real_log(2);
