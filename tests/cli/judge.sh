@@ -18,3 +18,4 @@ awk '/paper / { n++; d = $3 - $5; if (d * d > 0.0501 ^ 2) print } END { print n 
 # shares and percent are the same matrix as the answers they are of
 awk -F, -v OFS=, '/^#|^condition/ { print; next } { s = $3 + $4 + $5; for (i = 3; i <= 5; i++) $i = sprintf("%.12f", 100 * $i / s); print }' matrices.csv | sed 's/answers/percent/' > percent.csv
 try rasp judge similarity percent.csv matrices.csv --reference recorded
+rasp judge choices percent.csv -o shares.csv > /dev/null && try rasp judge similarity shares.csv matrices.csv --reference recorded
