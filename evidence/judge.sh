@@ -1,12 +1,12 @@
 #!/bin/bash
 # Makes evidence/judge.md: experiment 2 of Agarwal et al. 2021 with a program as the listener (rasp judge listen), its confusion matrices and equation 14, for
 # three sources of templates: the full model with other seeds, another condition, and recordings where somebody has them.
-# SEEDS ("1 2 3 4 5") are judged; TAKES ("101 102 103") are the templates' seeds; OTHER (only_surface): the other condition; RECORDINGS=TABLE.csv (file_name,
-# motion); SETS=DIR keeps the rendered sets (else they go); JOBS. About 12 minutes on two cores.
+# SEEDS ("1 2 3 4 5") are judged; TAKES ("101 102 103") are the templates' seeds; OTHER ("only_surface constant_force"): other conditions; RECORDINGS=TABLE.csv (file_name,
+# motion); SETS=DIR keeps the rendered sets, and takes those that are there; JOBS. About 8 minutes on two quiet cores.
 set -euo pipefail
 ROOT=$(realpath "$(dirname "$0")/..")
 BUILD=$(realpath -m "${BUILD:-$ROOT/build}")
-SEEDS=${SEEDS:-1 2 3 4 5} TAKES=${TAKES:-101 102 103} OTHER=${OTHER:-only_surface}
+SEEDS=${SEEDS:-1 2 3 4 5} TAKES=${TAKES:-101 102 103} OTHER=${OTHER:-only_surface constant_force}
 export LC_ALL=C PATH=$BUILD:$PATH
 make -C "$ROOT" -s BUILD="$BUILD" "$BUILD/rasp"
 WORK=$(mktemp -d)
@@ -16,17 +16,18 @@ mkdir -p "$SETS"
 
 # The design with another seed; relative names in it start at its folder.
 for seed in $SEEDS $TAKES; do
+    [ ! -e "$SETS/seed_$seed/manifest.csv" ] || continue
     sed -e "s#^seed: .*#seed: $seed#" -e "s#\.\./\.\./#$ROOT/#g" -e "s#^base: #base: $ROOT/scenes/experiments/#" \
         "$ROOT/scenes/experiments/000_experiment_2.yaml" > "$SETS/seed_$seed.yaml"
     nice rasp batch "$SETS/seed_$seed.yaml" -o "$SETS/seed_$seed" --jobs "${JOBS:-$(nproc)}" > /dev/null
 done
 
-takes=() other=() kind=()
+takes=()
 for seed in $TAKES; do
     takes+=(--templates "$SETS/seed_$seed")
 done
 
-# listen SOURCE NAME OPTION...: each seed by these templates, into SOURCE_SEED.csv, and the spread and errors of the nearest template.
+# listen SOURCE OPTION...: each seed by these templates, into SOURCE_SEED.csv; what is printed into SOURCE_SEED.txt.
 listen() {
     local source=$1 seed
     shift
@@ -35,13 +36,11 @@ listen() {
     done
 }
 
-# means SOURCE REFERENCE: a row a condition; equation 14 of each seed, against REFERENCE_SEED.csv's matrix (of its condition full, or the only one).
+# means SOURCE REFERENCE: a row a condition, the mean of seeds; equation 14 against the matrix of REFERENCE.csv.
 means() {
     local seed
     for seed in $SEEDS; do
-        local reference=$WORK/$2_$seed.csv pick=(--reference full)
-        [ -e "$reference" ] || { reference=$WORK/$2.csv && pick=(); }
-        rasp judge similarity "$reference" "$WORK/$1_$seed.csv" "${pick[@]}" --json > "$WORK/similarity.json"
+        rasp judge similarity "$WORK/$2.csv" "$WORK/$1_$seed.csv" --json > "$WORK/similarity.json"
         rasp judge choices "$WORK/$1_$seed.csv" --json > "$WORK/choices.json"
         python3 - "$WORK" "$1_$seed.csv" << 'END_PYTHON'
 import json, os, sys
@@ -60,12 +59,8 @@ END_PYTHON
             printf "| %s | %.2f | %.2f to %.2f | %.2f | %.0f | %s |\n", c, spectral[c] / n, low[c], high[c], frobenius[c] / n, right[c] / n, paper[c] } }'
 }
 
-# The matrix that stands for C_recorded: the templates themselves, each judged without itself.
-own() {
-    local source=$1 first=$2
-    shift 2
-    rasp judge listen "$first" "$@" -o "$WORK/$source.csv" > "$WORK/$source.txt"
-}
+# own NAME TABLE: the matrix that stands for C_recorded, of templates, each judged without itself, into NAME.csv.
+own() { rasp judge listen "$2" --templates "$2" -o "$WORK/$1.csv" > /dev/null; }
 
 {
     echo '# A program that listens: experiment 2 of Agarwal et al. 2021'
@@ -73,35 +68,36 @@ own() {
     echo "Made by \`evidence/judge.sh\`. Judged: \`scenes/experiments/000_experiment_2.yaml\`, seeds $SEEDS; templates: seeds $TAKES."
     echo 'The listener (`src/analysis/listener.c`) is ours and knows level and brightness over time; the paper'"'"'s were 41 people, and its figures are pictures:'
     echo 'only its words can be laid beside. `C_recorded` of equation 14 is a matrix of templates, each judged without itself: recordings where there are any,'
-    echo 'else a stand-in, which favours the condition that the stand-in is of.'
+    echo 'else a stand-in, which favours the condition that the stand-in is of. The scribble is drawn from each seed, so that its templates are other scribbles.'
     echo
     echo '## Templates: the full model with other seeds'
     echo
-    first=${TAKES%% *}
     listen full "${takes[@]}" --where condition=full
     head -q -n 1 "$WORK"/full_*.txt | sed -e "s#$SETS/##" -e 's/^/    /'
     echo
     # the takes of the full model alone, as a table of their own
     { echo file_name,motion,condition; for seed in $TAKES; do awk -F, -v dir="$SETS/seed_$seed/" 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } $at["condition"] == "full" { print dir $at["file_name"] "," $at["motion"] ",full" }' "$SETS/seed_$seed/manifest.csv"; done; } > "$WORK/takes_full.csv"
-    own reference_full "$WORK/takes_full.csv" --templates "$WORK/takes_full.csv"
+    own reference_full "$WORK/takes_full.csv"
     means full reference_full
     echo
     echo "Matrices of seed ${SEEDS%% *} (rows: played; columns: chosen, %):"
     echo
-    sed -e '1d' -e 's/^/    /' -e 's/ *$//' "$WORK/full_${SEEDS%% *}.txt"
+    sed -e '1,2d' -e 's/^/    /' -e 's/ *$//' "$WORK/full_${SEEDS%% *}.txt"
     echo
-    echo "## Templates: the condition $OTHER with other seeds"
-    echo
-    listen other "${takes[@]}" --where "condition=$OTHER"
-    sed "s/,full\$/,$OTHER/; s#/full\.#/$OTHER.#" "$WORK/takes_full.csv" > "$WORK/takes_other.csv"
-    own reference_other "$WORK/takes_other.csv" --templates "$WORK/takes_other.csv"
-    means other reference_other
-    echo
+    for other in $OTHER; do
+        echo "## Templates: the condition $other with other seeds"
+        echo
+        listen "$other" "${takes[@]}" --where "condition=$other"
+        sed "s/,full\$/,$other/; s#/full\.#/$other.#" "$WORK/takes_full.csv" > "$WORK/takes_$other.csv"
+        own "reference_$other" "$WORK/takes_$other.csv"
+        means "$other" "reference_$other"
+        echo
+    done
     echo '## Templates: recordings'
     echo
     if [ -n "${RECORDINGS:-}" ]; then
         listen recorded --templates "$RECORDINGS"
-        own reference_recorded "$RECORDINGS" --templates "$RECORDINGS"
+        own reference_recorded "$RECORDINGS"
         means recorded reference_recorded
     else
         echo 'None were at hand: `RECORDINGS=TABLE.csv evidence/judge.sh` takes a table of them (file_name, motion; two takes of each motion at least).'

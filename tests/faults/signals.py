@@ -50,6 +50,9 @@ def prepare():
     run("rasp", "render", "-q", "plate.yaml", "-o", "other.wav", "--set", "seed=2", cwd=IN)
     for i in range(8):
         os.link(f"{IN}/sound.wav", f"{IN}/sounds/{i}.wav")
+    with open(f"{IN}/answers.csv", "w") as f:
+        f.write("participant,condition,played,chosen\n")
+        f.writelines(f"{p},{c},{k},{'xy'[p % 3 == 0]}\n" for p in range(60) for c in "ab" for k in "xy")
     for shard in "12":
         run("rasp", "batch", "-q", "shorts.yaml", "-o", "shards", "--shard", f"{shard}/2", cwd=IN)
     header = f"{{'descr': '<f8', 'fortran_order': False, 'shape': (4000, 4000), }}".ljust(117) + "\n"
@@ -87,6 +90,7 @@ COMMANDS = {
     "modes list, a pipe": (["modes", "list", "../in/fifo"], []),
     "analyse": (["analyse", "../in/sound.csv", "--plot", "out.png", "-o", "out.yaml"], ["out.png", "out.yaml"]),
     "compare": (["compare", "../in/sound.csv", "../in/other.csv"], []),
+    "judge": (["judge", "choices", "../in/answers.csv", "--reference", "a", "--draws", "10000000", "-o", "out.csv"], ["out.csv"]),
     "plot": (["plot", "../in/sound.wav", "-o", "out.png"], ["out.png"]),
     "plot, a gallery": (["plot", "--gallery", "../in/sounds", "-o", "page.html"], None),
 }
