@@ -146,7 +146,9 @@ static bool design_check(struct ratings *t, const char *file, struct err *e)
         cells *= d->levels[k] = t->factor[k].n;
     }
     d->cells = (int)fmin(cells, 1e6);
-    if (cells > 5000) return err_set(e, ERR_SCENE, "%s: %g combinations of levels: at most 5000", file, cells);
+    if (cells > 5000 || cells * d->people > 1e7)
+        return err_set(e, ERR_SCENE, "%s: %g combinations of levels, %d listeners: at most 5000, and 1e7 cells", file,
+                       cells, d->people);
     return d->people >= 2 ||
            err_set(e, ERR_SCENE, "%s: %d listener: at least 2 are needed, or nothing is repeated", file, d->people);
 }
@@ -328,6 +330,10 @@ bool judge_ratings_pairs(struct judge *j, struct err *e)
         !judge_table_factor(&v, column[4], j->arena, &q.set, e) ||
         !judge_table_factor(&v, column[5], j->arena, &q.control, e) || !levels_join(&v, &q, j->arena, e))
         return false;
+    double all = (double)q.person.n * q.set.n * q.level.n * q.level.n;
+    if (all > 1e8)
+        return err_set(e, ERR_SCENE, "%s: %d listeners, %d sets, %d levels: %g cells, at most 1e8", v.file, q.person.n,
+                       q.set.n, q.level.n, all);
     report_list(&j->report, "conditions");
     for (int k = 0; k < q.control.n; k++) {
         struct ratings *t = arena_take(j->arena, 1, sizeof *t);

@@ -102,8 +102,10 @@ static bool group(struct judge *j, struct classes *c, struct judge_choices *m, s
     }
     for (int i = 0; i < c->n; i++)
         c->as[i] = -2 - c->as[i];
-    return !e->kind &&
-           (m->classes > 1 || err_set(e, ERR_SCENE, "%s: one class only: there is nothing to confuse", m->file));
+    if (!e->kind && (m->classes < 2 || m->classes > 100))
+        err_set(e, ERR_SCENE, "%s: %d class%s: 2 to 100 can be confused", m->file, m->classes,
+                m->classes > 1 ? "es" : "");
+    return !e->kind;
 }
 
 static bool class_of(const struct csv *t, size_t row, int column, const struct classes *c, struct arena *a, int *k,
@@ -182,8 +184,8 @@ static bool kind_of(const struct csv *t, const struct judge_factor *condition, c
             double sum = 0;
             for (int k = 0; k < n; k++) {
                 if (!csv_number(t, i, columns[k], &x, e)) return false;
-                if (x < 0)
-                    return err_set(e, ERR_SCENE, "%s:%d: column '%s': %g is below 0", t->file, t->lines[i],
+                if (x < 0 || x > 1e9)
+                    return err_set(e, ERR_SCENE, "%s:%d: column '%s': %g is not from 0 to 1e9", t->file, t->lines[i],
                                    t->names[columns[k]], x);
                 whole = whole && x == rint(x);
                 sum += x;
