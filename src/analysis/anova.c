@@ -4,7 +4,7 @@
    Arrays keep their size, so that each square counts as often as it should.
 
    Greenhouse and Geisser (Psychometrika 24, 1959, 95): epsilon = (tr S)^2/(df tr S^2), S the covariance of those parts
-   between cells. tr S^2 is had from the products of listeners' parts, which are fewer.
+   between cells. tr S^2 is had from the products of listeners' parts where these are fewer.
 
    The studentized range (Copenhaver and Holland, J. Statist. Comput. Simul. 30, 1988, 1): with
        W(w) = k integral of phi(z) (Phi(z) - Phi(z - w))^(k-1) dz,  P(Q > q) = integral of f(s) (1 - W(q s)) ds,
@@ -72,12 +72,14 @@ static void effect_of(const struct anova_design *d, struct arena *a, struct anov
     e->ss_error = e->ss_error > least ? e->ss_error : 0;
     e->f = e->ss / e->df / (e->ss_error / e->df_error);
     e->eta = e->ss / (e->ss + e->ss_error);
-    for (int i = 0; i < d->people; i++)
-        for (int j = 0; j < d->people; j++) {
+    bool fewer = d->people < d->cells; /* tr (Y'Y)^2 = tr (YY')^2 */
+    int n = fewer ? d->people : d->cells, own = fewer ? d->cells : 1, other = fewer ? 1 : d->cells;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j <= i; j++) {
             double product = 0;
-            for (int c = 0; c < d->cells; c++)
-                product += y[i * d->cells + c] * y[j * d->cells + c];
-            shared += product * product;
+            for (int k = 0; k < all / n; k++)
+                product += y[i * own + k * other] * y[j * own + k * other];
+            shared += (j < i ? 2 : 1) * product * product;
         }
     e->epsilon = e->df == 1 || e->ss_error == 0 ? 1 : e->ss_error * e->ss_error / (e->df * shared);
     e->p = isfinite(e->f) ? gsl_cdf_fdist_Q(e->f, e->df, e->df_error) : isnan(e->f) ? (double)NAN : 0;

@@ -32,6 +32,8 @@ int judge_place(const char *const *words, int n, const char *word);
 
 /* ------------------------------------------------------------------ judge_table.c */
 
+enum { JUDGE_LEVELS = 10000 };
+
 struct judge_factor { /* a column whose cells are words */
     const char *name;
     const char **levels; /* numbers by size, else in the order in which they come */
@@ -41,7 +43,7 @@ struct judge_factor { /* a column whose cells are words */
 /* The column of that role; `--column ROLE=NAME` calls it otherwise. -1: it is not there (ERR_SCENE if it must be). */
 int judge_table_column(const struct judge *j, const struct csv *t, const char *role, bool must, struct err *e);
 
-/* ERR_SCENE: an empty cell. column < 0: one level, "all". */
+/* ERR_SCENE: an empty cell, more than JUDGE_LEVELS levels. column < 0: one level, "all". */
 bool judge_table_factor(const struct csv *t, int column, struct arena *a, struct judge_factor *f, struct err *e);
 
 struct judge_choices { /* confusion matrices */

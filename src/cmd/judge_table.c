@@ -48,6 +48,9 @@ bool judge_table_factor(const struct csv *t, int column, struct arena *a, struct
             return err_set(e, ERR_SCENE, "%s:%d: column '%s': is empty: fill the cell, or take the row out", t->file,
                            t->lines[i], f->name);
         if (judge_place(f->levels, f->n, word) >= 0) continue;
+        if (f->n == JUDGE_LEVELS)
+            return err_set(e, ERR_SCENE, "%s:%d: column '%s': more than %d different words: is it the right column?",
+                           t->file, t->lines[i], f->name, JUDGE_LEVELS);
         numbers = numbers && text_double(word, &x);
         f->levels = arena_more(a, f->levels, f->n, sizeof *f->levels);
         f->levels[f->n++] = arena_text(a, word);
