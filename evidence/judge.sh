@@ -66,7 +66,7 @@ own() { rasp judge listen "$2" --templates "$2" -o "$WORK/$1.csv" > /dev/null; }
     echo '# A program that listens: experiment 2 of Agarwal et al. 2021'
     echo
     echo "Made by \`evidence/judge.sh\`. Judged: \`scenes/experiments/000_experiment_2.yaml\`, seeds $SEEDS; templates: seeds $TAKES."
-    echo 'The listener (`src/analysis/listener.c`) is ours and knows level and brightness over time; the paper'"'"'s were 41 people, and its figures are pictures:'
+    echo 'The listener (`src/analysis/machine_listener.c`) is ours and knows level and brightness over time; the paper'"'"'s were 41 people, and its figures are pictures:'
     echo 'only its words can be laid beside. `C_recorded` of equation 14 is a matrix of templates, each judged without itself: recordings where there are any,'
     echo 'else a stand-in, which favours the condition that the stand-in is of. The scribble is drawn from each seed, so that its templates are other scribbles.'
     echo

@@ -3,14 +3,14 @@
 #include <math.h>
 #include <string.h>
 
-#include "analysis/listener.h"
+#include "analysis/machine_listener.h"
 #include "base/text.h"
 #include "cmd/judge.h"
 
 struct heard { /* sounds of one or several sets */
     int n;
     const char **file, **class, **condition;
-    struct listener_sound *sound;
+    struct machine_listener_sound *sound;
 };
 
 /* The manifest of a set: its folder's, or the table itself. */
@@ -39,11 +39,11 @@ static bool wanted(const struct judge *j, const struct csv *t, size_t row, bool 
     return true;
 }
 
-static bool hear(struct judge *j, const char *path, struct listener_sound *s, struct err *e)
+static bool hear(struct judge *j, const char *path, struct machine_listener_sound *s, struct err *e)
 {
     struct arena *scratch = arena_open();
     struct wav w;
-    bool ok = wav_read(path, scratch, &w, e) && listener_hear(path, &w, j->arena, s, e);
+    bool ok = wav_read(path, scratch, &w, e) && machine_listener_hear(path, &w, j->arena, s, e);
     arena_close(scratch);
     return ok;
 }
@@ -105,7 +105,7 @@ static bool spread_of(const struct judge *j, const struct heard *t, double *spre
     *spread = NAN;
     if (!args_number(&j->call->args, "spread", (const double[]){1e-6, 100}, spread, e)) return false;
     if (args_given(&j->call->args, "spread")) return true;
-    *spread = listener_spread(t->sound, t->n);
+    *spread = machine_listener_spread(t->sound, t->n);
     return *spread > 0 ||
            err_set(e, ERR_SCENE,
                    "--templates: %s: give takes of other seeds, or say by --spread how far apart takes are",
@@ -128,7 +128,7 @@ static bool judge_all(struct judge *j, const struct heard *s, const struct heard
         if (!left)
             return err_set(e, ERR_SCENE, "%s: is the only template of '%s': it cannot be judged by itself", s->file[i],
                            s->class[i]);
-        listener_choose(&s->sound[i], t->sound, t->n, skip, m->classes, spread, share);
+        machine_listener_choose(&s->sound[i], t->sound, t->n, skip, m->classes, spread, share);
         double *row =
             m->cell + (judge_place(m->condition, m->conditions, s->condition[i]) * m->classes + played) * m->classes;
         for (int k = 0; k < m->classes; k++) {

@@ -1,10 +1,10 @@
-/* See listener.h. The papers have no such listener: this one is ours. Frames do not overlap; a frame's level is that of
+/* See machine_listener.h. The papers have no such listener: this one is ours. Frames do not overlap; a frame's level is that of
    its mean square, floor 40 dB below the loudest; its centroid that of its power spectrum under Hann's window, and
    below the floor, where it is not heard, the mean. Both are smoothed over five frames, so that what noise does by
    itself counts less. Each track less its mean, over its deviation, is what is compared: a sound's level and colour as
    such do not count. To the deviation is added, in squares, 1 dB and a quarter of an octave: what hardly changes is not
    blown up to noise. Of sounds of different length the shorter goes on at the floor. */
-#include "analysis/listener.h"
+#include "analysis/machine_listener.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -68,7 +68,8 @@ static void normalise(const double *x, int n, double hardly_heard, double *y, do
     *deviation = sqrt(square / n + hardly_heard * hardly_heard);
 }
 
-bool listener_hear(const char *path, const struct wav *w, struct arena *a, struct listener_sound *s, struct err *e)
+bool machine_listener_hear(const char *path, const struct wav *w, struct arena *a, struct machine_listener_sound *s,
+                           struct err *e)
 {
     int count = (int)rint(FRAME * w->rate), first = 0, last = -1, n = (int)(w->frames / (size_t)(count + !count));
     double *level = ARENA_TAKE(a, double, n + 1), *centroid = ARENA_TAKE(a, double, n + 1), loudest = 0;
@@ -89,7 +90,7 @@ bool listener_hear(const char *path, const struct wav *w, struct arena *a, struc
         if (heard && last < 0) last = i;
     }
     if (last < 0) return err_set(e, ERR_SCENE, "%s: is silent, or shorter than 25 ms: nothing is heard of it", path);
-    *s = (struct listener_sound){.n = last + 1 - first};
+    *s = (struct machine_listener_sound){.n = last + 1 - first};
     for (int t = 0; t < 2; t++) {
         double *y = ARENA_TAKE(a, double, s->n);
         normalise((t ? centroid : level) + first, s->n, hardly[t], y, &s->mean[t], &s->deviation[t]);
@@ -98,13 +99,13 @@ bool listener_hear(const char *path, const struct wav *w, struct arena *a, struc
     return true;
 }
 
-static double heard(const struct listener_sound *s, int t, int i)
+static double heard(const struct machine_listener_sound *s, int t, int i)
 {
     double x = i < s->n ? s->track[t][i] : t ? s->mean[t] : LOWEST;
     return (x - s->mean[t]) / s->deviation[t];
 }
 
-double listener_distance(const struct listener_sound *a, const struct listener_sound *b)
+double machine_listener_distance(const struct machine_listener_sound *a, const struct machine_listener_sound *b)
 {
     int n = a->n > b->n ? a->n : b->n;
     double sum = 0;
@@ -116,14 +117,15 @@ double listener_distance(const struct listener_sound *a, const struct listener_s
     return sum;
 }
 
-void listener_choose(const struct listener_sound *s, const struct listener_sound *templates, int n, int skip,
-                     int classes, double spread, double *share)
+void machine_listener_choose(const struct machine_listener_sound *s, const struct machine_listener_sound *templates,
+                             int n, int skip, int classes, double spread, double *share)
 {
     double least = HUGE_VAL, sum = 0;
     for (int c = 0; c < classes; c++) {
         share[c] = HUGE_VAL;
         for (int i = 0; i < n; i++)
-            if (i != skip && templates[i].class == c) share[c] = fmin(share[c], listener_distance(s, &templates[i]));
+            if (i != skip && templates[i].class == c)
+                share[c] = fmin(share[c], machine_listener_distance(s, &templates[i]));
         least = fmin(least, share[c]);
     }
     for (int c = 0; c < classes; c++)
@@ -132,14 +134,14 @@ void listener_choose(const struct listener_sound *s, const struct listener_sound
         share[c] /= sum;
 }
 
-double listener_spread(const struct listener_sound *templates, int n)
+double machine_listener_spread(const struct machine_listener_sound *templates, int n)
 {
     double sum = 0;
     for (int i = 0; i < n; i++) {
         double least = HUGE_VAL;
         for (int j = 0; j < n; j++)
             if (j != i && templates[j].class == templates[i].class)
-                least = fmin(least, listener_distance(&templates[i], &templates[j]));
+                least = fmin(least, machine_listener_distance(&templates[i], &templates[j]));
         sum += least / n;
     }
     return isfinite(sum) ? sum : (double)NAN;
