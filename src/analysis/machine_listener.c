@@ -1,6 +1,6 @@
-/* See machine_listener.h. The papers have no such listener: this one is ours. Frames do not overlap; a frame's level is that of
-   its mean square, floor 40 dB below the loudest; its centroid that of its power spectrum under Hann's window, and
-   below the floor, where it is not heard, the mean. Both are smoothed over five frames, so that what noise does by
+/* See machine_listener.h. The papers have no such listener: this one is ours. Frames do not overlap; a frame's level is
+   that of its mean square, floor 40 dB below the loudest; its centroid that of its power spectrum under Hann's window,
+   and below the floor, where it is not heard, the mean. Both are smoothed over five frames, so that what noise does by
    itself counts less. Each track less its mean, over its deviation, is what is compared: a sound's level and colour as
    such do not count. To the deviation is added, in squares, 1 dB and a quarter of an octave: what hardly changes is not
    blown up to noise. Of sounds of different length the shorter goes on at the floor. */
