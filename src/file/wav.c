@@ -57,8 +57,8 @@ static const struct {
                  {32, SF_FORMAT_PCM_32}, {8, SF_FORMAT_PCM_S8},  {8, SF_FORMAT_PCM_U8}};
 enum { WRITTEN = 4, ENCODINGS = sizeof encodings / sizeof encodings[0] }; /* the first of them */
 
-/* Those whose samples are what was written. Decoders of MP3 and Opus give other bits on another CPU; and libsndfile looks
-   for MP3 in all that it does not know, which a few bytes can make take for ever. */
+/* Those whose samples are what was written. Decoders of MP3 and Opus give other bits on another CPU; and libsndfile
+   looks for MP3 in all that it does not know, which a few bytes can make take for ever. */
 bool wav_begins(const char head[4])
 {
     static const char lossless[][5] = {"RIFF", "RIFX", "RF64", "FORM", "fLaC", ".snd", "dns.", "caff", "riff"};

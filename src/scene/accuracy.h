@@ -17,8 +17,8 @@ void accuracy_turn(struct accuracy *accuracy, enum knob k, double value);
 /* dB, the error that a preset aims at; NAN: none (reference), or every knob is said. */
 double accuracy_target(const struct accuracy *accuracy);
 
-/* The scene that is looked at before it is rendered: a preset that aims at an error takes knobs as coarse as its renders
-   may, and refuses nothing; with those of its own, finer ones, a ground could be too fine to be held. */
+/* The scene that is looked at before it is rendered: a preset that aims at an error takes knobs as coarse as its
+   renders may, and refuses nothing; with those of its own, finer ones, a ground could be too fine to be held. */
 struct scene accuracy_coarsest(const struct scene *s);
 
 /* Is it a value that the knob can have? */
