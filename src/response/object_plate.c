@@ -11,9 +11,9 @@
    shears more easily than G says. */
 #include "response/object_kinds.h"
 
-#include <gsl/gsl_eigen.h>
 #include <math.h>
 
+#include "num/eigen.h"
 #include "num/real.h"
 #include "num/special.h"
 
@@ -115,9 +115,9 @@ static double highest(const struct object_body *b, const struct plate *p, const 
 
    Free edges ask for nothing: their conditions are natural ones, which the sums meet as they converge, exponentially.
    The rigid motions of a free plate are three of the functions; they are left out. Where both ends of an axis are held
-   alike, even and odd functions do not mix: two to four smaller problems. K c = mu^-1 c is solved as c = mu K c
-   (gsl_eigen_gensymmv with 1 and K, which is graded): the low modes are the large mu, so that they, too, have relative
-   precision.
+   alike, even and odd functions do not mix: two to four smaller problems. K c = mu^-1 c is solved as K^-1 c = mu c, K
+   being graded: the low modes are the large mu, so that they, too, have relative precision. Functions are sorted by
+   falling degree, which is the order that num/eigen.c likes.
 
    Functions along x: degree up to k a/2 + MARGIN, k the wave number (rho h w^2/Dx)^(1/4) of the highest mode asked for
    (polynomials need more than pi per wave length); of their products those within a superellipse of degrees. Against
@@ -217,8 +217,9 @@ static void class_terms(struct class *c, const struct ritz *r, int which, struct
     int sx = r->x.halves ? 2 : 1, sy = r->y.halves ? 2 : 1;
     if (which >= sx * sy) return;
     c->term = (int(*)[2])arena_take(a, (size_t)(r->x.n * r->y.n), sizeof *c->term);
-    for (int m = which % sx; m < r->x.n; m += sx)
-        for (int n = which / sx; n < r->y.n; n += sy) {
+    for (int m = r->x.n - 1; m >= 0; m--)
+        for (int n = r->y.n - 1; n >= 0; n--) {
+            if (m % sx != which % sx || n % sy != which / sx) continue;
             double u = (double)m / r->x.n, v = (double)n / r->y.n;
             bool rigid = r->x.functions.b == 0 && r->y.functions.b == 0 && m + n < 2;
             if (rigid || u * u * u + v * v * v > 1.0) continue;
@@ -238,76 +239,33 @@ static double stiffness(const struct ritz *r, const int i[2], const int k[2])
     return sum / p->area_density;
 }
 
-/* Cholesky in a scratch copy: GSL would end the program where it is not. */
-static bool is_positive(const gsl_matrix *k, gsl_matrix *l)
+static void make_positive(int n, double *v)
 {
-    int n = (int)k->size1;
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j <= i; j++) {
-            const double *row_i = l->data + (size_t)i * l->tda, *row_j = l->data + (size_t)j * l->tda;
-            double left = gsl_matrix_get(k, i, j);
-            for (int m = 0; m < j; m++)
-                left -= row_i[m] * row_j[m];
-            if (i == j && !(left > 0.0)) return false;
-            gsl_matrix_set(l, i, j, i == j ? sqrt(left) : left / row_j[j]);
-        }
-    return true;
+    int last = n - 1;
+    for (int i = n - 2; i >= 0; i--)
+        if (fabs(v[i]) > fabs(v[last]) * (1.0 + 1e-9)) last = i;
+    for (int i = 0, turn = v[last] < 0.0; turn && i < n; i++)
+        v[i] = -v[i];
 }
 
-/* 1/w^2, falling, and vectors; false: K is not positive definite. */
-static bool class_eigen(const struct class *c, const struct ritz *r, gsl_vector *mu, gsl_matrix *v)
-{
-    gsl_matrix *k = gsl_matrix_alloc(c->n, c->n), *one = gsl_matrix_alloc(c->n, c->n);
-    gsl_eigen_gensymmv_workspace *work = gsl_eigen_gensymmv_alloc(c->n);
-    for (int i = 0; i < c->n; i++)
-        for (int j = 0; j < c->n; j++)
-            gsl_matrix_set(k, i, j, stiffness(r, c->term[i], c->term[j]));
-    bool good = is_positive(k, one);
-    gsl_matrix_set_identity(one);
-    good = good && gsl_eigen_gensymmv(one, k, mu, v, work) == 0 &&
-           gsl_eigen_gensymmv_sort(mu, v, GSL_EIGEN_SORT_VAL_DESC) == 0;
-    gsl_eigen_gensymmv_free(work);
-    gsl_matrix_free(one);
-    gsl_matrix_free(k);
-    return good;
-}
-
-/* Unit length; of the largest coefficients (to 1e-9) the first is positive. */
-static void take_vector(const gsl_matrix *v, int column, int n, double *out)
-{
-    double sum = 0.0, largest = 0.0;
-    int first = 0;
-    for (int i = 0; i < n; i++) {
-        out[i] = gsl_matrix_get(v, i, column);
-        sum += out[i] * out[i];
-        if (fabs(out[i]) > largest * (1.0 + 1e-9)) {
-            largest = fabs(out[i]);
-            first = i;
-        }
-    }
-    double scale = (out[first] < 0.0 ? -1.0 : 1.0) / sqrt(sum);
-    for (int i = 0; i < n; i++)
-        out[i] *= scale;
-}
-
+/* All modes below w, and their vectors, of whose largest coefficients (to 1e-9) the last is positive; false: K is not
+   positive definite. */
 static bool class_solve(struct ritz *r, int which, double w, struct arena *a, struct object_list *l)
 {
     struct class *c = &r->class[which];
     class_terms(c, r, which, a);
-    if (c->n == 0) return true;
-    gsl_vector *mu = gsl_vector_alloc(c->n);
-    gsl_matrix *v = gsl_matrix_alloc(c->n, c->n);
-    bool good = class_eigen(c, r, mu, v);
-    while (good && c->modes < c->n && gsl_vector_get(mu, c->modes) > 1.0 / (w * w))
-        c->modes++;
-    c->vector = ARENA_TAKE(a, double, c->modes * c->n);
+    struct arena *room = arena_open();
+    double *k = ARENA_TAKE(room, double, (size_t)c->n * c->n), *mu = ARENA_TAKE(room, double, c->n);
+    for (int i = 0; i < c->n; i++)
+        for (int j = 0; j <= i; j++)
+            k[(size_t)i * c->n + j] = stiffness(r, c->term[i], c->term[j]);
+    c->modes = eigen_inverse(c->n, k) ? eigen_above(c->n, k, 1.0 / (w * w), a, mu, &c->vector) : -1;
     for (int i = 0; i < c->modes; i++) {
-        take_vector(v, i, c->n, c->vector + (size_t)i * c->n);
-        object_list_add(l, a, (struct object_mode){.w = 1.0 / sqrt(gsl_vector_get(mu, i)), .a = which, .b = i});
+        make_positive(c->n, c->vector + (size_t)i * c->n);
+        object_list_add(l, a, (struct object_mode){.w = 1.0 / sqrt(mu[i]), .a = which, .b = i});
     }
-    gsl_matrix_free(v);
-    gsl_vector_free(mu);
-    return good;
+    arena_close(room);
+    return c->modes >= 0;
 }
 
 /* ------------------------------------------------------------------ the plate */
