@@ -1,8 +1,9 @@
-/* Householder's reduction to a tridiagonal matrix, its eigenvalues and vectors by implicit QL steps with Wilkinson's
-   shift, and the vectors turned back (Wilkinson and Reinsch, Handbook for Automatic Computation II, 1971, II/2 tred2,
-   II/4 imtql2). The reduction begins at the last row, which becomes the top of the tridiagonal matrix; QL takes the
-   eigenvalues there first. Where these are the large ones, it ends when all above `least` are found; how many these are
-   Sturm's sequence tells beforehand. */
+/* Householder's reduction to a tridiagonal matrix, its eigenvalues and vectors by implicit QL steps, and the vectors
+   turned back (Wilkinson and Reinsch, Handbook for Automatic Computation II, 1971, II/2 tred2, II/4 imtql2). The
+   reduction begins at the last row, which becomes the top of the tridiagonal matrix, where QL takes eigenvalues first.
+   Its shift is not Wilkinson's, the eigenvalue of the top 2 x 2 that is nearer to its corner, but the larger one: where
+   large ones begin at the top, they come one after the other. It ends when all above `least` are found; how many these
+   are Sturm's sequence tells beforehand. */
 #include "num/eigen.h"
 
 #include <math.h>
@@ -164,8 +165,9 @@ static void rotate(int n, double *z, int low, int high, const double (*cs)[2])
 /* One step on rows l to m. Returns the lowest row that was turned. */
 static int ql_step(const struct tridiagonal *t, int l, int m, double (*cs)[2])
 {
-    double *d = t->d, *e = t->e, g = (d[l + 1] - d[l]) / (2 * e[l]), r = sqrt(g * g + 1), s = 1, c = 1, p = 0;
-    g = d[m] - d[l] + e[l] / (g + (g < 0 ? -r : r));
+    double *d = t->d, *e = t->e, half = 0.5 * (d[l + 1] - d[l]), r = sqrt(half * half + e[l] * e[l]), s = 1, c = 1,
+           p = 0;
+    double g = d[m] - d[l] - (half < 0 ? e[l] * e[l] / (r - half) : half + r);
     for (int i = m - 1; i >= l; i--) {
         double f = s * e[i], b = c * e[i];
         r = sqrt(f * f + g * g);
