@@ -20,14 +20,18 @@
 LANES_CLONES
 void object_sum(int n, int modes, const double *rows, const double *weight, double *sum)
 {
-    for (int i = 0; i < modes; i++)
-        sum[i] = 0.0;
-    for (int t = 0; t < n; t++) {
-        const double *row = rows + (size_t)t * modes;
-        double w = weight[t];
+    for (int first = 0; first < modes; first += OBJECT_SUM) {
+        double part[OBJECT_SUM];
+        const double *row = rows + first;
+        for (int i = 0; i < OBJECT_SUM; i++)
+            part[i] = row[i] * weight[0];
+        for (int t = 1; t < n; t++) {
+            row += modes;
 #pragma omp simd
-        for (int i = 0; i < modes; i++)
-            sum[i] = fma(row[i], w, sum[i]);
+            for (int i = 0; i < OBJECT_SUM; i++)
+                part[i] = fma(row[i], weight[t], part[i]);
+        }
+        memcpy(sum + first, part, sizeof part);
     }
 }
 
@@ -342,6 +346,7 @@ void object_radial_bind(struct arena *a, struct object *o)
     o->radius = radius / sqrt(2.0);
     o->flat = true;
     o->shapes = radial_shapes;
+    o->terms = (double)t->blocks * t->terms * RADIAL_CHUNK;
     object_set_table(o, a, t);
 }
 

@@ -21,7 +21,9 @@ struct object {
     /* Mode shapes [n] at a place (m, the object's coordinates); returns how far (m) off the object it lies: there the
      * nearest place counts. */
     double (*shapes)(const struct object *, double x, double y, double *phi);
-    double terms; /* products that `shapes` sums up at a place (Rayleigh-Ritz); else 0      */
+    /* The same for `count` places on it with the same y, phi [count][n], for less; NULL: there is no such way. */
+    void (*row)(const struct object *, int count, const double *x, double y, double *phi);
+    double terms; /* products that `row`, or else `shapes`, sums up at a place               */
     const void *self;
 };
 

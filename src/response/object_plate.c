@@ -312,64 +312,101 @@ bool object_plate_ritz(const struct object_body *b, const struct object_limit *l
 
 /* ------------------------------------------------------------------ shapes */
 
-struct block { /* the modes of one class */
-    int n, modes, (*term)[2];
-    double *c; /* [n][modes], times 2: the mean of phi^2 over the plate is 1 */
-    int *to;   /* [modes] place in phi */
+/* Products of functions of x and of y: at one y the sums over n are made once, [m][modes], for all x. */
+enum { CHUNK = 64, PLACES = 16 }; /* modes of a block, places at a time */
+
+struct block {        /* up to CHUNK modes of one class */
+    int modes, width; /* width: modes, rounded up to a multiple of OBJECT_SUM */
+    int n, rows;
+    int (*term)[2]; /* [n], m falling */
+    int (*row)[2];  /* [rows]: an m, how many terms it has */
+    double *c;      /* [n][width], times 2: the mean of phi^2 over the plate is 1 */
+    int to[CHUNK];  /* place in phi */
 };
 
 struct table {
     struct jacobi x, y;
-    int nx, ny;
-    struct block block[CLASSES];
+    int nx, ny, blocks;
+    struct block *block;
 };
 
-static void block_sum(const struct block *k, const double *x, const double *y, double *phi)
+/* phi [count][modes] for functions fx [count][JACOBI_MOST], fy. */
+static void block_row(const struct block *k, int count, double (*fx)[JACOBI_MOST], const double *fy, int modes,
+                      double *phi)
 {
-    double weight[2 * FUNCTIONS], sum[MOST];
-    for (int t = 0; t < k->n; t++)
-        weight[t] = x[k->term[t][0]] * y[k->term[t][1]];
-    object_sum(k->n, k->modes, k->c, weight, sum);
-    for (int i = 0; i < k->modes; i++)
-        phi[k->to[i]] = sum[i];
+    double at_y[JACOBI_MOST][CHUNK], weight[JACOBI_MOST], sum[CHUNK];
+    for (int r = 0, t = 0; r < k->rows; t += k->row[r++][1]) {
+        for (int i = 0; i < k->row[r][1]; i++)
+            weight[i] = fy[k->term[t + i][1]];
+        object_sum(k->row[r][1], k->width, k->c + (size_t)t * k->width, weight, at_y[0] + r * k->width);
+    }
+    for (int p = 0; p < count; p++) {
+        for (int r = 0; r < k->rows; r++)
+            weight[r] = fx[p][k->row[r][0]];
+        object_sum(k->rows, k->width, at_y[0], weight, sum);
+        for (int i = 0; i < k->modes; i++)
+            phi[(size_t)p * modes + k->to[i]] = sum[i];
+    }
+}
+
+static void row(const struct object *o, int count, const double *x, double y, double *phi)
+{
+    const struct table *t = (const struct table *)object_inside(o)->table;
+    double fx[PLACES][JACOBI_MOST], fy[JACOBI_MOST];
+    special_jacobi_values(&t->y, t->ny, 2.0 * y / o->high[1] - 1.0, fy);
+    for (int first = 0; first < count; first += PLACES) {
+        int n = count - first < PLACES ? count - first : PLACES;
+        for (int p = 0; p < n; p++)
+            special_jacobi_values(&t->x, t->nx, 2.0 * x[first + p] / o->high[0] - 1.0, fx[p]);
+        for (int i = 0; i < t->blocks; i++)
+            block_row(&t->block[i], n, fx, fy, o->n, phi + (size_t)first * o->n);
+    }
 }
 
 static double shapes(const struct object *o, double x, double y, double *phi)
 {
-    const struct table *t = (const struct table *)object_inside(o)->table;
-    double fx[JACOBI_MOST], fy[JACOBI_MOST], off = object_nearest(o, &x, &y);
-    special_jacobi_values(&t->x, t->nx, 2.0 * x / o->high[0] - 1.0, fx);
-    special_jacobi_values(&t->y, t->ny, 2.0 * y / o->high[1] - 1.0, fy);
-    for (int i = 0; i < CLASSES; i++)
-        if (t->block[i].modes > 0) block_sum(&t->block[i], fx, fy, phi);
+    double off = object_nearest(o, &x, &y);
+    row(o, 1, &x, y, phi);
     return off;
+}
+
+/* The modes of class `which` from mode[*from] on, until the block is full. */
+static void block_fill(struct block *k, const struct object *o, int which, int *from, struct arena *a)
+{
+    const struct class *c = &((const struct ritz *)object_inside(o)->list.work)->class[which];
+    const struct object_mode *mode = object_inside(o)->list.mode;
+    *k = (struct block){.n = c->n, .term = c->term, .row = (int(*)[2])arena_take(a, JACOBI_MOST, sizeof *k->row)};
+    for (; *from < o->n && k->modes < CHUNK; ++*from)
+        if (mode[*from].a == which) k->to[k->modes++] = *from;
+    k->width = (k->modes + OBJECT_SUM - 1) / OBJECT_SUM * OBJECT_SUM;
+    k->c = ARENA_TAKE(a, double, k->n * k->width);
+    for (int t = 0; t < k->n; t++) {
+        if (t == 0 || c->term[t][0] != c->term[t - 1][0]) k->row[k->rows++][0] = c->term[t][0];
+        k->row[k->rows - 1][1]++;
+        for (int q = 0; q < k->modes; q++)
+            k->c[(size_t)t * k->width + q] = 2.0 * c->vector[(size_t)mode[k->to[q]].b * c->n + t];
+    }
 }
 
 static void ritz_bind(struct arena *a, struct object *o)
 {
     const struct ritz *r = (const struct ritz *)object_inside(o)->list.work;
-    const struct object_mode *mode = object_inside(o)->list.mode;
     struct table *t = ARENA_TAKE(a, struct table, 1);
     t->x = r->x.functions;
     t->y = r->y.functions;
     t->nx = r->x.n;
     t->ny = r->y.n;
+    t->block = ARENA_TAKE(a, struct block, o->n / CHUNK + CLASSES);
     o->terms = 0;
-    for (int i = 0; i < CLASSES; i++) {
-        const struct class *c = &r->class[i];
-        struct block *k = &t->block[i];
-        k->n = c->n;
-        k->term = c->term;
-        k->to = ARENA_TAKE(a, int, o->n);
-        for (int q = 0; q < o->n; q++)
-            if (mode[q].a == i) k->to[k->modes++] = q;
-        k->c = ARENA_TAKE(a, double, k->n * k->modes);
-        for (int q = 0; q < k->modes; q++)
-            for (int s = 0; s < k->n; s++)
-                k->c[(size_t)s * k->modes + q] = 2.0 * c->vector[(size_t)mode[k->to[q]].b * c->n + s];
-        o->terms += (double)k->n * k->modes;
-    }
+    for (int i = 0; i < CLASSES; i++)
+        for (int from = 0; from < o->n;) {
+            struct block *k = &t->block[t->blocks];
+            block_fill(k, o, i, &from, a);
+            o->terms += (double)k->rows * k->width;
+            t->blocks += k->modes > 0;
+        }
     o->shapes = shapes;
+    o->row = row;
     object_set_table(o, a, t);
 }
 

@@ -135,11 +135,10 @@ static int panels_points(const struct panels *x, int points, double *at, double 
        p(x) e^(s t) ,   p(x) = (s rho / 2 pi) int v_n(y) e^(-s R / c) / R dS ,   R = |x - y| ,
 
    here at each mode's own pole s_i = -decay + j 2 pi f (so that its free decay is exact, not that of the undamped mode
-   at j 2 pi f). Shapes phi_i come from the modes' own gains: these are made with a reference place l as the one that is
-   heard, A_i(y) = const phi_i(y) phi_i(l), hence
+   at j 2 pi f). The modes' gains are made with a reference place l as the one that is heard, A_i(y) = const phi_i(y)
+   phi_i(l), hence
 
-       factor_i = (s_i rho / 2 pi) int phi_i(y)/phi_i(l) e^(-s_i (R - R_0) / c) / R dS ,   phi_i(y)/phi_i(l) =
-         A_i(y)/A_i(l) ,
+       factor_i = (s_i rho / 2 pi) int phi_i(y)/phi_i(l) e^(-s_i (R - R_0) / c) / R dS ,
 
    R_0 the distance of the object's centre, whose delay R_0/c is left to the caller.
 
@@ -218,42 +217,38 @@ void radiator_plate_reference(const struct object *o, struct arena *a, double pl
 struct work {
     const struct radiator_plate *given;
     int n;
-    double far;          /* m, R_0 */
-    struct panels *axes; /* [2]: x and y, or r and angle */
-    double *inverse;     /* [n]: 1/A(l) of what A(y) is projected on: (re, im)/|A(l)|^2 in two arrays */
-    double *inverse_im;
-    struct modes_point point;
-    double *shape, *grow, *turn, *c; /* [n] */
-    double *sum[2], *size;           /* [n] */
+    double far;              /* m, R_0 */
+    struct panels *axes;     /* [2]: x and y, or r and angle */
+    double *inverse;         /* [n]: 1/phi(l) */
+    double *grow, *turn, *c; /* [n] */
+    double *sum[2], *size;   /* [n] */
 };
 
-/* Adds the element dS at y (the object's coordinates). */
-static void element(struct work *w, double x, double y, double dS)
+/* Adds the element dS at y (the object's coordinates), where the shapes are phi. */
+static void element(struct work *w, double x, double y, double dS, const double *phi)
 {
     const struct radiator_plate *p = w->given;
     const struct modes *m = p->modes;
     double dx = p->place[0] - p->origin[0] - x, dy = p->place[1] - p->origin[1] - y, z = p->place[2];
     double R = sqrt(dx * dx + dy * dy + z * z), late = (R - w->far) / p->sound_speed, share = dS / R;
-    modes_at(m, &(struct modes_where){p->origin[0] + x, p->origin[1] + y, 0}, &w->point);
     for (int i = 0; i < w->n; i++) {
-        w->shape[i] = w->point.re[i] * w->inverse[i] + w->point.im[i] * w->inverse_im[i];
         w->grow[i] = m->decay[i] * late;
         w->turn[i] = 2 * m->frequency[i] * late;
     }
     vecmath_exp((size_t)w->n, w->grow, w->grow);
     vecmath_sincospi((size_t)w->n, w->turn, w->turn, w->c);
     for (int i = 0; i < w->n; i++) {
-        double v = share * w->shape[i] * w->grow[i];
+        double v = share * phi[i] * w->inverse[i] * w->grow[i];
         w->sum[0][i] += v * w->c[i];
         w->sum[1][i] -= v * w->turn[i];
         w->size[i] += fabs(v);
     }
 }
 
-/* All of it, with so many points to a panel. */
+/* All of it, with so many points to a panel: row after row in y, or circles' radii at one angle after the other. */
 static void integrate(struct work *w, int points, struct arena *a)
 {
-    bool round = is_round(w->given->object);
+    const struct object *o = w->given->object;
     double *at[2], *weight[2];
     int n[2];
     for (int k = 0; k < 2; k++) {
@@ -261,17 +256,18 @@ static void integrate(struct work *w, int points, struct arena *a)
         weight[k] = ARENA_TAKE(a, double, w->axes[k].n *points);
         n[k] = panels_points(&w->axes[k], points, at[k], weight[k]);
     }
+    double *phi = ARENA_TAKE(a, double, (size_t)n[0] * w->n);
     for (int k = 0; k < 2; k++)
         memset(w->sum[k], 0, (size_t)w->n * sizeof *w->sum[k]);
     memset(w->size, 0, (size_t)w->n * sizeof *w->size);
     for (int j = 0; j < n[1]; j++) {
-        double v = at[1][j], c = round ? real_cos(v) : 0, s = round ? real_sin(v) : 0;
+        double v = at[1][j], c = is_round(o) ? real_cos(v) : 0, s = is_round(o) ? real_sin(v) : 0;
+        if (o->row) o->row(o, n[0], at[0], v, phi);
         for (int i = 0; i < n[0]; i++) {
-            double u = at[0][i], dS = weight[0][i] * weight[1][j];
-            if (round)
-                element(w, u * c, u * s, u * dS);
-            else
-                element(w, u, v, dS);
+            double u = at[0][i], dS = weight[0][i] * weight[1][j], *shape = phi + (size_t)i * w->n;
+            double x = is_round(o) ? u * c : u, y = is_round(o) ? u * s : v;
+            if (!o->row) o->shapes(o, x, y, shape);
+            element(w, x, y, is_round(o) ? u * dS : dS, shape);
         }
     }
 }
@@ -324,20 +320,17 @@ static bool settled(const struct work *w, const double *re, const double *im)
     return true;
 }
 
-/* 1/A(l), as A* / |A|^2. */
+/* 1/phi(l) */
 static bool reference_set(struct work *w, struct err *e)
 {
     const struct radiator_plate *p = w->given;
-    modes_at(p->modes, &(struct modes_where){p->origin[0] + p->reference[0], p->origin[1] + p->reference[1], 0},
-             &w->point);
+    p->object->shapes(p->object, p->reference[0], p->reference[1], w->inverse);
     for (int i = 0; i < w->n; i++) {
-        double re = w->point.re[i], im = w->point.im[i], power = re * re + im * im;
-        if (!(power > 0))
+        if (w->inverse[i] == 0)
             return err_set(e, ERR_NUMBERS,
                            "%s: the plate's sound cannot be found: the mode of %.6g Hz is still at every place tried",
                            p->modes->name, p->modes->frequency[i]);
-        w->inverse[i] = re / power;
-        w->inverse_im[i] = im / power;
+        w->inverse[i] = 1 / w->inverse[i];
     }
     return true;
 }
@@ -348,9 +341,8 @@ static struct work work_make(const struct radiator_plate *p, struct arena *a)
     struct work w = {.given = p,
                      .n = n,
                      .far = radiator_plate_distance(p->object, p->origin, p->place),
-                     .axes = ARENA_TAKE(a, struct panels, 2),
-                     .point = modes_point_make(a, n)};
-    double **arrays[] = {&w.inverse, &w.inverse_im, &w.shape, &w.grow, &w.turn, &w.c, &w.sum[0], &w.sum[1], &w.size};
+                     .axes = ARENA_TAKE(a, struct panels, 2)};
+    double **arrays[] = {&w.inverse, &w.grow, &w.turn, &w.c, &w.sum[0], &w.sum[1], &w.size};
     for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++)
         *arrays[k] = ARENA_TAKE(a, double, n);
     return w;

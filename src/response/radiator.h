@@ -29,7 +29,7 @@ bool radiator_monopole_sampled(const struct radiator_monopole *m, double rate);
 struct radiator_plate {
     const struct modes
         *modes; /* of velocity, linear in the shape where they are touched: made with `listen` = reference */
-    const struct object *object; /* its outline: shape, low, high */
+    const struct object *object; /* the modes': its outline (shape, low, high) and their shapes */
     double reference[2]; /* m, the object's coordinates                                                             */
     double origin[2];    /* m: where the object's x = y = 0 lies in the scene                                       */
     double place[3];     /* m, in the scene: where it is heard, z > 0                                               */
