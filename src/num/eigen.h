@@ -12,8 +12,8 @@
 bool eigen_inverse(int n, double *a);
 
 /* The eigenvalues above `least`, falling, into value[n], and their vectors, of unit length, as the rows of *vector
-   [found][n] (in the arena). Error of values: at most 2e-16 n of the largest magnitude. Returns how many; -1: QL's steps
-   have no end. a is lost. Fastest where the last rows hold most of the large eigenvalues. */
+   [found][n] (in the arena). Error of values: at most 2e-16 n of the largest magnitude. Returns how many; -1: QL has
+   no end. a is lost. Fastest where the last rows hold most of the large eigenvalues. */
 int eigen_above(int n, double *a, double least, struct arena *arena, double *value, double **vector);
 
 #endif

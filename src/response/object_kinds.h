@@ -94,7 +94,8 @@ void object_radial_list(const struct object_radial *q, const struct object_limit
                         struct arena *a, struct object_list *l);
 void object_radial_bind(struct arena *a, struct object *o); /* the list's work is the object_radial */
 
-/* sum[0..modes) = sum over t < n of weight[t] row_t, rows [n][modes], in order; n > 0, modes a multiple of OBJECT_SUM */
+/* sum[0..modes) = sum over t < n of weight[t] row_t, rows [n][modes], in order; n > 0, modes a multiple of OBJECT_SUM
+ */
 enum { OBJECT_SUM = 16 };
 
 void object_sum(int n, int modes, const double *rows, const double *weight, double *sum);
