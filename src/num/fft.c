@@ -1,10 +1,8 @@
-/* FFTW's real transforms through its guru interface for split arrays. One plan has work arrays of its own, because FFTW
-   asks that re and im lie as far apart when a plan runs as when it was made, and because its inverse destroys its
-   input.
+/* FFTW's real transforms to half-complex order, re[0], re[1], ..., im[2], im[1]: as fast as its transforms to split
+   arrays, and planned in a fifth of the instructions.
 
-   Plans of up to CACHED_POINTS stay until the program ends, the first CACHED_MOST of them: making one takes 19 million
-   instructions at 16 000 points, running it 2. A plan may be run on other arrays than it was made for, by several
-   threads at once.
+   Plans of up to CACHED_POINTS stay until the program ends, the first CACHED_MOST of them: making one takes about as
+   long as a dozen transforms. A plan may be run on other arrays than it was made for, by several threads at once.
 
    FFTW's planner is one for the whole program: plans are made and given up by one thread at a time.
 
@@ -37,8 +35,7 @@ struct plans {
 struct fft {
     size_t n, bins; /* bins = n/2 + 1 */
     struct plans *plans;
-    double *spectrum; /* re[bins], im[bins] */
-    double *time;     /* [n] */
+    double *half; /* [n], half-complex */
 };
 
 static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
@@ -71,20 +68,19 @@ static void *or_end(void *p, size_t n)
     return p;
 }
 
-/* One direction, when it is first wanted: each takes as long as a dozen transforms, and who looks at spectra needs one.
-   Wisdom, which FFTW gathers even when it estimates, is forgotten first: a plan must not depend on those made before
-   it. */
-static fftw_plan plan_of(const struct fft *f, bool forward)
+/* One direction, when it is first wanted: who looks at spectra needs one. Wisdom, which FFTW gathers even when it
+   estimates, is forgotten first: a plan must not depend on those made before it. */
+static fftw_plan plan_of(const struct fft *f, double *x, bool forward)
 {
     fftw_iodim64 dim = {.n = (ptrdiff_t)f->n, .is = 1, .os = 1};
-    double *re = f->spectrum, *im = f->spectrum + f->bins;
+    fftw_r2r_kind kind = forward ? FFTW_R2HC : FFTW_HC2R;
+    double *in = forward ? x : f->half, *out = forward ? f->half : x;
     pthread_mutex_lock(&planner);
     fftw_plan *p = forward ? &f->plans->forward : &f->plans->inverse;
     if (!*p) {
         fftw_forget_wisdom();
-        *p = or_end(forward
-                        ? fftw_plan_guru64_split_dft_r2c(1, &dim, 0, NULL, f->time, re, im, FLAGS | FFTW_PRESERVE_INPUT)
-                        : fftw_plan_guru64_split_dft_c2r(1, &dim, 0, NULL, re, im, f->time, FLAGS | FFTW_DESTROY_INPUT),
+        *p = or_end(fftw_plan_guru64_r2r(1, &dim, 0, NULL, in, out, &kind,
+                                         FLAGS | (forward ? FFTW_PRESERVE_INPUT : FFTW_DESTROY_INPUT)),
                     f->n);
     }
     pthread_mutex_unlock(&planner);
@@ -115,8 +111,7 @@ struct fft *fft_open(size_t n)
 {
     struct fft *f = or_end(fftw_malloc(sizeof *f), n);
     *f = (struct fft){.n = n, .bins = n / 2 + 1};
-    f->spectrum = or_end(fftw_malloc(2 * f->bins * sizeof(double)), n);
-    f->time = or_end(fftw_malloc(n * sizeof(double)), n);
+    f->half = or_end(fftw_malloc(n * sizeof(double)), n);
     pthread_mutex_lock(&planner);
     for (f->plans = keeping.first; f->plans && f->plans->n != n;)
         f->plans = f->plans->next;
@@ -133,25 +128,26 @@ void fft_close(struct fft *f)
         plans_drop(f->plans);
         pthread_mutex_unlock(&planner);
     }
-    fftw_free(f->spectrum);
-    fftw_free(f->time);
+    fftw_free(f->half);
     fftw_free(f);
 }
 
 void fft_forward(struct fft *f, const double *x, double *re, double *im)
 {
-    memcpy(f->time, x, f->n * sizeof *x);
-    fftw_execute_split_dft_r2c(plan_of(f, true), f->time, f->spectrum, f->spectrum + f->bins);
-    memcpy(re, f->spectrum, f->bins * sizeof *re);
-    memcpy(im, f->spectrum + f->bins, f->bins * sizeof *im);
+    double *in = (double *)(uintptr_t)x; /* is preserved */
+    fftw_execute_r2r(plan_of(f, in, true), in, f->half);
+    memcpy(re, f->half, f->bins * sizeof *re);
+    im[0] = im[f->bins - 1] = 0;
+    for (size_t k = 1; 2 * k < f->n; k++)
+        im[k] = f->half[f->n - k];
 }
 
 void fft_inverse(struct fft *f, const double *re, const double *im, double *x)
 {
-    memcpy(f->spectrum, re, f->bins * sizeof *re);
-    memcpy(f->spectrum + f->bins, im, f->bins * sizeof *im);
-    fftw_execute_split_dft_c2r(plan_of(f, false), f->spectrum, f->spectrum + f->bins, f->time);
-    memcpy(x, f->time, f->n * sizeof *x);
+    memcpy(f->half, re, f->bins * sizeof *re);
+    for (size_t k = 1; 2 * k < f->n; k++)
+        f->half[f->n - k] = im[k];
+    fftw_execute_r2r(plan_of(f, x, false), f->half, x);
 }
 
 static size_t without(size_t n, size_t factor)

@@ -181,9 +181,8 @@ START_TEST(earlier_plans_do_not_matter)
     struct fft *f = fft_open(LARGEST);
     fft_forward(f, x, first[0], first[1]);
     fft_close(f);
-    double *in = fftw_malloc(sizeof x), *out = fftw_malloc(2 * BINS * sizeof(double));
-    fftw_iodim64 dim = {LARGEST, 1, 1};
-    fftw_destroy_plan(fftw_plan_guru64_split_dft_r2c(1, &dim, 0, NULL, in, out, out + BINS, FLAGS & ~FFTW_ESTIMATE));
+    double *in = fftw_malloc(sizeof x), *out = fftw_malloc(sizeof x);
+    fftw_destroy_plan(fftw_plan_r2r_1d(LARGEST, in, out, FFTW_R2HC, FLAGS & ~FFTW_ESTIMATE));
     fftw_free(in);
     fftw_free(out);
     for (size_t n = 2; n < 3000; n = 3 * n / 2 + n / 2 % 2)
@@ -201,10 +200,9 @@ START_TEST(no_simd)
     static double re[BINS], im[BINS];
     for (int s = 0; s < SIZES; s++) {
         size_t n = sizes[s];
-        fftw_iodim64 dim = {(ptrdiff_t)n, 1, 1};
-        double *x = fftw_malloc(LARGEST * sizeof(double)), *out = fftw_malloc(2 * BINS * sizeof(double));
+        double *x = fftw_malloc(LARGEST * sizeof(double)), *out = fftw_malloc(LARGEST * sizeof(double));
         fftw_forget_wisdom();
-        fftw_plan p = fftw_plan_guru64_split_dft_r2c(1, &dim, 0, NULL, x, out, out + n / 2 + 1, FLAGS);
+        fftw_plan p = fftw_plan_r2r_1d((int)n, x, out, FFTW_R2HC, FLAGS);
         char *text = fftw_sprint_plan(p);
         ck_assert_msg(!strstr(text, "avx") && !strstr(text, "sse") && !strstr(text, "fv_"), "%s", text);
         fill(x, n, 2);
@@ -212,7 +210,9 @@ START_TEST(no_simd)
         struct fft *f = fft_open(n);
         fft_forward(f, x, re, im);
         ck_assert_mem_eq(re, out, (n / 2 + 1) * sizeof(double));
-        ck_assert_mem_eq(im, out + n / 2 + 1, (n / 2 + 1) * sizeof(double));
+        ck_assert(im[0] == 0 && im[n / 2] == 0);
+        for (size_t k = 1; k < n / 2; k++)
+            ck_assert(im[k] == out[n - k]);
         fft_close(f);
         fftw_destroy_plan(p);
         free(text);
@@ -241,7 +241,7 @@ START_TEST(same_bits_everywhere)
         fft_close(f);
     }
     printf("hash %016llx\n", (unsigned long long)h);
-    ck_assert_uint_eq(h, 0xd54394fdee488569);
+    ck_assert_uint_eq(h, 0x9db3f7886dbb6012);
 }
 END_TEST
 
