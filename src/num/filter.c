@@ -62,13 +62,15 @@ static void low_pass(double *g, int reach, int over, bool odd)
  */
 static struct droop droop_make(int over, bool squared)
 {
-    double edge = real_sinpi(PASS / over), left = 0;
+    double edge = real_sinpi(PASS / over), left = 0, cosine[4 * NODES]; /* cos(pi m / (2 NODES)) */
+    for (int m = 0; m < 4 * NODES; m++)
+        cosine[m] = real_cospi(0.5 * m / NODES);
     struct droop d = {.y_top = edge * edge, .order = NODES - 1};
     for (int i = 0; i < NODES; i++) {
-        double y = 0.5 * d.y_top * (1 + real_cospi((i + 0.5) / NODES));
+        double y = 0.5 * d.y_top * (1 + cosine[2 * i + 1]);
         double once = real_atan2(sqrt(y), sqrt(1 - y)) / sqrt(y), wanted = squared ? once * once : once;
         for (int k = 0; k < NODES; k++)
-            d.c[k] += (k ? 2.0 : 1.0) / NODES * wanted * real_cospi(k * (i + 0.5) / NODES);
+            d.c[k] += (k ? 2.0 : 1.0) / NODES * wanted * cosine[k * (2 * i + 1) % (4 * NODES)];
     }
     while (d.order > 0 && left + fabs(d.c[d.order]) < DROOP_LEFT)
         left += fabs(d.c[d.order--]);

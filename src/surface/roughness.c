@@ -18,6 +18,7 @@
 #include "file/heightfile.h"
 #include "num/fft.h"
 #include "num/real.h"
+#include "num/vecmath.h"
 #include "scene/rows.h"
 #include "scene/scene_part.h"
 #include "stage.h"
@@ -160,11 +161,24 @@ struct blocks {
 static void blocks_spread(struct blocks *g, const struct spectrum *s, double pitch)
 {
     double dk = 1 / ((double)g->n * pitch);
+    for (long j = 0; j < g->n / 2; j++)
+        g->re[j] = 2 * (double)j / (double)g->n;
+    vecmath_sincospi((size_t)g->n / 2, g->re, g->im, g->re);
     for (long j = 0; j < g->n / 2; j++) {
-        double power = spectrum_power(s, ((double)j - 0.5) * dk, ((double)j + 0.5) * dk),
-               spline = (2 + real_cospi(2 * (double)j / (double)g->n)) / 3;
+        double power = spectrum_power(s, ((double)j - 0.5) * dk, ((double)j + 0.5) * dk), spline = (2 + g->re[j]) / 3;
         g->spread[j] = sqrt(power / (j == 0 ? 1 : 4)) / spline;
     }
+}
+
+static void blocks_window(struct blocks *g)
+{
+    double *w = g->window;
+    for (long i = 0; i < g->n; i++)
+        w[i] = ((double)i + 0.5) / (double)g->n;
+    vecmath_sincospi((size_t)g->n, w, w, g->normal);
+    for (long i = 0; i < g->n; i++)
+        w[i] *= 0.5 * w[i];
+    vecmath_sincospi((size_t)g->n, w, w, g->normal);
 }
 
 static void blocks_fill(void *self, long index, long row, double *c)
@@ -223,10 +237,7 @@ struct profile *roughness_blocks(struct arena *a, const struct spectrum *s, stru
                          .normal = ARENA_TAKE(a, double, n)};
     cached = cached < BLOCKS_LEAST ? BLOCKS_LEAST : cached > BLOCKS_MOST ? BLOCKS_MOST : cached;
     g->cache = block_cache_make(a, (size_t)n, (size_t)cached, blocks_fill, g);
-    for (long i = 0; i < n; i++) {
-        double sine = real_sinpi(((double)i + 0.5) / (double)n);
-        g->window[i] = real_sinpi(sine * sine / 2);
-    }
+    blocks_window(g);
     blocks_spread(g, s, pitch);
     *p = (struct profile){
         .pitch = pitch, .from = -HUGE_VAL, .to = HUGE_VAL, .read = blocks_read, .state = g, .close = blocks_close};
