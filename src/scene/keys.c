@@ -39,9 +39,9 @@ static void longer(const char **best, const char *place, const char *section)
     if (!strncmp(place, section, n) && strchr(".", section[n]) && (!*best || strlen(*best) < n)) *best = place;
 }
 
-/* Do the rows of p stand at that place? It is the longest that its section is in, of `maps` and of the rows that are
-   places. */
-static bool is_here(const struct params *p, const char *place)
+/* The place at which the rows of p stand: the longest that its section is in, of `maps` and of the rows that are places.
+ */
+static const char *home_of(const struct params *p)
 {
     const struct params *other;
     const char *best = NULL;
@@ -50,7 +50,7 @@ static bool is_here(const struct params *p, const char *place)
     for (int i = 0; (other = stages_params(i)); i++)
         for (const struct key *k = other->keys; k && k->path; k++)
             if (!k->meaning) longer(&best, k->path, p->section);
-    return best && !strcmp(best, place);
+    return best;
 }
 
 /* "*" stands for all parts of the surface that are not named. */
@@ -74,9 +74,12 @@ static void rivals_add(struct key_alternative *t, const struct key_alternative *
     t->most = old->most == 1 ? 1 : n;
 }
 
+enum { HOMES = 200 };
+
 struct taken {
     struct key *keys;
     struct key_section *sections;
+    const char *home[HOMES]; /* of stages_params(i) */
 };
 
 /* The path of a key of `in`. */
@@ -111,7 +114,7 @@ static void rows_take(struct taken *t, const char *place)
 {
     const struct params *p;
     for (int i = 0; (p = stages_params(i)); i++) {
-        if (!is_here(p, place)) continue;
+        if (!t->home[i] || strcmp(t->home[i], place) != 0) continue;
         if (p->meaning)
             *t->sections++ = (struct key_section){p->keys->of, p->size ? params_at(p) : p->base + p->flag, p->section,
                                                   p->meaning, p};
@@ -126,8 +129,12 @@ static void tables_make(void)
     struct key *table = memory_take(MOST * sizeof *table);
     struct key_section *sections = memory_take(MOST * sizeof *sections);
     struct key_alternative *rivals = memory_take(RIVALS * sizeof *rivals), *r = rivals;
-    struct taken t = {table, sections};
+    struct taken t = {table, sections, {NULL}};
     const struct params *p;
+    for (int i = 0; (p = stages_params(i)); i++) {
+        assert(i < HOMES);
+        t.home[i] = home_of(p);
+    }
     for (const struct key *row = scene_own; row->path; row++)
         *t.keys++ = *row;
     for (int i = 0; i < MAPS; i++)
