@@ -39,8 +39,8 @@ static void longer(const char **best, const char *place, const char *section)
     if (!strncmp(place, section, n) && strchr(".", section[n]) && (!*best || strlen(*best) < n)) *best = place;
 }
 
-/* The place at which the rows of p stand: the longest that its section is in, of `maps` and of the rows that are places.
- */
+/* The place at which the rows of p stand: the longest that its section is in, of `maps` and of the rows that are
+   places. */
 static const char *home_of(const struct params *p)
 {
     const struct params *other;
