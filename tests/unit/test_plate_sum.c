@@ -2,6 +2,7 @@
 #include "response/object_plate.c"
 
 #include "objects.h"
+#include "response/radiator.h"
 
 enum { ROW = 37 };
 
@@ -52,4 +53,28 @@ START_TEST(test_plain)
 }
 END_TEST
 
-UNIT("plate_sum", test_plain)
+/* Heard in front of it, row after row or place after place: the same bits. */
+START_TEST(test_heard)
+{
+    struct arena *a = arena_open();
+    struct object o = objects_of(OBJECT_PLATE, EDGES_FREE, 0.3, 20, a);
+    struct modes m;
+    const double origin[2] = {0.0, 0.0};
+    struct radiator_plate p = {.modes = &m, .place = {0.3, 0.2, 0.4}, .density = 1.2, .sound_speed = 343.0};
+    double re[2][20], im[2][20];
+    struct err e = {0};
+    radiator_plate_reference(&o, a, p.reference);
+    object_modes(&o, origin, p.reference, 20, a, &m);
+    for (int k = 0; k < 2; k++) {
+        struct object heard = *m.object;
+        if (k) heard.row = NULL;
+        p.object = &heard;
+        ck_assert_msg(radiator_plate(&p, a, re[k], im[k], &e), "%s", e.text);
+    }
+    ck_assert_mem_eq(re[0], re[1], sizeof re[0]);
+    ck_assert_mem_eq(im[0], im[1], sizeof im[0]);
+    arena_close(a);
+}
+END_TEST
+
+UNIT("plate_sum", test_plain, test_heard)
