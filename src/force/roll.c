@@ -12,6 +12,10 @@
    keeps to the ground below its resonance w0, where f_roll = N + m S'', and above it stays where it is, and the
    ground presses into it: f_roll = N + 1.5 N S/delta. zeta is contact.roll.damping_ratio.
 
+   With follows: point S is of the ground itself, as papers/000 has it (section 4.1: S "is determined as in the
+   scraping model"): what the limiter then takes away is as much as of a scraper. Departure, by default: a ball cannot
+   follow what is narrower than itself.
+
    f_h, f_v are those of what scrapes (force/scrape.c), of the same trajectory S; with contact.force: paper those of
    equations 2 and 3 as printed (force/paper.c), and the rolling term is added to them, not smoothed, as there what is
    smoothed are curvatures.
@@ -177,7 +181,7 @@ static struct roll_stiffness roll_stiffness_make(const struct stage_run *r)
     struct roll_stiffness s = {.normal = load_constant(c), .stiffness = given, .roughness = NAN, .hertz = NAN};
     if (!(s.normal > 0)) return s;
     if (isnan(given) && isnan(depth)) {
-        s.roughness = roll_stiffness_roughness(r->board->relief->under);
+        s.roughness = roll_stiffness_roughness(c->ball.point ? r->board->relief : r->board->relief->under);
         s.hertz = hertz_rest(c, s.normal);
         depth = fmax(s.hertz + ROUGH_SHARE * s.roughness, REST_LEAST);
     }
@@ -660,7 +664,14 @@ static const struct choice penetrations[] = {
                            "equation 16 as printed, rho = R - r cos(x/R) + S, with a stiffness chosen by hand"},
     {NULL, NULL}};
 
+static const struct choice followed[] = {
+    [FOLLOWS_BALL] = {"ball", "the way of a ball's centre, which no valley narrower than the ball lets in"},
+    [FOLLOWS_POINT] = {"point", "the ground itself, as a scraper's point does: papers/000, section 4.1, as printed"},
+    {NULL, NULL}};
+
 static const struct key keys[] = {
+    {ROW_CHOICE(roll, follows, "contact.roll.follows"), KEY_NONE, 0, 0, "ball", ROLLS,
+     "what of the ground the trajectory S is of", followed},
     {ROW_CHOICE(roll, penetration, "contact.roll.penetration"), KEY_NONE, 0, 0, "deviation", ROLLS,
      "what the penetration rho is", penetrations},
     {ROW_NUMBER(roll, lambda, "contact.roll.lambda"), KEY_DISSIPATION, 0, 1e12, "0.1 N s/m^2.5",
@@ -690,10 +701,23 @@ static void paper_check(const struct scene_part *p, const struct contact *c)
                           " has no effect where contact.roll.penetration is paper");
 }
 
+#define PATCH 20e-6 /* m, default of ball.patch */
+
+/* As above: patch's default stands in every effective scene. */
+static void point_check(const struct scene_part *p, const struct contact *c)
+{
+    if (scene_part_given(p, "ball.patch") && c->ball.patch != PATCH)
+        scene_part_refuse(p, "ball.patch", "ball.patch", "remove it (a null takes away what another file says)",
+                          " has no effect where contact.roll.follows is point: the ground is followed itself, and no "
+                          "rolling curve is smoothed");
+}
+
 static void roll_check(const struct scene_part *p, const struct contact *c, const void *own)
 {
     const struct roll *r = own;
-    if (c->ball.patch == 0)
+    if (scene_part_known(p, "contact.roll.follows") && r->follows == FOLLOWS_POINT)
+        point_check(p, c);
+    else if (c->ball.patch == 0)
         scene_part_refuse(
             p, "ball.patch", "ball.patch", "write for instance: patch: 20 um",
             " must be above 0 where contact.model is roll: the force follows from the slope and curvature of the "
@@ -703,10 +727,12 @@ static void roll_check(const struct scene_part *p, const struct contact *c, cons
 
 static bool rolls(const struct contact *c) { return c->contact.model == CONTACT_ROLL; }
 
-/* Of equation 16 as printed the lobes are in the penetration. */
+/* Of equation 16 as printed the lobes are in the penetration. A point has no rolling curve. */
 static void roll_derive(struct contact *c, void *own)
 {
-    c->load.no_lobes = ((const struct roll *)own)->penetration == PENETRATION_PAPER;
+    const struct roll *r = own;
+    c->load.no_lobes = r->penetration == PENETRATION_PAPER;
+    c->ball.point = r->follows == FOLLOWS_POINT;
 }
 
 static const struct params roll_params = {

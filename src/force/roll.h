@@ -9,9 +9,11 @@
 #include "stage.h"
 
 enum penetration { PENETRATION_DEVIATION, PENETRATION_PAPER };
+enum roll_follows { FOLLOWS_BALL, FOLLOWS_POINT };
 
 struct roll {                  /* contact.roll, as far as model roll alone has it             */
     int penetration;           /* enum penetration                                            */
+    int follows;               /* enum roll_follows                                           */
     double lambda;             /* N s/m^2.5, of penetration: paper                            */
     double static_penetration; /* m, penetration at rest; NAN: of both bodies and the ground  */
     double damping_ratio;      /* zeta of the ball's mass on the contact, beside mu's part    */

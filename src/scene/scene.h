@@ -157,6 +157,7 @@ struct ball {           /* what rolls: trajectory/contact.h                     
     int lobes;          /* how often round the ball                                          */
     double patch;       /* m, standard deviation of the Gaussian over the contact patch; 0: none */
     double weight;      /* share of its response in the total                                */
+    bool point;         /* no key: it follows the ground itself, as a point does (force/roll.c)      */
     struct response response;
 };
 
@@ -200,6 +201,7 @@ struct load {
     double constant;          /* N; NAN: the scraper's weight m g                                  */
     const char *recorded;     /* CSV of time_s, normal_force_n; NULL: none                         */
     double approach, release; /* s over which contact is made and given up; NAN: auto            */
+    int phase;                /* enum load_phase, of a ball off its centre                         */
     bool falls;    /* no keys: a ball is dropped, and comes down by itself (convolution/roll_coupled.c);            */
     bool no_lobes; /* what its lobes press is not in N(t) (force/roll.c) */
 };

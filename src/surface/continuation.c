@@ -127,7 +127,7 @@ static double continuation_work(const struct contact *c, const struct scene *s)
     double finest = likely_finest(continuation_of(c)),
            cells = motion_speed(&c->motion) / (s->output.sample_rate * finest);
     if (c->surface.along != ALONG_PLANE) return 8 * relief_readings(s, finest);
-    return isnan(c->scraper.radius) ? 800 * cells + 50 * s->accuracy.oversampling : 1;
+    return relief_tipped(c) ? 1 : 800 * cells + 50 * s->accuracy.oversampling;
 }
 
 static bool continuation_open(struct stage_run *r, struct err *e)

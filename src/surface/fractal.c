@@ -197,12 +197,12 @@ static bool surface_fits(const struct stage_run *r, struct err *e)
                        "surface.along to path or x%s",
                        c->name,
                        r->board->height_map ? " (and take one row of the map, with rasp surface convert --row)" : "");
-    return fractal_of(c)->interpolation == INTERPOLATION_SPLINE || !isnan(c->scraper.radius) ||
+    return fractal_of(c)->interpolation == INTERPOLATION_SPLINE || relief_tipped(c) ||
            err_set(e, ERR_SCENE,
                    "contact '%s': surface.fractal.interpolation must be spline under a point, for which kinks and "
                    "steps are no surface; set it "
-                   "to spline, or give scraper.radius",
-                   c->name);
+                   "to spline, or %s",
+                   c->name, c->ball.point ? "contact.roll.follows to ball" : "give scraper.radius");
 }
 
 /* A whole period and more: the sound repeats itself as the profile does. */

@@ -81,10 +81,13 @@ double relief_kinks(const struct relief *);
 
 /* ------------------------------------------------------------------ what the scene tells */
 
+/* Does a round tip or a ball go over the surface, not a point? */
+static inline bool relief_tipped(const struct contact *c) { return !isnan(c->scraper.radius) && !c->ball.point; }
+
 /* Is no place of the surface come back to? A round tip keeps the heights that it has read. */
 static inline bool relief_once(const struct contact *c)
 {
-    return !isnan(c->scraper.radius) || (motion_straight(&c->motion) && c->motion.path != PATH_BACK_AND_FORTH);
+    return relief_tipped(c) || (motion_straight(&c->motion) && c->motion.path != PATH_BACK_AND_FORTH);
 }
 
 /* Which coordinates the surface follows (enum along); ALONG_AUTO where only a height map's number of rows will tell. */

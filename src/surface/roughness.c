@@ -420,7 +420,7 @@ static double roughness_work(const struct contact *c, const struct scene *s)
     bool plane = relief_along(c) == ALONG_PLANE, shaped = r->like || r->skewness != 0 || r->kurtosis != 3;
     double finest = likely_finest(r), points = relief_readings(s, finest),
            cells = motion_speed(&c->motion) / (s->output.sample_rate * finest);
-    if (plane && !isnan(c->scraper.radius)) return 1;
+    if (plane && relief_tipped(c)) return 1;
     return (plane ? (relief_once(c) ? 900 : 700) * cells + 50 * s->accuracy.oversampling : 8 * points) +
            60 * shaped * points;
 }

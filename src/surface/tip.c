@@ -293,7 +293,7 @@ static const struct params tip_params = {.section = "scraper", .keys = keys, .ch
 static bool tip_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
-    return !isnan(c->scraper.radius);
+    return relief_tipped(c);
 }
 
 /* Going over it again costs nothing. */
@@ -316,7 +316,7 @@ const struct stage tip_stage = {
     .params = &tip_params,
     .does = "round tip: upper envelope of a ball, smoothed over the contact patch",
     .paper = "002 fig. 1",
-    .idle = "no scraper.radius or ball.radius",
+    .idle = "no scraper.radius or ball.radius, or contact.roll.follows is point",
     .needs = ITEM_BIT(ITEM_SURFACE),
     .gives = ITEM_BIT(ITEM_SURFACE),
     .knobs = KNOB_BIT(tip_heights),

@@ -28,7 +28,12 @@
    contact.roll.penetration: paper the lobes are in the penetration, and not here.) As it turns evenly N is largest
    where the centre of mass is lowest, and least where it is highest: there its acceleration points up, and down.
    Papers/000 section 4.1 has it "maximal when the centre of mass moves downwards, and minimal when it moves up", a
-   quarter of a turn earlier, and gives no formula; of a rigid body that does not hold. N < 0: the ball leaves the
+   quarter of a turn earlier, and gives no formula; of a rigid body that does not hold. With load.phase: falling it is
+   so,
+
+     N(t) = m (g cos(incline) - |theta'| d/dt(-r cos theta) + the lobes' part as above)
+
+   the formula ours: as it turns evenly, with the swing of Newton's, a quarter of a turn earlier. N < 0: the ball leaves the
    surface; no force, and counted. It is not followed through the air.
 
    Approach and release: the contact is made over load.approach, p = 10 q^3 - 15 q^4 + 6 q^5 of the force, so that it
@@ -124,6 +129,12 @@ const struct params load_grip_params = {
     .keys = grip_keys,
 };
 
+static const struct choice phases[] = {
+    [LOAD_LOWEST] = {"lowest", "where the centre of mass is lowest, by Newton's second law"},
+    [LOAD_FALLING] = {"falling", "where it moves downwards, a quarter of a turn earlier: papers/000, section 4.1, as "
+                                 "printed"},
+    {NULL, NULL}};
+
 #define LOWERED "contact.model=scrape|roll|roll_coupled|impacts|playback"
 
 /* The hand's keys stand first. */
@@ -136,6 +147,8 @@ static const struct key keys[] = {
      "normal force over time: CSV with the columns time_s, normal_force_n, in the time of a recorded motion's file, "
      "else from the contact's start; values below 0 lift the scraper off",
      .example = "force.csv"},
+    {ROW_CHOICE(contact, load.phase, "load.phase"), KEY_NONE, 0, 0, "lowest", "contact.model=roll",
+     "where the normal force of a ball whose centre of mass is off its centre (ball.offset) is greatest", phases},
     {ROW_TIME_OR_AUTO(contact, load.approach, "load.approach"), KEY_TIME, 0, 10, "auto", LOWERED,
      "time over which the force rises at the start, by 10 u^3 - 15 u^4 + 6 u^5 at the share u of it, as the scraper "
      "(or ball) is lowered; auto: 5 ms where the motion starts at speed, and where there is a force at rest too: of a "
@@ -199,13 +212,18 @@ void load_at(const struct load_law *l, size_t n, const double *t, const double *
 void load_turned(const struct load_law *l, size_t n, const double *u, const double *du, const double *ddu,
                  double *force)
 {
-    double heave[LOAD_SOME];
+    double heave[LOAD_SOME], turning[LOAD_SOME];
     for (size_t first = 0, some; first < n; first += some) {
         double *at = force + first;
         bool lobes = l->spin.lobe_height > 0;
         some = n - first < LOAD_SOME ? n - first : LOAD_SOME;
         spin_at(&l->spin, some, u + first, du + first, ddu + first,
-                &(struct spin_out){.lift = at, .heave = lobes ? heave : NULL});
+                &(struct spin_out){.lift = l->falling ? NULL : at,
+                                   .climb = l->falling ? at : NULL,
+                                   .turning = l->falling ? turning : NULL,
+                                   .heave = lobes ? heave : NULL});
+        for (size_t i = 0; i < some && l->falling; i++)
+            at[i] *= -fabs(turning[i]);
         for (size_t i = 0; i < some && lobes; i++)
             at[i] += heave[i];
         for (size_t i = 0; i < some; i++)
@@ -348,6 +366,7 @@ bool load_make(const struct contact *c, const struct trajectory *tr, struct aren
         l->spin = spin_make(c);
         l->spin.lobe_height = lobes_press(c) ? l->spin.lobe_height : 0;
         l->turned = c->scraper.mass;
+        l->falling = c->load.phase == LOAD_FALLING;
     }
     if (varies && c->grip.given ? !load_grip(c, l, e) : varies && c->load.recorded && !load_recorded(c, tr, a, l, e))
         return false;

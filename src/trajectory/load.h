@@ -11,6 +11,8 @@
 #include "trajectory/spin.h"
 #include "trajectory/trajectory.h"
 
+enum load_phase { LOAD_LOWEST, LOAD_FALLING };
+
 struct load_record;
 
 struct load_law {
@@ -19,6 +21,7 @@ struct load_law {
     const struct load_record *record; /* recorded N(t); NULL: none                        */
     double turned;                    /* kg, of a ball whose turning makes N vary; 0: none          */
     struct spin spin;                 /* of that ball                                               */
+    bool falling;                     /* load.phase: falling                                        */
     double approach, release;         /* s; resolved, 0: none                                   */
     double duration;                  /* s, of the motion                                       */
     double least, most;               /* N over the motion, without approach and release; negative ones counted as 0 */

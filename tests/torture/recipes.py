@@ -80,7 +80,7 @@ def sprinkle(part, model, tool):
     """What may be added, but for what a recipe has decided about as a whole; now and then that, too."""
     part.sprinkle(("name", "start", "gain", "contact.limiter", "contact.smoothing", "contact.leak", "contact.beta",
         "contact.gravity", "contact.force", "contact.gesture", "contact.enhance", "ablation",
-                   "grip", "motion.straight", "load.approach", "load.release", "contact.impacts", "contact.roll.mu",
+                   "grip", "motion.straight", "load.approach", "load.release", "contact.impacts", "contact.roll.mu", "load.phase",
                    "contact.roll.lambda", "contact.roll.static_penetration", "contact.roll.damping_ratio", "contact.roll.scraping",
                    "contact.roll.ground"))
     part.sprinkle(tuple(f"{tool}.{k}" for k in ("weight", "radius", "patch", "offset", "start_angle", "lobe", "wall",
@@ -151,6 +151,7 @@ ONLY_IF = {
     "contact.impacts.modulation.rate": lambda p: "contact.impacts.modulation.depth" in p.given,
     "contact.roll.mu": lambda p: p.given.get("contact.roll.penetration") != "paper",
     "contact.roll.static_penetration": lambda p: not {"contact.roll.stiffness", "contact.roll.kappa"} & set(p.given),
+    "ball.patch": lambda p: p.given.get("contact.roll.follows") != "point",
     "contact.roll.ground": lambda p: False, "contact.roll.drop": lambda p: False,
     "ablation.sound": lambda p: False, "output.listen.radiator": lambda p: False,
     "contact.limiter.alpha_min": lambda p: "contact.limiter.alpha_max" in p.given or p.scene.wild == 0,
@@ -248,6 +249,8 @@ def roll(part):
     ball(part)
     penetration = part.choose("contact.roll.penetration", [None, "deviation", "paper"])
     part.scene.note(f"roll: {penetration or 'deviation'}")
+    if part.chance(0.3):
+        part.say("contact.roll.follows", part.rng.choice(["ball", "point"]))
     if penetration == "paper":
         part.draw(part.rng.choice(["contact.roll.stiffness", "contact.roll.kappa"]), 1e2, 1e5)
     elif part.chance(0.3):

@@ -172,6 +172,46 @@ START_TEST(mean)
 }
 END_TEST
 
+/* ------------------------------------------------------------------ as printed */
+
+/* load.phase: falling. N = m (g - w |w| r sin theta), w = v / (R - r cos theta), theta by bisection: greatest where the
+   centre of mass moves downwards, also of a ball that rolls backwards; over an even turn of a small offset the swing is
+   that of Newton's law, a quarter of a turn earlier. */
+START_TEST(falling)
+{
+    for (int i = 0; i < 12; i++) {
+        struct contact c = on(i);
+        c.load.phase = LOAD_FALLING;
+        struct trajectory tr = made(&c.motion);
+        struct load_law l = law_of(&c, &tr);
+        double still = 0.1 * contact_gravity(&c), most = 0, fall = 0;
+        for (double t = 0.01; t < tr.duration - 0.01; t += 0.00317) {
+            double h = 1e-5, climb = (double)((height(&c, &tr, t + h) - height(&c, &tr, t - h)) / (2 * h));
+            double r = c.ball.offset, lever = c.ball.radius + (double)height(&c, &tr, t), w = at(&tr, t).v / lever;
+            double n = load_of(&l, &tr, t);
+            ck_assert_double_eq_tol(n, still - 0.1 * fabs(w) * climb, 2e-5 * (1 + fabs(w) * fabs(w) * r));
+            if (n > most) most = n, fall = climb;
+        }
+        ck_assert_double_lt(fall, 0);
+        ck_assert_double_le(most, l.most + 1e-12);
+    }
+    struct contact c = ball(0.02, 2e-6);
+    c.motion.to[0] = 1.2566370614359172; /* ten turns */
+    for (int way = 0; way < 2; way++) {
+        c.load.phase = LOAD_LOWEST;
+        struct trajectory tr = made(&c.motion);
+        struct load_law lowest = law_of(&c, &tr), printed;
+        c.load.phase = LOAD_FALLING;
+        printed = law_of(&c, &tr);
+        double quarter = 0.5 * M_PI * 0.02 / 0.5, swing = 0.1 * 2e-6 * 625;
+        for (double t = quarter; t < tr.duration - quarter; t += 0.0037)
+            ck_assert_double_eq_tol(load_of(&printed, &tr, t - quarter), load_of(&lowest, &tr, t), 1e-3 * swing);
+        ck_assert_double_eq_tol(printed.most - printed.least, 2 * swing, 1e-3 * swing);
+        c.ball.start_angle = 1;
+    }
+}
+END_TEST
+
 /* ------------------------------------------------------------------ any motion */
 
 START_TEST(range_of_any_motion)
@@ -190,6 +230,7 @@ START_TEST(range_of_any_motion)
         if (i % 5 == 2) /* lobes that are most of it */
             c.ball.lobe_height = 1e-4, c.ball.lobes = 101;
         contact_derive(&c, NULL);
+        c.load.phase = i % 4 == 3 ? LOAD_FALLING : LOAD_LOWEST;
         struct trajectory tr = made(&c.motion);
         struct load_law l = law_of(&c, &tr);
         double least = HUGE_VAL, most = -HUGE_VAL;
@@ -275,4 +316,4 @@ START_TEST(stage)
 }
 END_TEST
 
-UNIT("load_ball", newton, range, mean, range_of_any_motion, lifts_off, varies, stage)
+UNIT("load_ball", newton, falling, range, mean, range_of_any_motion, lifts_off, varies, stage)

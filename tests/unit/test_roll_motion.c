@@ -180,5 +180,50 @@ START_TEST(force_grows_with_the_ground)
 }
 END_TEST
 
+/* With follows: point the trajectory is a scraper's: on a contact so soft that it presses by 3e-10 N, and neither
+   limiter nor offset, the force is that of a point of the same mass, on a profile and in the plane. Under a ball it is
+   not. */
+START_TEST(a_point_scrapes)
+{
+    static const struct {
+        const char *surface, *motion;
+    } of[] = {{"roughness: {rms: 5 um}", "path: line, to: [10 cm, 0], speed: 25 cm/s"},
+              {"along: plane, roughness: {rms: 5 um, shortest: 60 um}",
+               "path: circle, radius: 1 cm, turns: 0.5, speed: 20 cm/s"}};
+    enum { FRAMES = 6000 };
+    const char *common = "smoothing: 0, limiter: {curve: none}";
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        double most = 0, off = 0, apart = 0;
+        struct scene tip =
+            rig_scene(rig_arena(), arena_format(rig_arena(),
+                                                "rasp: 1\nseed: 5\nsurface: {%s}\nscraper: {mass: 10 g}\ncontact: "
+                                                "{%s}\nmotion: {%s}\nload: {approach: 0, release: 0}\n"
+                                                "output: {sample_rate: 48000, diagnostics: {}}\naccuracy: "
+                                                "{oversampling: 4}\n",
+                                                of[i].surface, common, of[i].motion));
+        struct rig *scrape = rig_record(&tip, ITEM_SUBFORCE, FRAMES, 1024);
+        for (int point = 0; point < 2; point++) {
+            struct scene s = ball_scene(
+                "roll",
+                arena_format(rig_arena(), "%s, roll: {penetration: paper, kappa: 1e-3, lambda: 0, follows: %s}", common,
+                             point ? "point" : "ball"),
+                of[i].surface, "radius: 1 mm, mass: 10 g", of[i].motion);
+            struct rig *g = rig_record(&s, ITEM_SUBFORCE, FRAMES, 1024);
+            double presses = 1e-5 * pow(1e-3, 1.5);
+            ck_assert_int_eq(g->per_frame, scrape->per_frame);
+            for (int k = 1; k < FRAMES * g->per_frame; k++) { /* the first B-spline has one half */
+                most = fmax(most, fabs(scrape->x[k]));
+                *(point ? &off : &apart) = fmax(point ? off : apart, fabs(g->x[k] - presses - scrape->x[k]));
+            }
+            rig_close(g);
+        }
+        printf("%zu: %.3g N, off by %.3g N; under a ball by %.3g N\n", i, most, off, apart), fflush(stdout);
+        ck_assert_double_lt(off, 1e-12 * most + 1.5 * 1e-5 * sqrt(1e-3) * 30e-6); /* what S presses */
+        ck_assert_double_gt(apart, 0.5 * most);
+        rig_close(scrape);
+    }
+}
+END_TEST
+
 UNIT("roll_motion", UNIT_LONG(near_the_coupled_ball), UNIT_LONG(the_mean_force_is_the_normal_force),
-     force_grows_with_the_ground)
+     force_grows_with_the_ground, a_point_scrapes)
