@@ -117,14 +117,39 @@ scraping_conditions() {
     - {label: only_surface, text: only the surface's impulse response (eta = 0), set: {ablation.sound: surface}}
     - {label: constant_force, text: no variation of the normal force (without section 2.3), set: {ablation.normal_force: constant}}
     - {label: no_nonlinearity, text: no non-linearity (without section 2.2), set: {ablation.nonlinearity: omitted}}
+    - {label: physical, text: "baseline: physical synthesis", set: {contact.force: paper, contact.limiter.curve: none, contact.smoothing: 0, grip: null}}
+    - label: signal
+      text: "baseline: signal manipulation"
+      set: {contact: {model: impacts, impacts: {prototype: rub}, gesture: {}}, grip: null, scraper.mass: null, scraper.response: null, scraper.weight: null, surface.recipe: null, ablation: {response: constant, place: [13.7 cm, 3.7 cm]}}
+    - label: noise
+      text: "baseline: modulated noise"
+      set: {contact: {model: impacts, impacts: {prototype: rub}, gesture: {}}, grip: null, scraper.mass: null, scraper.response: null, scraper.weight: null, surface.recipe: null, surface.response: null, surface.extrapolate: null, output.quantity: force}
+END
+}
+# The same of both experiments on scraping, at their heads.
+scraping_baselines() {
+    cat << 'END'
+# The paper's three baselines are its own implementations of other papers' methods, of which it says no more than this:
+#   physical  Traer, Cusimano and McDermott 2019: "force derived from a surface depth map", the scraper's way "the same as the surface depth profile", equation 3
+#             (which is theirs), impulse responses "cross-faded" from place to place. Here equations 2 and 3 as printed, no limiter, a hand that presses evenly. These
+#             planks have the same poles everywhere and responses at 33 places: a cross-fade is straight lines between gains where the full model has
+#             splines, 25 dB below the sound, and is left out. Of a table with poles by place surface.pairing: 0 is a cross-fade.
+#   signal    Conan et al. 2014 (papers/004), whole: random impacts, here those of rubbing, as both rods are soft, low-passed by the hand's speed, through
+#             one response. Its object is one filter: it knows neither place nor rod.
+#   noise     Thoret et al. 2014: "minimalist modulated noise"; what a listener hears is "the velocity profile of the writer's gesture" (004). Here 004's low-pass,
+#             its cutoff in proportion to the speed, on white noise, and nothing that rings. Motions that share their speed over time are the same
+#             samples, as they have to be.
 END
 }
 
 {
     cat << 'END'
-# Agarwal et al. 2021, experiment 1: the realism of scraping. 30 descriptions (2 scrapers x 3 surfaces x 5 motions), each by the four methods that are this
-# program's: the full model and its three ablations; 120 stimuli. The paper's three baselines are other programs'. A trial has one description, and the
-# sounds that share it, in random order; `text` is what the listener reads.
+# Agarwal et al. 2021, experiment 1: the realism of scraping. 30 descriptions (2 scrapers x 3 surfaces x 5 motions), each by the seven methods of the paper: the
+# full model, its three ablations and three baselines; 210 stimuli. A trial has one description, and the sounds that share it, in random order; `text` is
+# what the listener reads.
+END
+    scraping_baselines
+    cat << 'END'
 #
 # The motions, where the paper has names only; all of them are those of a hand on a plank of 40 cm:
 #   slow    10 cm to and fro at 0.75 Hz: 15 cm/s on average, 24 at most
@@ -165,13 +190,15 @@ END
 
 {
     cat << 'END'
-# Agarwal et al. 2021, experiment 2: which motion is heard? Five paths, each by the four methods that are this program's; 20 stimuli. The listener hears one
+# Agarwal et al. 2021, experiment 2: which motion is heard? Five paths, each by the seven methods of experiment 1; 35 stimuli. The listener hears one
 # sound and chooses one of the five texts. Back and forth and four in a line share their speed over time, and so do the line and the circle, as in
-# the paper; sizes and durations are ours, 2 s each, and materials too (it does not say): PVC on basswood. The paper's scribble was tracked: give yours by
-# motion: {path: recorded, file: ...}; this one is drawn from the seed. A hand at constant speed on a straight line presses evenly: of the line, full and
-# constant_force are the same but for rounding. The paper's recordings are a condition more, which only they have:
+# the paper, from rest to rest all of them; sizes and durations are ours, 2 s each, and materials too (it does not say): PVC on basswood. The paper's scribble was tracked:
+# give yours by motion: {path: recorded, file: ...}; this one is drawn from the seed. The paper's recordings are a condition more (40 sounds), which only they have:
 #   - {label: recorded, text: a recording, of: recordings}
 #   recordings: [{file: recordings/circle.wav, motion: circle, condition: recorded}]
+END
+    scraping_baselines
+    cat << 'END'
 # The force is contact.force: directional, the default, whose formulas depart from the printed ones (src/README.md says where and why); set: {contact.force: paper} has those.
 rasp-design: 1
 title: Agarwal et al. 2021, experiment 2, perception of motion from scraping sounds
@@ -184,8 +211,8 @@ factors:
     - {label: scribble, text: a scribble, set: {motion: {path: scribble, center: [20 cm, 5 cm], size: [8 cm, 6 cm], rate: 2 Hz, duration: 2 s}}}
     - {label: four_in_line, text: four scrapes in a straight line, set: {motion: {path: four_in_line, from: [8 cm, 3.7 cm], to: [32 cm, 3.7 cm], duration: 2 s}}}
     - {label: back_and_forth, text: four back-and-forth scrapes, set: {motion: {path: back_and_forth, from: [17 cm, 3.7 cm], to: [23 cm, 3.7 cm], rate: 1 Hz, duration: 2 s}}}
-    - {label: line, text: a single long line, set: {motion: {path: line, from: [5.8629 cm, 3.7 cm], to: [34.1371 cm, 3.7 cm], duration: 2 s}}}
-    - {label: circle, text: a circle, set: {motion: {path: circle, center: [20 cm, 5 cm], radius: 4.5 cm, turns: 1, duration: 2 s}}}
+    - {label: line, text: a single long line, set: {motion: {path: line, from: [5.8629 cm, 3.7 cm], to: [34.1371 cm, 3.7 cm], duration: 2 s, law: minimum_jerk}}}
+    - {label: circle, text: a circle, set: {motion: {path: circle, center: [20 cm, 5 cm], radius: 4.5 cm, turns: 1, duration: 2 s, law: minimum_jerk}}}
 END
     scraping_conditions
     cat << 'END'
@@ -197,21 +224,28 @@ END
 
 {
     cat << 'END'
-# Agarwal et al. 2021, experiment 3: the realism of rolling. 18 descriptions (3 balls x 3 surfaces x up and down), each by the five methods that are this
-# program's; 90 stimuli. Planks, balls and slopes are those of 000_rolling/, which has the full model as scenes. The paper's balls have their centres of mass off
+# Agarwal et al. 2021, experiment 3: the realism of rolling. 18 descriptions (3 balls x 3 surfaces x up and down), each by the seven methods of the paper: the
+# full model, four ablations and two baselines; 126 stimuli. Planks, balls and slopes are those of 000_rolling/, which has the full model as scenes. The paper's balls have their centres of mass off
 # their centres, by how much it does not print: balls of this size turn once or twice at most on such planks, and 1 mm would vary the normal force by 0.3 %, so it
 # is left out (set: {ball.offset: 1 mm} adds it). The constant response is that of a place between the nodal lines of the lower modes: where the ball starts, near
-# the edge, the plank hardly rings. Balls as large as these follow the ground in such wide curves that the limiter has little to do: without it the sound differs
-# by -9 to -17 dB, mostly above 5 kHz, far less than a scraped one (papers/000 limits the ground itself, which no ball has smoothed).
+# the edge, the plank hardly rings. The ball follows the ground as a point does (contact.roll.follows: point), as the paper prints it: under the curve that the
+# centre of so large a ball follows the limiter has nothing to do, and what is left out without it is not heard. The ground is that of the recipe, down to its
+# shortest wavelength.
+# The paper's two baselines are its own implementations of other papers' methods, of which it says no more than this:
+#   coupled   Rath and Rocchesso 2005: a force "arising from the offset of the object's centre of mass", with "a non-linear dissipative component". Here
+#             their model as Conan et al. 2014 print it (papers/002, equations 2 and 3), with the kappa and mu that its listeners rated best, over
+#             the way of the ball's centre, the centre of mass 1 mm off; the force on a surface that does not give way, as in that paper's study, through one
+#             response, since the model "does not take into account" where the ball is.
+#   signal    Conan et al. 2014 (papers/004), whole: random impacts, those of rolling, of a large ball, through one response.
 # The force is contact.force: directional, the default, whose formulas depart from the printed ones (src/README.md says where and why); set: {contact.force: paper} has those.
 rasp-design: 1
 title: Agarwal et al. 2021, experiment 3, realism of synthetic rolling sounds
 base: 000_rolling/parts/plank.yaml
 seed: 3
-text: "A {ball} ball rolled {way} a gradual incline of {surface}."
-set: {output.sample_rate: 44.1 kHz}
+text: "A {ball_material} ball rolled {way} a gradual incline of {surface}."
+set: {output.sample_rate: 44.1 kHz, contact.roll.follows: point, ball.patch: null, surface.roughness.shortest: null}
 factors:
-  ball:
+  ball_material:
     - {label: ceramic, text: ceramic, set: {ball.radius: 10 cm, ball.body: hollow, ball.wall: 5 mm, ball.material: ceramic, ball.response: ../../irs/ceramic_ball.csv}}
     - {label: glass, text: glass, set: {ball.radius: 10 cm, ball.body: hollow, ball.wall: 4 mm, ball.material: glass, ball.response: ../../irs/glass_ball.csv}}
     - {label: wood, text: wood, set: {ball.radius: 6 cm, ball.body: hollow, ball.wall: 5 mm, ball.material: poplar, ball.response: ../../irs/wood_ball.csv}}
@@ -228,7 +262,13 @@ END
     - {label: constant_response, text: a constant surface impulse response (no morphing), set: {ablation.response: constant, ablation.place: [13.7 cm, 3.7 cm]}}
     - {label: only_ball, text: only the ball's impulse response, set: {ablation.sound: ball}}
     - {label: no_nonlinearity, text: no non-linearity in the contact force, set: {ablation.nonlinearity: omitted}}
-name: "{ball}_on_{surface}_{way}/{condition}"
+    - label: coupled
+      text: "baseline: physics-based synthesis"
+      set: {contact: {model: roll_coupled, roll: {follows: null, kappa: 5e9, mu: 1, ground: rigid}}, ball.offset: 1 mm, ablation: {response: constant, place: [13.7 cm, 3.7 cm]}}
+    - label: signal
+      text: "baseline: signal-based synthesis"
+      set: {contact: {model: impacts, roll: null, impacts: {prototype: roll, size: 0.9}}, ball: null, surface: {recipe: null, roughness: null, along: null}, ablation: {response: constant, place: [13.7 cm, 3.7 cm]}}
+name: "{ball_material}_on_{surface}_{way}/{condition}"
 level: {each: {lufs: -26}}
 length: own
 END
