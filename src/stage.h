@@ -42,6 +42,7 @@ enum item {
     ITEM_SLOPE,         /* mean |slope|^beta2 (paper force)             over per frame */
     ITEM_SUBFORCE,      /* N, contact force                             over per frame */
     ITEM_ROLL,          /* what a ball does: enum roll_value            ROLL_VALUES per frame */
+    ITEM_FOLLOWED,      /* enum followed_value                          FOLLOWED_VALUES per frame */
     ITEM_FORCE,         /* N                                            1 per frame    */
     ITEM_SURFACE_SOUND, /* board->quantity                              channels per frame, interleaved */
     ITEM_SCRAPER_SOUND, /* board->quantity                              channels per frame */
@@ -69,6 +70,12 @@ enum roll_value {
     ROLL_MODE_LOSS,    /* J since the start: lost in the modes' damping                       */
     ROLL_RESIDUAL,     /* J: what the balance of these leaves over                            */
     ROLL_VALUES
+};
+
+enum followed_value { /* m, at a frame's instant: heights of the ground that is followed, and of the trajectory */
+                      FOLLOWED_GROUND,
+                      FOLLOWED_TRAJECTORY,
+                      FOLLOWED_VALUES
 };
 
 struct roll_report {           /* of a whole render; steps 0: no coupled model                        */
@@ -136,7 +143,7 @@ struct board {
     double lifted;                   /* s during which the scraper was lifted off         */
     struct roll_report roll;
     bool rolls;       /* the report holds something                        */
-    bool lingers; /* there is force after the motion's end: contact.enhance */
+    bool lingers;     /* there is force after the motion's end: contact.enhance */
     bool unstated;    /* a recorded response, whose quantity is not stated, rings */
     double energy[2]; /* quantity^2, summed over frames and channels: of the surface's sound and of the scraper's or
                          ball's, where both are heard */

@@ -25,8 +25,8 @@
 #include "trajectory/contact.h"
 #include "trajectory/trajectory.h"
 
-const char *const plot_panels_words[PLOT_PANELS] = {"waveform", "spectrogram", "force", "normal",
-                                                    "motion",   "modes",       "decays"};
+const char *const plot_panels_words[PLOT_PANELS] = {"waveform",   "spectrogram", "force", "normal",
+                                                    "trajectory", "motion",      "modes", "decays"};
 
 bool plot_panels_read(const char *words, unsigned *asked, struct arena *a, struct err *e)
 {
@@ -40,8 +40,8 @@ bool plot_panels_read(const char *words, unsigned *asked, struct arena *a, struc
         meant = names[k] ? NULL : text_nearest(word, names);
         if (!names[k])
             return err_set(e, ERR_USAGE,
-                           "--panels: '%s' is no panel%s%s; there are waveform, spectrogram, force, normal, motion, "
-                           "modes and decays",
+                           "--panels: '%s' is no panel%s%s; there are waveform, spectrogram, force, normal, "
+                           "trajectory, motion, modes and decays",
                            word, meant ? "; did you mean " : "", meant ? meant : "");
         *asked |= 1u << k;
     }
@@ -55,6 +55,8 @@ static bool has_data(const struct plot_page *p, int panel)
         return plot_data_has(p, PLOT_PEAK) || plot_data_has(p, PLOT_RMS);
     case PLOT_HAND:
         return plot_data_has(p, PLOT_NORMAL) || plot_data_has(p, PLOT_ALPHA);
+    case PLOT_FOLLOWED:
+        return plot_data_has(p, PLOT_GROUND) || plot_data_has(p, PLOT_TRAJECTORY);
     case PLOT_MOTION:
         return p->n_ways > 0;
     case PLOT_MODES:
@@ -120,10 +122,9 @@ static bool summary_has(const struct plot_summary *s, const char *path, const ch
    down to one value per column of pixels. A column shows the smallest and largest sample, the largest magnitude of the
    peak force, the root of the mean square force, the mean of the rest: nothing falls between two columns. */
 
-static const char *const plot_names[] = {[PLOT_PEAK] = "force_peak_n",
-                                         [PLOT_RMS] = "force_rms_n",
-                                         [PLOT_NORMAL] = "normal_force_n",
-                                         [PLOT_ALPHA] = "alpha_m"};
+static const char *const plot_names[] = {
+    [PLOT_PEAK] = "force_peak_n", [PLOT_RMS] = "force_rms_n", [PLOT_NORMAL] = "normal_force_n",
+    [PLOT_ALPHA] = "alpha_m",     [PLOT_GROUND] = "ground_m", [PLOT_TRAJECTORY] = "trajectory_m"};
 
 bool plot_data_has(const struct plot_page *p, enum plot_column column)
 {
@@ -396,7 +397,7 @@ static bool table_rows(struct plot_page *p, const struct csv *csv, const double 
             if (!t->x[k]) continue;
             double v = k == PLOT_PEAK ? t->x[k][c] : t->x[k][c] / rows[c];
             t->x[k][t->n] = k == PLOT_RMS ? sqrt(v) : v;
-            t->most[k] = fmax(t->most[k], t->x[k][t->n]);
+            t->most[k] = fmax(t->most[k], fabs(t->x[k][t->n]));
         }
         t->n++;
     }
@@ -527,6 +528,8 @@ bool plot_data(struct plot_page *p, struct err *e)
         "kHz}})",
         "a table of diagnostics of the same render with the normal force or alpha (in the scene: output: {diagnostics: "
         "{rate: 1 kHz}})",
+        "a table of diagnostics of the same render that names ground_m or trajectory_m (in the scene: output: "
+        "{diagnostics: {columns: [time_s, ground_m, trajectory_m]}})",
         "a contact that moves, by a table of diagnostics with x_m and y_m, or by the .scene.yaml and .json of the "
         "render beside the sound",
         "a mode table, or, beside a sound, the .scene.yaml and .json of its render, whose responses are modes",
@@ -536,10 +539,10 @@ bool plot_data(struct plot_page *p, struct err *e)
             return err_set(e, ERR_SCENE, "%s: the panel %s needs %s", p->file, plot_panels_words[k],
                            lacks[k == PLOT_DECAYS ? PLOT_MODES : k]);
     if (anything) return true;
-    return p->silent
-               ? err_set(e, ERR_SCENE, "no sound, and nothing else that can be drawn")
-               : err_set(e, ERR_SCENE, "%s: has none of the columns that are drawn (%s, %s, %s, %s)", p->file,
-                         plot_names[PLOT_PEAK], plot_names[PLOT_RMS], plot_names[PLOT_NORMAL], plot_names[PLOT_ALPHA]);
+    return p->silent ? err_set(e, ERR_SCENE, "no sound, and nothing else that can be drawn")
+                     : err_set(e, ERR_SCENE, "%s: has none of the columns that are drawn (%s, %s, %s, %s, %s, %s)",
+                               p->file, plot_names[PLOT_PEAK], plot_names[PLOT_RMS], plot_names[PLOT_NORMAL],
+                               plot_names[PLOT_ALPHA], plot_names[PLOT_GROUND], plot_names[PLOT_TRAJECTORY]);
 }
 
 /* rasp plot: a picture of a render or mode table, or a page of pictures of many. */
@@ -548,7 +551,8 @@ static const struct args_option plot_options[] = {
     {"output", 'o', "FILE", false,
      "where to write; default: NAME.png beside NAME.wav, or NAME.svg; of a gallery gallery.html in the folder"},
     {"panels", 'p', "PANEL,...", false,
-     "which of waveform, spectrogram, force, normal, motion, modes and decays; default: all that there are data for, "
+     "which of waveform, spectrogram, force, normal, trajectory, motion, modes and decays; default: all that there are "
+     "data for, "
      "of a gallery waveform and spectrogram of what has a sound"},
     {"gallery", 'g', NULL, false,
      "a page of HTML for a folder of renders, or for the manifest.csv of a set: a picture, the sound and the factors "
@@ -632,8 +636,8 @@ static int plot_run(struct cmd_call *c, struct err *e)
         return (int)e->kind;
     printf("%s ", target);
     /* what the page shows, as a line */
-    static const char *const names[PLOT_PANELS] = {"waveform", "spectrogram", "contact force", "normal force",
-                                                   "motion",   "modes",       "decays"};
+    static const char *const names[PLOT_PANELS] = {"waveform",   "spectrogram", "contact force", "normal force",
+                                                   "trajectory", "motion",      "modes",         "decays"};
     const char *comma = "";
     for (int k = 0; k < PLOT_PANELS; k++)
         if (plot_panels_there(&p, k)) {
@@ -651,7 +655,9 @@ const struct command plot_command = {
     .does =
         "For NAME.wav writes NAME.png: the waveform, the spectrogram (Hann window of 20 ms, the 80 dB below the "
         "loudest place, up to 20 kHz) and, from the diagnostics beside it (NAME.csv, NAME.npy, or NAME.CONTACT.csv), "
-        "the contact force and the normal force with alpha, on one time axis; below them the way of the contact from "
+        "the contact force, the normal force with alpha, and the ground with the limited trajectory (where the table "
+        "has "
+        "them), on one time axis; below them the way of the contact from "
         "above, coloured by speed, and the modes of what rings (NAME.scene.yaml): stems of their largest gain on that "
         "way, coloured by their time of decay. A table that is not of the same render, as the hashes in NAME.json "
         "tell, is left out with a warning; without NAME.json it is taken to be. Panels without data are left out; what "

@@ -16,13 +16,14 @@ enum plot_panel {
     PLOT_SPECTROGRAM,
     PLOT_FORCE,
     PLOT_HAND,
+    PLOT_FOLLOWED,
     PLOT_MOTION,
     PLOT_MODES,
     PLOT_DECAYS,
     PLOT_PANELS
 };
 
-enum plot_column { PLOT_PEAK, PLOT_RMS, PLOT_NORMAL, PLOT_ALPHA, PLOT_TABLE_COLUMNS };
+enum plot_column { PLOT_PEAK, PLOT_RMS, PLOT_NORMAL, PLOT_ALPHA, PLOT_GROUND, PLOT_TRAJECTORY, PLOT_TABLE_COLUMNS };
 
 struct plot_sound {
     int n;

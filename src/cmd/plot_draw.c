@@ -297,7 +297,7 @@ enum {
 
 static const int heights[PLOT_PANELS] = {
     [PLOT_WAVEFORM] = 180, [PLOT_SPECTROGRAM] = 340, [PLOT_FORCE] = 180, [PLOT_HAND] = 150,
-    [PLOT_MOTION] = 300,   [PLOT_MODES] = 300,       [PLOT_DECAYS] = 220};
+    [PLOT_FOLLOWED] = 220, [PLOT_MOTION] = 300,      [PLOT_MODES] = 300, [PLOT_DECAYS] = 220};
 
 /* Motion and modes share a row. */
 static bool has_row(const struct plot_page *p)
@@ -358,7 +358,8 @@ static bool draw_put_curves(const struct plot_page *p, enum plot_column column, 
                             struct gnuplot *g)
 {
     static const char *const what[] = {
-        [PLOT_PEAK] = "peak", [PLOT_RMS] = "rms", [PLOT_NORMAL] = "normal force", [PLOT_ALPHA] = "α, right axis"};
+        [PLOT_PEAK] = "peak",           [PLOT_RMS] = "rms",       [PLOT_NORMAL] = "normal force",
+        [PLOT_ALPHA] = "α, right axis", [PLOT_GROUND] = "ground", [PLOT_TRAJECTORY] = "trajectory S"};
     for (int i = 0; i < p->n_tables; i++) {
         if (!p->tables[i].x[column] || p->tables[i].n == 0) continue;
         fprintf(g->in, "%s $table%d using 1:%d with ", *any ? "," : "plot", i, (int)column + 2);
@@ -404,6 +405,14 @@ static void draw_timed(const struct plot_page *p, int panel, const double place[
                         &any, g);
         draw_put_curves(p, PLOT_RMS, "lines linewidth 1.2 linecolor rgb '%s'", &any, g);
         fputs(any ? "\n" : "plot NaN notitle\n", g->in);
+    } else if (panel == PLOT_FOLLOWED) { /* as figure 2 of papers/000 */
+        bool any = false;
+        double most = fmax(plot_data_has(p, PLOT_GROUND) ? most_of(p, PLOT_GROUND) : 0,
+                           plot_data_has(p, PLOT_TRAJECTORY) ? most_of(p, PLOT_TRAJECTORY) : 0);
+        fprintf(g->in, "set ylabel 'height / µm'\nset yrange [%.6g:%.6g]\n", -1.25e6 * most, 1.25e6 * most);
+        draw_put_curves(p, PLOT_GROUND, "lines linewidth 1.2 linecolor rgb '#999999'", &any, g);
+        draw_put_curves(p, PLOT_TRAJECTORY, "lines linewidth 1.6 linecolor rgb '%s'", &any, g);
+        fputs(any ? "\n" : "plot NaN notitle\n", g->in);
     } else {
         bool any = false;
         fprintf(g->in, "set ylabel 'normal force / N'\nset yrange [0:%.6g]\n", 1.25 * most_of(p, PLOT_NORMAL));
@@ -446,7 +455,11 @@ void plot_draw(void *page, struct gnuplot *g)
         for (int row = 0; row < t->n; row++) {
             fprintf(g->in, "%.9g", t->time[row]);
             for (int k = 0; k < PLOT_TABLE_COLUMNS; k++)
-                fprintf(g->in, " %.9g", t->x[k] ? t->x[k][row] * (k == PLOT_ALPHA ? 100 : 1) : 0);
+                fprintf(g->in, " %.9g",
+                        t->x[k] ? t->x[k][row] * (k == PLOT_ALPHA    ? 100
+                                                  : k >= PLOT_GROUND ? 1e6
+                                                                     : 1)
+                                : 0);
             fputc('\n', g->in);
         }
         fputs("END\n", g->in);

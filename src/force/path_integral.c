@@ -274,8 +274,40 @@ void path_integral_run(struct path_integral *s, const struct stage_run *r, long 
     memset(s->climbed, 0, sizeof s->climbed);
     memset(s->travelled, 0, sizeof s->travelled);
     s->filled = 0;
+    s->before = s->height;
+    s->rising = s->rising || board_has(r->board, ITEM_FOLLOWED);
     path_cells_run(&s->cells, r, first, n);
     slope_fill(s, n);
+}
+
+void path_integral_rest(struct path_integral *s, int n)
+{
+    s->filled = 0;
+    s->before = s->height;
+    slope_fill(s, n);
+}
+
+/* ------------------------------------------------------------------ what is told of it */
+
+double path_integral_ground(const struct path_integral *s, const struct board *b, long k)
+{
+    const struct path_cells *w = &s->cells;
+    double u = cells_values(b, ITEM_POSITION, k)[0], z;
+    double x = w->curved ? cells_values(b, ITEM_X, k)[0] : w->from[0] + u * w->e[0];
+    double y = w->curved ? cells_values(b, ITEM_Y, k)[0] : w->from[1] + u * w->e[1];
+    const double *across = w->relief->along == ALONG_PLANE ? &y : NULL;
+    relief_at(w->relief, &(struct relief_points){1, &x, across}, &(struct relief_values){.z = &z});
+    return z;
+}
+
+void path_integral_note(const struct path_integral *s, struct board *b, long first, int n)
+{
+    for (int i = 0; board_has(b, ITEM_FOLLOWED) && i < n; i++) {
+        if ((first + i) % b->over != 0) continue;
+        double *value = board_at(b, ITEM_FOLLOWED, (first + i) / b->over);
+        value[FOLLOWED_GROUND] = path_integral_ground(s, b, first + i);
+        value[FOLLOWED_TRAJECTORY] = i > 0 ? s->heights[i - 1] : s->before;
+    }
 }
 
 /* ------------------------------------------------------------------ lift */

@@ -67,6 +67,7 @@ struct path_integral {
     double crossed_late[CELLS_CHUNK]; /* m, the same of s |S'|^power, s travelled since its start */
     double travelled[CELLS_CHUNK];    /* m; more than |u1 - u0| where it turns        */
     int filled;                       /* ends[] and what is beside it up to here are known */
+    double before;                    /* m, S at the first sub-interval's start */
 };
 
 /* Of the contact's surface, from S = S' = 0 on. s must be zeroed, and stay where it is. Errors as of path_cells_make.
@@ -78,6 +79,16 @@ void path_integral_reset(struct path_integral *s);
 
 /* Follows the n <= CELLS_CHUNK sub-intervals from number `first` on (since the start), which must come in order. */
 void path_integral_run(struct path_integral *s, const struct stage_run *r, long first, int n);
+
+/* Of n sub-intervals without a way. */
+void path_integral_rest(struct path_integral *s, int n);
+
+/* m, of the ground that is followed where the contact is at the start of sub-interval number k. */
+double path_integral_ground(const struct path_integral *s, const struct board *b, long k);
+
+/* To ITEM_FOLLOWED, where the board has it: of the frames that begin in the n sub-intervals from number `first` on, which
+   were followed last. */
+void path_integral_note(const struct path_integral *s, struct board *b, long first, int n);
 
 /* Means of a force weighted by a triangle about each sub-interval's start: linear B-splines, so that what lies beyond
    the sub-rate folds in with sinc^2.

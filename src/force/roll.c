@@ -567,12 +567,7 @@ static double roll_contact(struct roll_state *s, const double *load, int i, bool
    much deeper the ground presses in there. */
 static double roll_height(const struct roll_state *s, const struct board *b, long first, int i)
 {
-    const struct path_cells *w = &s->scrape.path.cells;
-    double u = cells_values(b, ITEM_POSITION, first)[i], z;
-    double x = w->curved ? cells_values(b, ITEM_X, first)[i] : w->from[0] + u * w->e[0];
-    double y = w->curved ? cells_values(b, ITEM_Y, first)[i] : w->from[1] + u * w->e[1];
-    const double *across = w->relief->along == ALONG_PLANE ? &y : NULL;
-    relief_at(w->relief, &(struct relief_points){1, &x, across}, &(struct relief_values){.z = &z});
+    double z = path_integral_ground(&s->scrape.path, b, first + i);
     return z - (s->printed ? 0 : s->follows[i]) + (s->round ? 0 : s->rise[i]);
 }
 
@@ -618,6 +613,7 @@ static void roll_chunk(struct roll_state *s, struct stage_run *r, long first, in
     roll_turns(s, b, load, first, n);
     roll_add(s, load, dt, n);
     roll_account(s, b, load, first, n);
+    path_integral_note(&s->scrape.path, b, first, n);
     s->last = s->rho[n];
     s->follows[0] = s->follows[n];
     s->rate[0] = s->rate[n];
@@ -756,7 +752,7 @@ const struct stage roll_stage = {
     .idle = "contact.model is not roll, or contact.force is paper",
     .needs = ITEM_BIT(ITEM_POSITION) | ITEM_BIT(ITEM_VELOCITY) | ITEM_BIT(ITEM_SURFACE),
     .takes = ITEM_BIT(ITEM_ALPHA) | ITEM_BIT(ITEM_LOAD),
-    .gives = ITEM_BIT(ITEM_SUBFORCE) | ITEM_BIT(ITEM_ROLL),
+    .gives = ITEM_BIT(ITEM_SUBFORCE) | ITEM_BIT(ITEM_ROLL) | ITEM_BIT(ITEM_FOLLOWED),
     .knobs = KNOB_BIT(oversampling),
     .asks = path_cells_asks,
     .wanted = roll_wanted,
@@ -774,7 +770,7 @@ const struct stage roll_added_stage = {
     .idle = "contact.model is not roll, or contact.force is directional",
     .needs = ITEM_BIT(ITEM_POSITION) | ITEM_BIT(ITEM_VELOCITY) | ITEM_BIT(ITEM_SURFACE) | ITEM_BIT(ITEM_SUBFORCE),
     .takes = ITEM_BIT(ITEM_ALPHA) | ITEM_BIT(ITEM_LOAD),
-    .gives = ITEM_BIT(ITEM_SUBFORCE) | ITEM_BIT(ITEM_ROLL),
+    .gives = ITEM_BIT(ITEM_SUBFORCE) | ITEM_BIT(ITEM_ROLL) | ITEM_BIT(ITEM_FOLLOWED),
     .knobs = KNOB_BIT(oversampling),
     .asks = path_cells_asks,
     .wanted = roll_added_wanted,

@@ -178,11 +178,13 @@ static bool scrape_run(struct stage_run *r, long from, long to, struct err *e)
     (void)e;
     for (long first = from * b->over, last = to * b->over; first < last;) {
         int n = cells_chunk(first, last);
-        if (scrape_rests(s, b, first, n))
+        if (scrape_rests(s, b, first, n)) {
             memset(&s->bspline, 0, offsetof(struct bspline, carried));
-        else
+            path_integral_rest(&s->path, n);
+        } else
             scrape_force(s, r, first, n);
-        path_integral_lay(&s->bspline, b, first, n);
+        path_integral_note(&s->path, b, first, n);
+        if (board_has(b, ITEM_SUBFORCE)) path_integral_lay(&s->bspline, b, first, n);
         first += n;
     }
     return true;
@@ -202,7 +204,7 @@ const struct stage scrape_stage = {
     .idle = "contact.model is not scrape, or contact.force is paper",
     .needs = ITEM_BIT(ITEM_POSITION) | ITEM_BIT(ITEM_VELOCITY) | ITEM_BIT(ITEM_SURFACE),
     .takes = ITEM_BIT(ITEM_ALPHA) | ITEM_BIT(ITEM_LOAD),
-    .gives = ITEM_BIT(ITEM_SUBFORCE),
+    .gives = ITEM_BIT(ITEM_SUBFORCE) | ITEM_BIT(ITEM_FOLLOWED),
     .knobs = KNOB_BIT(oversampling),
     .asks = path_cells_asks,
     .wanted = scrape_wanted,

@@ -7,6 +7,7 @@
 
 #include "file/npy.h"
 #include "force/impact_series.h"
+#include "force/scrape.h"
 #include "force/strike.h"
 #include "num/decimal.h"
 #include "scene/rows.h"
@@ -36,6 +37,13 @@ static const char *alpha_lacks(const struct contact *c)
 {
     const char *lacks = pressed_lacks(c);
     return *lacks || limiter_of(c)->curve == LIMITER_TANH ? lacks : "contact.limiter.curve: tanh";
+}
+
+static const char *followed_lacks(const struct contact *c)
+{
+    const char *lacks = pressed_lacks(c);
+    return *lacks || contact_rolls(c) || scrape_law(c)->force == FORCE_DIRECTIONAL ? lacks
+                                                                                   : "contact.force: directional";
 }
 
 static const char *lift_lacks(const struct contact *c)
@@ -133,6 +141,12 @@ static const struct {
                {RESIDUAL, ROLL_RESIDUAL}};
 enum { SAMPLED = sizeof sampled / sizeof sampled[0] };
 
+/* What takes more time than the render may have to spare is told only where it is named. */
+static bool column_told(const struct contact *c, int k)
+{
+    return k != GROUND && k != TRAJECTORY && !*params_column_lacks(c, k);
+}
+
 /* Instants are read ROW_MOTION_SOME at a time: at the audio rate that takes a third of what one by one does. alpha is
  * that of the force without approach and release. */
 
@@ -187,7 +201,8 @@ struct force_table {
     double value[MOST];
     double sum, squares, peak; /* of the row being filled */
     long samples, lift_offs, row, rows;
-    long behind; /* sample that is the first behind the row */
+    long behind;                      /* sample that is the first behind the row */
+    double followed[FOLLOWED_VALUES]; /* at the first frame of the row being filled */
     struct row_motion motion;
     struct strike_train train; /* of what strikes: the impacts from `impact` on     */
     struct strike_impact impact;
@@ -201,7 +216,7 @@ static bool column_asked(const struct contact *c, const struct scene *s, int fir
 {
     const char **names = s->output.diagnostics.columns;
     for (int k = first; k <= last; k++) {
-        if (!names && !*params_column_lacks(c, k)) return true;
+        if (!names && column_told(c, k)) return true;
         for (int i = 0; names && names[i]; i++)
             if (params_column_find(names[i]) == k) return true;
     }
@@ -218,6 +233,7 @@ static unsigned force_table_asks(const struct contact *c, const struct scene *s)
     for (int i = 0; i < SAMPLED; i++)
         ball = ball || column_asked(c, s, (int)sampled[i].column, (int)sampled[i].column);
     if (ball && contact_rolls(c)) items |= ITEM_BIT(ITEM_ROLL);
+    if (column_asked(c, s, GROUND, TRAJECTORY) && !*followed_lacks(c)) items |= ITEM_BIT(ITEM_FOLLOWED);
     if (load_varies(c) && column_asked(c, s, ALPHA, ALPHA) && !*params_column_lacks(c, ALPHA))
         items |= ITEM_BIT(ITEM_ALPHA);
     if (column_asked(c, s, MEAN, PEAK)) items |= ITEM_BIT(ITEM_FORCE);
@@ -246,7 +262,7 @@ static bool columns_choose(struct force_table *t, const struct stage_run *r, str
     const char **names = r->scene->output.diagnostics.columns;
     const struct params *whose;
     while (t->n < MOST && (t->of[t->n] = params_column(t->n, &whose))) {
-        t->wanted[t->n] = !names && !*params_column_lacks(r->contact, t->n);
+        t->wanted[t->n] = !names && column_told(r->contact, t->n);
         for (int i = 0; i < r->board->n_stages; i++)
             if (r->board->stages[i].stage->params == whose) t->by[t->n] = &r->board->stages[i];
         t->n++;
@@ -310,6 +326,8 @@ static void row_write(struct force_table *t, const struct board *b)
     t->value[RMS] = sqrt(t->squares / n);
     t->value[PEAK] = t->peak;
     t->value[LIFT_OFFS] = (double)t->lift_offs;
+    t->value[GROUND] = t->followed[FOLLOWED_GROUND];
+    t->value[TRAJECTORY] = t->followed[FOLLOWED_TRAJECTORY];
     if (board_has(b, ITEM_ROLL)) {
         for (int i = 0; i < SAMPLED; i++)
             t->value[sampled[i].column] = t->ball.first[sampled[i].value];
@@ -396,6 +414,8 @@ static bool force_table_run(struct stage_run *r, long from, long to, struct err 
             t->ball.contact += values[ROLL_CONTACT];
             t->ball.lift_offs += values[ROLL_LIFT_OFFS];
         }
+        if (board_has(b, ITEM_FOLLOWED) && t->samples == 0)
+            memcpy(t->followed, board_at(b, ITEM_FOLLOWED, n), sizeof t->followed);
         t->samples++;
         if (board_has(b, ITEM_LOAD) && t->wanted[LIFT_OFFS]) {
             const double *load = board_at(b, ITEM_LOAD, n);

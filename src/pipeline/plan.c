@@ -37,6 +37,7 @@ static const char *const plan_names[ITEM_COUNT] = {
     [ITEM_SLOPE] = "slope",
     [ITEM_CURVATURE_Y] = "curvature_y",
     [ITEM_ROLL] = "roll",
+    [ITEM_FOLLOWED] = "followed",
     [ITEM_SUBFORCE] = "subforce",
     [ITEM_FORCE] = "force",
     [ITEM_SURFACE_SOUND] = "surface_sound",

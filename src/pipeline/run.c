@@ -47,6 +47,8 @@ static void run_signal(struct run *r, enum item item)
         per_frame = 0;
     else if (item == ITEM_ROLL)
         per_frame = ROLL_VALUES;
+    else if (item == ITEM_FOLLOWED)
+        per_frame = FOLLOWED_VALUES;
     else if (item <= ITEM_FORCE)
         per_frame = item < ITEM_FORCE ? r->board.over : 1;
     if (!(r->plan.alive & ITEM_BIT(item)) || !per_frame) return;

@@ -41,3 +41,12 @@ rasp render -q 'a scene.yaml' -o two.wav --set 'contacts=[{name: rod, surface: {
 rasp plot two.wav -o two.svg
 labels two.svg
 ls
+
+echo "-- the ground and the limited trajectory"
+cp -r "$ROOT/surfaces" "$ROOT/scenes/limited_trajectory.yaml" .
+sed -i 's|\.\./surfaces|surfaces|' limited_trajectory.yaml
+rasp render -q limited_trajectory.yaml
+rasp plot limited_trajectory.wav -o way.svg --panels trajectory --from 0.03 --to 0.06
+labels way.svg
+rasp plot two.wav -o none.svg --panels trajectory || echo "exit $?"
+rasp check limited_trajectory.yaml --set contacts.firm.contact.force=paper --set contacts.firm.contact.leak=null || echo "exit $?"

@@ -1,5 +1,7 @@
 /* The scraping force on profiles and straight paths against a slow judge (tests/unit/judge.h): tolerances say what the
  * closed forms leave out. */
+#include <complex.h>
+
 #include "force/path_integral.h"
 #include "force/scrape.h"
 #include "judge.h"
@@ -381,8 +383,38 @@ START_TEST(no_force_while_lifted_off)
 }
 END_TEST
 
+/* What the table tells of the way, over ten waves of sine ridges at 480 frames a wave: their height, and S, which is they
+   behind both leaks, (i q)^2 / (i q + 1/l)^2. To be asked for it changes no bit of the force. */
+START_TEST(ground_and_trajectory)
+{
+    enum { FROM = 4800, FRAMES = 9600 };
+    struct scene s = made(rig_arena(), "surface: {along: x, ridges: {spacing: 1 mm, height: 20 um}}\n"
+                                       "contact: {smoothing: 0 s, leak: 0.5 mm, limiter: {curve: none}}\n"
+                                       "motion: {path: line, to: [20 mm, 0], speed: 10 cm/s}\n");
+    struct rig *g = rig_record(&s, ITEM_FOLLOWED, FRAMES, 1000), *plain = rig_record(&s, ITEM_SUBFORCE, FRAMES, 1000);
+    double q = 2 * M_PI / 1e-3;
+    double _Complex wave[FOLLOWED_VALUES] = {0}, passes = I * q / (I * q + 1 / 0.5e-3);
+    ck_assert_int_eq(g->per_frame, FOLLOWED_VALUES);
+    for (int n = FROM; n < FRAMES; n++)
+        for (int k = 0; k < FOLLOWED_VALUES; k++)
+            wave[k] += g->x[n * FOLLOWED_VALUES + k] * cexp(-2 * M_PI * I * (n % 480) / 480) * 2 / (FRAMES - FROM);
+    printf("ground %.9g m, S %.9g of it\n", cabs(wave[FOLLOWED_GROUND]),
+           cabs(wave[FOLLOWED_TRAJECTORY] / wave[FOLLOWED_GROUND])),
+        fflush(stdout);
+    ck_assert_double_eq_tol(cabs(wave[FOLLOWED_GROUND]), 1e-5, 1e-17);
+    ck_assert_double_lt(cabs(wave[FOLLOWED_TRAJECTORY] / wave[FOLLOWED_GROUND] - passes * passes), 1e-5);
+    rig_probe.also = ITEM_BIT(ITEM_FOLLOWED);
+    struct rig *told = rig_record(&s, ITEM_SUBFORCE, FRAMES, 1000);
+    rig_probe.also = 0;
+    ck_assert(memcmp(told->x, plain->x, (size_t)(FRAMES * told->per_frame) * sizeof *told->x) == 0);
+    rig_close(g);
+    rig_close(plain);
+    rig_close(told);
+}
+END_TEST
+
 UNIT("scrape", vertical_force_through_reversals, unlimited_force_through_reversals, alpha_that_varies, horizontal_force,
      sub_intervals_are_cut_at_turns, oblique_stroke_over_an_extruded_profile, means_are_exact, blocks_do_not_matter,
      a_turn_in_the_middle_of_a_sample, a_stroke_straight_across_but_for_rounding, a_smoothing_of_seconds_is_refused,
      the_audio_force_is_not_delayed, third_order_in_the_sub_intervals, bsplines_add_up, flat_surface_is_silent,
-     limits_of_the_limiter, no_force_while_lifted_off)
+     limits_of_the_limiter, no_force_while_lifted_off, ground_and_trajectory)
