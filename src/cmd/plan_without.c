@@ -38,6 +38,7 @@ static const struct effect {
     {"continuation", "surface.continuation=null", false},
     {"plane, in place of the path", "surface.along=path", false},
     {"gesture", "contact.gesture=null", false},
+    {"modulation", "contact.modulation=null", false},
     {"enhancement", "contact.enhance=null", false},
     {"ball off its centre", "ball.offset=0", false},
     {"lobes of the ball", "ball.lobe_height=0", false},
