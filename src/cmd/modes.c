@@ -121,7 +121,7 @@ static const struct action actions[] = {
      -1,
      {"output",           "force",   "channel",     "force-channel", "scale", "force-scale", "quantity", "radius",
       "distance",         "delay",   "impulse",     "modes",         "low",   "high",        "fastest",  "method",
-      "strike-threshold", "strikes", "resynthesis", "residual",      "plot",  "json",        "quiet"},
+      "strike-threshold", "strikes", "resynthesis", "residual",      "plot",  "envelopes",   "json",     "quiet"},
      modes_extract_run},
     {"material",
      "an OBJECT and its STRIKE..., as often as there are objects, or STRIKE... alone",
@@ -260,6 +260,9 @@ static const struct args_option options[] = {
      "extract: writes what the modes make of the recording, one channel for each place"},
     {"residual", 0, "FILE.wav", false, "extract: writes what they leave of it"},
     {"plot", 0, "FILE", false, "extract: draws spectrum, modes, levels and decays of the first place, as .png or .svg"},
+    {"envelopes", 0, "FILE.csv", false,
+     "extract: writes how each mode of each strike falls, A_i(t): the recording's amplitude and phase about its "
+     "frequency through Hann windows, and the amplitude of what the modes make of it through the same"},
     {"estimated", 0, "TABLE", false,
      "residual: the modes of the object as it was fitted, such as by compute; what they do not match stays in the "
      "residual"},

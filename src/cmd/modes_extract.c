@@ -70,7 +70,8 @@ static bool together(struct modes_extract *x, struct err *e)
     return true;
 }
 
-static const char *const output_names[MODES_EXTRACT_FILES] = {"--output", "--residual", "--resynthesis", "--plot"};
+static const char *const output_names[MODES_EXTRACT_FILES] = {"--output", "--residual", "--resynthesis", "--plot",
+                                                              "--envelopes"};
 
 /* Outputs: each may be written (output/mark.h), and no two are one file. */
 static bool outputs(struct modes_extract *x, struct err *e)
@@ -89,7 +90,9 @@ static bool outputs(struct modes_extract *x, struct err *e)
     g->svg = plot && text_ends_in(plot, ".svg");
     if (plot && !g->svg && !text_ends_in(plot, ".png"))
         return err_set(e, ERR_USAGE, "--plot: '%s' ends in neither .png nor .svg", plot);
-    const char *table = g->file[MODES_EXTRACT_TABLE];
+    const char *table = g->file[MODES_EXTRACT_TABLE], *falls = g->file[MODES_EXTRACT_ENVELOPES];
+    if (falls && !text_ends_in(falls, ".csv"))
+        return err_set(e, ERR_USAGE, "--envelopes %s: a table is CSV: write for instance --envelopes fall.csv", falls);
     if (table && !text_ends_in(table, ".csv"))
         return err_set(e, ERR_USAGE, "-o %s: a mode table is CSV: write for instance -o modes.csv", table);
     return table || err_set(e, ERR_USAGE, "-o FILE.csv is needed: the mode table to write");
@@ -309,8 +312,8 @@ static bool sound(const struct modes_extract *x, int what, struct wav_out **w, s
 /* All of them, or none. */
 static bool write_outputs(struct modes_extract *x, struct err *e)
 {
-    const char *const *file = x->given.file, *plot = file[MODES_EXTRACT_PLOT];
-    struct outfile *table = ARENA_TAKE(x->arena, struct outfile, 2), *picture = table + 1;
+    const char *const *file = x->given.file, *plot = file[MODES_EXTRACT_PLOT], *falls = file[MODES_EXTRACT_ENVELOPES];
+    struct outfile *table = ARENA_TAKE(x->arena, struct outfile, 3), *picture = table + 1, *envelopes = table + 2;
     struct wav_out *sounds[2] = {NULL, NULL};
     bool ok = outfile_open(table, file[MODES_EXTRACT_TABLE], e);
     if (ok) modes_extract_write_table(table->stream, x);
@@ -318,15 +321,20 @@ static bool write_outputs(struct modes_extract *x, struct err *e)
          sound(x, MODES_EXTRACT_RESIDUAL, &sounds[1], e) &&
          (!plot || (gnuplot_draw(picture, plot, x->given.svg, modes_extract_write_picture, x, e) &&
                     outfile_finalise(picture, e)));
+    ok = ok && (!falls || outfile_open(envelopes, falls, e));
+    if (ok && falls) modes_extract_write_envelopes(envelopes->stream, x);
+    ok = ok && (!falls || outfile_finalise(envelopes, e));
     interrupt_hold();
     for (int k = 0; k < 2; k++)
         if (sounds[k] && !ok)
             wav_drop(sounds[k]);
         else if (sounds[k])
             ok = wav_commit(sounds[k], e);
-    ok = ok && (!plot || outfile_commit(picture, e)) && outfile_commit(table, e);
+    ok = ok && (!plot || outfile_commit(picture, e)) && (!falls || outfile_commit(envelopes, e)) &&
+         outfile_commit(table, e);
     interrupt_go();
-    outfile_drop(picture); /* nothing, of what is committed */
+    outfile_drop(envelopes); /* nothing, of what is committed */
+    outfile_drop(picture);
     outfile_drop(table);
     return ok;
 }

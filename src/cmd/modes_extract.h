@@ -17,6 +17,7 @@ enum {
     MODES_EXTRACT_RESIDUAL,
     MODES_EXTRACT_RESYNTHESIS,
     MODES_EXTRACT_PLOT,
+    MODES_EXTRACT_ENVELOPES,
     MODES_EXTRACT_FILES
 };
 
@@ -92,6 +93,7 @@ void modes_extract_find_note(struct modes_extract *x, const struct modes_extract
 double *modes_extract_find_power(const double *y, long n, long size, struct arena *a);
 
 void modes_extract_write_table(FILE *f, const struct modes_extract *x);
+void modes_extract_write_envelopes(FILE *f, const struct modes_extract *x);
 bool modes_extract_write_report(const struct modes_extract *x, bool json, struct err *e);
 void modes_extract_write_picture(void *self, struct gnuplot *g); /* self: struct modes_extract */
 

@@ -79,6 +79,65 @@ void modes_extract_write_table(FILE *f, const struct modes_extract *x)
         }
 }
 
+/* ------------------------------------------------------------------ envelopes
+
+   A_i(t) of papers/000, section 2.4, by heterodyne: y turned back at the mode's frequency, in the mean over a Hann
+   window about t. Of a sine of amplitude A at that frequency the mean is A/2 e^(j phase). A window of T seconds has its
+   first zero 2/T from its middle; T is 4 over the distance to the next mode, 10 to 200 ms, so that modes less than 20
+   Hz apart beat in both columns. The exponential's fall inside the window is in both, too. */
+
+#define WINDOW_LEAST 0.01 /* s */
+#define WINDOW_MOST 0.2
+
+static double window_of(const struct modes_extract *x, int of)
+{
+    double frequency = x->found.mode[of].frequency, gap = 2.0 * frequency;
+    for (int i = 0; i < x->found.n; i++)
+        if (x->found.mode[i].mode != x->found.mode[of].mode)
+            gap = fmin(gap, fabs(x->found.mode[i].frequency - frequency));
+    return fmin(fmax(4.0 / gap, WINDOW_LEAST), WINDOW_MOST);
+}
+
+/* 2 times the mean of y[0 .. n - 1] e^(-j w i) w(i); per: cycles a sample. */
+static cplx turned_back(const double *y, long n, double per)
+{
+    cplx sum = {0, 0}, turn = {1, 0}, step = {real_cospi(2.0 * per), -real_sinpi(2.0 * per)};
+    cplx shape = {1, 0}, swing = {real_cospi(2.0 / (double)n), real_sinpi(2.0 / (double)n)};
+    double weight = 0.0;
+    for (long i = 0; i < n; i++) {
+        double w = 1.0 - shape.re;
+        sum = cplx_add(sum, cplx_scale(w * y[i], turn));
+        weight += w;
+        turn = cplx_mul(turn, step);
+        shape = cplx_mul(shape, swing);
+    }
+    return cplx_scale(2.0 / weight, sum);
+}
+
+static void write_envelope(FILE *f, const struct modes_extract *x, int s, int i)
+{
+    const struct modal_stretch *d = &x->data.stretch[s];
+    const struct modal_mode *m = &x->found.mode[i];
+    double rate = x->data.rate, window = window_of(x, i), per = m->frequency / rate;
+    long n = (long)(window * rate), hop = n / 4 > 0 ? n / 4 : 1;
+    for (long at = d->ringing; at + n <= d->n; at += hop) {
+        cplx heard = turned_back(d->y + at, n, per), made = turned_back(x->found.model[s] + at, n, per);
+        double cycles = (double)(d->first + at) * per; /* phases are those of a sine that begins with the recording */
+        double phase = real_atan2(heard.im, heard.re) / REAL_PI + 0.5 - 2.0 * (cycles - floor(cycles));
+        fprintf(f, "%d,%d,%d,%.9g,%.9g,%.9g,%.9g,%.9g\n", d->place + 1, d->strike + 1, m->mode,
+                ((double)(d->first + at) + 0.5 * (double)n) / rate, m->frequency, cplx_abs(heard),
+                unsigned_zero(REAL_PI * (phase - 2.0 * rint(0.5 * phase))), cplx_abs(made));
+    }
+}
+
+void modes_extract_write_envelopes(FILE *f, const struct modes_extract *x)
+{
+    fputs("place,strike,mode,time_s,frequency_hz,amplitude,phase_rad,amplitude_of_modes\n", f);
+    for (int s = 0; s < x->data.stretches; s++)
+        for (int i = 0; x->data.stretch[s].fitted && i < x->found.n; i++)
+            if (x->found.mode[i].slope == 1) write_envelope(f, x, s, i);
+}
+
 /* ------------------------------------------------------------------ report */
 
 static void report_strikes(struct report *r, const struct modes_extract *x, const struct modes_extract_place *p)

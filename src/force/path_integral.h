@@ -86,8 +86,8 @@ void path_integral_rest(struct path_integral *s, int n);
 /* m, of the ground that is followed where the contact is at the start of sub-interval number k. */
 double path_integral_ground(const struct path_integral *s, const struct board *b, long k);
 
-/* To ITEM_FOLLOWED, where the board has it: of the frames that begin in the n sub-intervals from number `first` on, which
-   were followed last. */
+/* To ITEM_FOLLOWED, where the board has it: of the frames that begin in the n sub-intervals from number `first` on,
+   which were followed last. */
 void path_integral_note(const struct path_integral *s, struct board *b, long first, int n);
 
 /* Means of a force weighted by a triangle about each sub-interval's start: linear B-splines, so that what lies beyond

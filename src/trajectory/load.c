@@ -33,8 +33,8 @@
 
      N(t) = m (g cos(incline) - |theta'| d/dt(-r cos theta) + the lobes' part as above)
 
-   the formula ours: as it turns evenly, with the swing of Newton's, a quarter of a turn earlier. N < 0: the ball leaves the
-   surface; no force, and counted. It is not followed through the air.
+   the formula ours: as it turns evenly, with the swing of Newton's, a quarter of a turn earlier. N < 0: the ball leaves
+   the surface; no force, and counted. It is not followed through the air.
 
    Approach and release: the contact is made over load.approach, p = 10 q^3 - 15 q^4 + 6 q^5 of the force, so that it
    does not begin with a click; the paper has no such thing. Where the motion starts from rest a scraper's force starts
