@@ -236,7 +236,8 @@ END
 #             their model as Conan et al. 2014 print it (papers/002, equations 2 and 3), with the kappa and mu that its listeners rated best, over
 #             the way of the ball's centre, the centre of mass 1 mm off; the force on a surface that does not give way, as in that paper's study, through one
 #             response, since the model "does not take into account" where the ball is.
-#   signal    Conan et al. 2014 (papers/004), whole: random impacts, those of rolling, of a large ball, through one response.
+#   signal    Conan et al. 2014 (papers/004), whole: random impacts, those of rolling, of a large ball, through one response. It knows no material of a ball:
+#             of three balls on one surface the samples are the same.
 # The force is contact.force: directional, the default, whose formulas depart from the printed ones (src/README.md says where and why); set: {contact.force: paper} has those.
 rasp-design: 1
 title: Agarwal et al. 2021, experiment 3, realism of synthetic rolling sounds
