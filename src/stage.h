@@ -72,11 +72,8 @@ enum roll_value {
     ROLL_VALUES
 };
 
-enum followed_value { /* m, at a frame's instant: heights of the ground that is followed, and of the trajectory */
-                      FOLLOWED_GROUND,
-                      FOLLOWED_TRAJECTORY,
-                      FOLLOWED_VALUES
-};
+/* m, at a frame's instant: heights of the ground that is followed, and of the trajectory */
+enum followed_value { FOLLOWED_GROUND, FOLLOWED_TRAJECTORY, FOLLOWED_VALUES };
 
 struct roll_report {           /* of a whole render; steps 0: no coupled model                        */
     double contact;            /* s in contact                                                        */

@@ -39,6 +39,7 @@ static const struct effect {
     {"plane, in place of the path", "surface.along=path", false},
     {"gesture", "contact.gesture=null", false},
     {"modulation", "contact.modulation=null", false},
+    {"comb", "contact.comb=null", false},
     {"enhancement", "contact.enhance=null", false},
     {"ball off its centre", "ball.offset=0", false},
     {"lobes of the ball", "ball.lobe_height=0", false},

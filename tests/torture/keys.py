@@ -58,7 +58,7 @@ USUAL = {
     "contact.impacts.modulation.depth": (0.05, 0.9), "contact.impacts.floor.amplitude": (0.001, 0.1),
     "contact.impacts.floor.interval": (1e-6, 2e-5), "contact.impacts.rub.interval": (2.3e-5, 1e-3),
     "contact.impacts.space.angle": (-7, 7), "contact.impacts.space.angle_to": (-7, 7),
-    "contact.modulation.rate": (1, 50), "contact.modulation.radius": (1e-3, 0.05),
+    "contact.comb.gain": (-0.9, 0.9), "contact.comb.distance": (0, 1), "contact.modulation.rate": (1, 50), "contact.modulation.radius": (1e-3, 0.05),
     "contact.gesture.cutoff": (100, 2e4), "output.level.full_scale": (1, 1e6), "output.level.dbfs_at_1_pa": (-150, -60),
     "output.listen.density": (0.5, 5), "output.listen.sound_speed": (200, 1500), "accuracy.error": (-90, -10),
     "accuracy.oversampling": (1, 16), "accuracy.contact_steps": (20, 400), "motion.straight": (0.01, 1),

@@ -79,7 +79,7 @@ def contact(part):
 def sprinkle(part, model, tool):
     """What may be added, but for what a recipe has decided about as a whole; now and then that, too."""
     part.sprinkle(("name", "start", "gain", "contact.limiter", "contact.smoothing", "contact.leak", "contact.beta",
-        "contact.gravity", "contact.force", "contact.gesture", "contact.modulation", "contact.enhance", "ablation",
+        "contact.gravity", "contact.force", "contact.gesture", "contact.modulation", "contact.comb", "contact.enhance", "ablation",
                    "grip", "motion.straight", "load.approach", "load.release", "contact.impacts", "contact.roll.mu", "load.phase",
                    "contact.roll.lambda", "contact.roll.static_penetration", "contact.roll.damping_ratio", "contact.roll.scraping",
                    "contact.roll.ground"))
