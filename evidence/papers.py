@@ -48,7 +48,7 @@ def main(folder, factor):
     for level, of in told.items():
         c, g = ([v[k] for v in of] for k in (0, 1))
         print(f"| {level} | {len(of)} | {statistics.median(c):.0f} ({min(c):.0f} to {max(c):.0f}) | "
-              f"{statistics.median(g):.0f} ({min(g):.0f} to {max(g):.0f}) |")
+              f"{statistics.median(g) + 0:.1f} ({min(g):.0f} to {max(g):.0f}) |")
 
 
 main(*sys.argv[1:])

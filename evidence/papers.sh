@@ -22,7 +22,7 @@ number() { python3 -c "import json; d = json.load(open('$1')); print('%.3g' % ($
 per_row() { awk -F, "NR > 1 { $2 } END { $3 }" "$1"; }
 
 for n in 2 3; do
-    rasp batch "scenes/experiments/000_experiment_$n.yaml" -o "$SETS/experiment_$n" --quiet 2> /dev/null
+    [ -s "$SETS/experiment_$n/manifest.csv" ] || rasp batch "scenes/experiments/000_experiment_$n.yaml" -o "$SETS/experiment_$n" --quiet 2> /dev/null
 done
 render scenes/limited_trajectory.yaml -o "$WORK/figure_2.wav"
 rasp plot "$WORK/figure_2.wav" -o evidence/papers_trajectory.png -f png --force --panels trajectory --from 0.03 --to 0.06 --title 'papers/000, figure 2' > /dev/null
@@ -42,12 +42,12 @@ output: {quantity: force, diagnostics: {rate: 2 kHz, columns: [normal_force_n, a
 END
 render "$WORK/grip.yaml" -o "$WORK/grip.wav"
 extremes=$(per_row "$WORK/grip.csv" 'if (NR == 2 || $1 > most) most = $1; if (NR == 2 || $1 < least) least = $1' \
-    'a = 4 * 3.14159265358979 ^ 2 * 4 * 0.03; t = 0.577350269189626; printf "both within %.1g of the formulas", \
-    (x = most / (0.02 * (9.80665 + a * t) / (1 - 0.3 * t)) - 1) > (y = 1 - least / (0.02 * (9.80665 - a * t) / (1 - 0.3 * t))) ? (x < 0 ? -x : x) : (y < 0 ? -y : y)')
+    'a = 4 * 3.14159265358979 ^ 2 * 4 * 0.03; t = 0.577350269189626; m = 0.02 / (1 - 0.3 * t); x = most / (m * (9.80665 + a * t)) - 1; y = least / (m * (9.80665 - a * t)) - 1
+    x = x < 0 ? -x : x; y = y < 0 ? -y : y; printf("both within %.1g of the formulas", (x > y ? x : y))')
 alpha=$(per_row "$WORK/grip.csv" 'n[NR] = $1; a[NR] = $2; if (NR == 2 || $1 > most) most = $1; if (NR == 2 || $1 < least) least = $1' \
     'for (i = 2; i <= NR; i++) { nu = ((n[i] - least) / (most - least)) ^ 0.95; d = ((1 - nu) * 0.05 + nu * 0.01) / a[i] - 1; d = d < 0 ? -d : d; if (d > worst) worst = d } printf "each row within %.1g", worst')
 render scenes/stoelinga_chaigne.yaml -o "$WORK/plate.wav" --set output.diagnostics='{rate: 2 kHz, columns: [energy_j, energy_residual_j, contact_loss_j, mode_loss_j]}'
-plate=$(per_row "$WORK/plate.csv" 'e = $1 > e ? $1 : e; r = $4 > r ? $4 : -$4 > r ? -$4 : r; c = $2; m = $3' \
+plate=$(per_row "$WORK/plate.csv" 'e = $1 > e ? $1 : -$1 > e ? -$1 : e; r = $4 > r ? $4 : -$4 > r ? -$4 : r; c = $2; m = $3' \
     'printf "energy balances to %.1g of its greatest; lost in the contact %.1g J, in the plate %.2g J", r / e, c, m')
 
 {
@@ -102,7 +102,7 @@ END
     row 'eq. 7, 8' '(1 + m sin 2 pi nu t) f, nu ~ v/R' 'to rounding (tests/cli/modulation.sh)' '`--set contact.modulation={radius: 1 cm}`'
     row 'section II-B, modulated recordings' 'artificial modulation of recorded rolling' 'the same, of a WAV' '`contact.model: given`, `output.quantity: force`, `contact.modulation`'
     row 'section VI-B' '45 stimuli: 3 controls, 3 sets, 5 levels' "$(scenes 002_controls)" '`rasp render scenes/experiments/002_controls/*.yaml`'
-    row 'section VII, comb filter' '"the amplitude variation of the modes over time when the ball is rolling on a finite surface"; no formula' 'the modes themselves, by place' '`surface.object`, or a table with places'
+    row 'section VII, comb filter' '"the amplitude variation of the modes over time when the ball is rolling on a finite surface"; no formula' 'the modes themselves, by place; or a comb filter, the formula ours' '`surface.object`, or a table with places; `contact.comb`'
     cat << 'END'
 
 ## 003

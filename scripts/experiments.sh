@@ -236,8 +236,8 @@ END
 #             their model as Conan et al. 2014 print it (papers/002, equations 2 and 3), with the kappa and mu that its listeners rated best, over
 #             the way of the ball's centre, the centre of mass 1 mm off; the force on a surface that does not give way, as in that paper's study, through one
 #             response, since the model "does not take into account" where the ball is.
-#   signal    Conan et al. 2014 (papers/004), whole: random impacts, those of rolling, of a large ball, through one response. It knows no material of a ball:
-#             of three balls on one surface the samples are the same.
+#   signal    Conan et al. 2014 (papers/004), whole: random impacts, those of rolling, of a large ball, through one response. It knows no ball: of three
+#             on one surface the samples are the same, and the gravity of 6 m/s^2 is what the inertia of such a ball leaves of it on a slope.
 # The force is contact.force: directional, the default, whose formulas depart from the printed ones (src/README.md says where and why); set: {contact.force: paper} has those.
 rasp-design: 1
 title: Agarwal et al. 2021, experiment 3, realism of synthetic rolling sounds
@@ -268,7 +268,7 @@ END
       set: {contact: {model: roll_coupled, roll: {follows: null, kappa: 5e9, mu: 1, ground: rigid}}, ball.offset: 1 mm, ablation: {response: constant, place: [13.7 cm, 3.7 cm]}}
     - label: signal
       text: "baseline: signal-based synthesis"
-      set: {contact: {model: impacts, roll: null, impacts: {prototype: roll, size: 0.9}}, ball: null, surface: {recipe: null, roughness: null, along: null}, ablation: {response: constant, place: [13.7 cm, 3.7 cm]}}
+      set: {contact: {model: impacts, gravity: 6 m/s^2, roll: null, impacts: {prototype: roll, size: 0.9}}, ball: null, surface: {recipe: null, roughness: null, along: null}, ablation: {response: constant, place: [13.7 cm, 3.7 cm]}}
 name: "{ball_material}_on_{surface}_{way}/{condition}"
 level: {each: {lufs: -26}}
 length: own
