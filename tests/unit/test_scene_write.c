@@ -149,9 +149,8 @@ static const char SERIES[] =
 static const char PLAYED[] =
     "rasp: 1\nsurface: {roughness: {}, material: steel, object: {shape: bar, length: 1, width: 1 cm, thickness: 1 "
     "cm}}\nmotion: {path: line, to: [1 cm, 0], duration: 1 s}\n"
-    "contact: {model: playback, playback: {stiffness: 1 kN/m}, gesture: {}, comb: {gain: -0.5}, modulation: {depth: "
-    "1}, "
-    "enhance: {gain: 30 dB, modes: 7}}\n";
+    "contact: {model: playback, playback: {stiffness: 1 kN/m}, gesture: {}, comb: {gain: -0.5}, "
+    "modulation: {rate: 3 Hz}, enhance: {gain: 30 dB, modes: 7}}\n";
 static const char ROLLING[] =
     "rasp: 1\nmotion: {path: line, to: [1 cm, 0], duration: 1 s}\ncontact: {model: impacts, impacts: {prototype: roll, "
     "size: 0.2, velocity: 0.3, roughness: 0.4}}\noutput: {diagnostics: {}}\n";
