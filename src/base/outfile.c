@@ -10,6 +10,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <ftw.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -17,6 +18,7 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "base/relpath.h"
 
 enum { NAMES = 10000 };
 
@@ -255,4 +257,45 @@ const char *outfile_scratch_make_folder(const char *name, struct arena *a, struc
                 "%s: no temporary folder can be made there: %s; set TMPDIR to a folder that can be written",
                 outfile_scratch_folder(), strerror(errno));
     return made ? path : NULL;
+}
+
+/* ------------------------------------------------------------------ folders */
+
+static int remove_one(const char *path, const struct stat *s, int kind, struct FTW *where)
+{
+    (void)s, (void)kind, (void)where;
+    remove(path);
+    return 0;
+}
+
+static void remove_folder(const char *path) { nftw(path, remove_one, 16, FTW_DEPTH | FTW_PHYS); }
+
+const char *outfile_folder_open(const char *target, struct arena *a, struct err *e)
+{
+    const char *temporary = arena_format(a, "%s/.rasp-%ld.part", relpath_folder(target, a), (long)getpid());
+    interrupt_hold();
+    bool made = mkdir(temporary, 0777) == 0;
+    int why = errno;
+    if (made) interrupt_temporary(temporary);
+    interrupt_go();
+    if (made) return temporary;
+    err_set(e, ERR_CREATE, "%s: cannot be created: %s", target, why == ENOENT ? "its folder does not exist" : strerror(why));
+    return NULL;
+}
+
+bool outfile_folder_close(const char *target, const char *temporary, bool ok, struct arena *a, struct err *e)
+{
+    const char *old = arena_format(a, "%s.old", temporary);
+    interrupt_hold();
+    bool moved = ok && access(target, F_OK) == 0 && rename(target, old) == 0;
+    if (ok && rename(temporary, target) != 0) {
+        ok = err_set(e, ERR_CREATE, "%s: cannot be created: %s", target, strerror(errno));
+        if (moved) rename(old, target);
+        moved = false;
+    }
+    if (moved) remove_folder(old);
+    if (!ok) remove_folder(temporary);
+    interrupt_forget(temporary);
+    interrupt_go();
+    return ok;
 }

@@ -189,6 +189,18 @@ const char *text_shown(struct arena *a, const char *s)
     return out;
 }
 
+const char *text_html(struct arena *a, const char *s)
+{
+    char *out = arena_take(a, 6 * strlen(s) + 1, 1), *to = out;
+    for (const char *p = s; *p; p++)
+        to = stpcpy(to, *p == '<'   ? "&lt;"
+                        : *p == '>' ? "&gt;"
+                        : *p == '&' ? "&amp;"
+                        : *p == '"' ? "&quot;"
+                                    : (const char[]){*p, '\0'});
+    return out;
+}
+
 bool text_is_one(const char *word, const char *const *names)
 {
     while (*names && strcmp(*names, word) != 0)

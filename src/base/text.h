@@ -50,6 +50,9 @@ void text_show(const char *s, char *out, size_t room);
 /* The same in the arena, whole. */
 const char *text_shown(struct arena *a, const char *s);
 
+/* With what HTML would take for its own written as entities. */
+const char *text_html(struct arena *a, const char *s);
+
 /* Does it end so, and is more than the ending? */
 bool text_ends(const char *s, const char *ending);
 

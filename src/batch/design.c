@@ -456,7 +456,7 @@ void design_print(const struct design *d, const bool *mine, const char *const *s
 
 static const char *const keys[] = {"rasp-design", "title",   "text",  "base",       "seed",       "set",
                                    "factors",     "exclude", "cells", "recordings", "replicates", "independent",
-                                   "order",       "name",    "level", "length",     NULL};
+                                   "order",       "name",    "level", "length",     "trials",     NULL};
 
 static void text_read(struct yaml *y, const struct diag_source *source, struct design *d)
 {
@@ -493,6 +493,7 @@ static void text_read(struct yaml *y, const struct diag_source *source, struct d
         if (y->diag->n == 0) design_rows_stimuli(&r);
         if (y->diag->n == 0) design_names_make(&r);
         r.texts->cells = r.cells;
+        if (y->diag->n == 0) design_trials_read(&r);
         if (y->diag->n == 0) design_rows_hash(&r);
     }
 }

@@ -45,6 +45,27 @@ struct design_stimulus {
 enum design_level_rule { DESIGN_LEVEL_COMMON, DESIGN_LEVEL_EACH, DESIGN_LEVEL_SCENE };
 enum design_length_rule { DESIGN_LENGTH_LONGEST, DESIGN_LENGTH_FIXED, DESIGN_LENGTH_OWN };
 
+enum design_task { DESIGN_TASK_RATE, DESIGN_TASK_CHOOSE, DESIGN_TASK_COMPARE };
+enum design_role { DESIGN_ROLE_TEST, DESIGN_ROLE_REFERENCE, DESIGN_ROLE_ANCHOR, DESIGN_ROLE_TRAINING };
+
+extern const char *const design_tasks[], *const design_roles[]; /* their words; end with NULL */
+
+struct design_answer {
+    const char *label, *text; /* in tables; for those who listen */
+};
+
+struct design_trials {                   /* what listeners do with the stimuli (YAML: trials)              */
+    enum design_task task;               /* rate: each sound of a trial; choose: an answer; compare: two sounds  */
+    const char *question, *instructions; /* NULL: none                                                           */
+    bool *within;                        /* [n_factors] differ within a trial                                    */
+    int asked;                           /* the factor whose level is the right answer; -1: none                 */
+    struct design_answer *answers;       /* of RATE: words of the scale, from 0 to 100 at equal distances        */
+    int n_answers;
+    int session, block; /* factors whose levels are heard in different sessions, blocks; -1: none           */
+    int training;       /* trials that are drawn to begin each session with                                 */
+    enum design_role *roles; /* [n_stimuli] */
+};
+
 struct design {
     const char *file, *title;
     uint64_t seed;
@@ -63,6 +84,7 @@ struct design {
     struct level level;     /* of scene.h: exactly one of peak, rms, lufs, full_scale, dbfs_at_1_pa           */
     int length_rule;        /* enum design_length_rule                                                       */
     double length;          /* s, of FIXED                                                                   */
+    const struct design_trials *trials; /* NULL: the design has none                                          */
     const char **sources;   /* every text file that was read for the design; ends with NULL                   */
     char sha256[HASH_TEXT]; /* of what the design means: two designs that differ in comments alone share it   */
     const struct design_texts *texts; /* of design.c                                                          */

@@ -64,6 +64,18 @@ int design_reading_level(const struct design_reading *r, int factor, const struc
 /* "wood, 2 Hz" */
 const char *design_reading_labels(const struct design *d, const int *level, struct arena *a);
 
+struct design_match {      /* an entry of a list that picks stimuli by their levels, as exclude does           */
+    unsigned char **named; /* [n_factors][n_levels], is the level named? NULL: every level is meant            */
+    const struct yaml_node *entry;
+    bool matched; /* something */
+};
+
+/* Of design_rows.c: the list (NULL: none) that `label` calls so; is there an entry all of whose pairs the levels match?
+ */
+struct design_match *design_rows_matches(const struct design_reading *r, const struct yaml_node *list,
+                                         const char *label, int *n);
+bool design_rows_match(const struct design *d, const int *level, struct design_match *all, int n);
+
 /* Of design_factors.c: fills the design's base, set and factors, their texts, and columns, units and values for the
    manifest. The rules of level and length have been read: they decide what may be set. */
 void design_factors_read(struct design_reading *r);
@@ -77,5 +89,8 @@ void design_rows_hash(struct design_reading *r);
 /* Of design_names.c: the template into r->template; the name of every stimulus. */
 void design_names_template(struct design_reading *r);
 void design_names_make(struct design_reading *r);
+
+/* Of design_trials.c: what listeners do with the stimuli, into design->trials. */
+void design_trials_read(struct design_reading *r);
 
 #endif

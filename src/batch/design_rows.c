@@ -16,13 +16,7 @@
 
 /* ------------------------------------------------------------------ cells */
 
-enum { EXCLUSIONS = 1000 };
-
-struct exclusion {
-    unsigned char **named; /* [n_factors][n_levels], is the level named? NULL: every level is meant */
-    const struct yaml_node *entry;
-    bool matched;
-};
+enum { MATCHES = 1000 };
 
 /* ------------------------------------------------------------------ crossing */
 
@@ -44,13 +38,13 @@ static struct design_cell *cell_add(struct design_reading *r)
     return &r->cells[r->n_cells++];
 }
 
-static bool excluded(const struct design *d, const int *level, struct exclusion *all, int n)
+bool design_rows_match(const struct design *d, const int *level, struct design_match *all, int n)
 {
     bool any = false;
     for (int i = 0; i < n; i++) {
         bool match = true;
         for (int f = 0; match && f < d->n_factors; f++)
-            match = !all[i].named[f] || all[i].named[f][level[f]];
+            match = !all[i].named[f] || (level[f] >= 0 && all[i].named[f][level[f]]);
         all[i].matched = all[i].matched || match;
         any = any || match;
     }
@@ -58,7 +52,7 @@ static bool excluded(const struct design *d, const int *level, struct exclusion 
 }
 
 /* The first factor is the slowest. */
-static void cells_cross(struct design_reading *r, const struct crossing *factors, struct exclusion *all, int n)
+static void cells_cross(struct design_reading *r, const struct crossing *factors, struct design_match *all, int n)
 {
     const struct design *d = r->design;
     long most = (long)crossed(d, factors);
@@ -69,7 +63,7 @@ static void cells_cross(struct design_reading *r, const struct crossing *factors
             levels[f] = factors[f].level[cell % factors[f].n];
             cell /= factors[f].n;
         }
-        if (excluded(d, levels, all, n)) continue;
+        if (design_rows_match(d, levels, all, n)) continue;
         *cell_add(r) = (struct design_cell){.level = levels};
         levels += d->n_factors;
     }
@@ -104,7 +98,7 @@ static bool is_list(const struct design_reading *r, const struct yaml_node *list
     return true;
 }
 
-static void cells_list(struct design_reading *r, const struct yaml_node *list, struct exclusion *all, int n)
+static void cells_list(struct design_reading *r, const struct yaml_node *list, struct design_match *all, int n)
 {
     static const char *const own[] = {NULL};
     int errors = r->yaml->diag->n;
@@ -123,12 +117,12 @@ static void cells_list(struct design_reading *r, const struct yaml_node *list, s
                          "'%s' of %s is a level that only recordings have",
                          diag_shown(r->yaml->diag, factor->levels[level[f]].label), factor->name);
         }
-        if (r->yaml->diag->n == errors && !excluded(r->design, level, all, n))
+        if (r->yaml->diag->n == errors && !design_rows_match(r->design, level, all, n))
             *cell_add(r) = (struct design_cell){.level = level, .entry = entry};
     }
 }
 
-/* ------------------------------------------------------------------ excluding */
+/* ------------------------------------------------------------------ picking by levels */
 
 static void level_name(const struct design_reading *r, int f, const struct yaml_node *label, unsigned char *named)
 {
@@ -136,26 +130,25 @@ static void level_name(const struct design_reading *r, int f, const struct yaml_
     if (i >= 0) named[i] = 1;
 }
 
-static struct exclusion *exclusions_read(const struct design_reading *r, int *n)
+struct design_match *design_rows_matches(const struct design_reading *r, const struct yaml_node *list,
+                                         const char *label, int *n)
 {
-    const struct yaml_node *list = design_reading_value(r, "exclude");
-    struct exclusion *all = ARENA_TAKE(r->arena, struct exclusion, list ? list->n + 1 : 1);
+    const char *cure = arena_format(r->arena, "write for instance: %s: [{material: wood, motion.rate: 2 Hz}]", label);
+    struct design_match *all = ARENA_TAKE(r->arena, struct design_match, list ? list->n + 1 : 1);
     *n = 0;
-    if (list && list->n > EXCLUSIONS) {
-        diag_add(r->yaml->diag, list->at, "list the cells that there are: cells:", "exclude has more than %d entries",
-                 EXCLUSIONS);
+    if (list && list->n > MATCHES) {
+        diag_add(r->yaml->diag, list->at, "list the cells that there are: cells:", "%s has more than %d entries", label,
+                 MATCHES);
         return all;
     }
-    if (!list || !is_list(r, list, "exclude", "write for instance: exclude: [{material: wood, motion.rate: 2 Hz}]"))
-        return all;
+    if (!list || !is_list(r, list, label, cure)) return all;
     for (const struct yaml_node *entry = list->first; entry; entry = entry->next) {
         if (entry->kind != YAML_MAP) continue;
-        struct exclusion *x = &all[(*n)++];
-        *x = (struct exclusion){.entry = entry,
+        struct design_match *x = &all[(*n)++];
+        *x = (struct design_match){.entry = entry,
                                 .named = ARENA_TAKE(r->arena, unsigned char *, r->design->n_factors + 1)};
         if (entry->n == 0)
-            diag_add(r->yaml->diag, entry->at, "write for instance: exclude: [{material: wood, motion.rate: 2 Hz}]",
-                     "this excludes every cell");
+            diag_add(r->yaml->diag, entry->at, cure, "this names every cell");
         for (const struct yaml_node *item = entry->first; item; item = item->next) {
             int f = design_reading_factor(r, item->key);
             if (f < 0) continue;
@@ -217,7 +210,7 @@ void design_rows_cells(struct design_reading *r)
     const struct yaml_node *cells = design_reading_value(r, "cells"),
                            *recordings = design_reading_value(r, "recordings");
     int n, errors = r->yaml->diag->n;
-    struct exclusion *all = exclusions_read(r, &n);
+    struct design_match *all = design_rows_matches(r, design_reading_value(r, "exclude"), "exclude", &n);
     struct crossing *levels = ARENA_TAKE(r->arena, struct crossing, r->design->n_factors + 1);
     for (int f = 0; f < r->design->n_factors; f++) {
         const struct design_factor *factor = &r->design->factors[f];

@@ -31,8 +31,7 @@ void tables_number(FILE *f, double x)
     fputs(text, f);
 }
 
-/* Quoted where RFC 4180 wants it. */
-static void put_text(FILE *f, const char *text)
+void tables_text(FILE *f, const char *text)
 {
     bool quoted = text[strcspn(text, ",\"\r\n")] != '\0' || *text == ' ' || (*text && text[strlen(text) - 1] == ' ');
     if (quoted) fputc('"', f);
@@ -324,12 +323,12 @@ static void put_row(const struct cell *cell, bool head)
         const char *words = head ? c->name : c->text && !factors ? c->text(cell) : NULL;
         if (c != columns && !factors) fputc(',', cell->f);
         if (!factors && (head || c->text))
-            put_text(cell->f, words ? words : "n/a");
+            tables_text(cell->f, words ? words : "n/a");
         else if (!factors)
             tables_number(cell->f, c->number(cell));
         for (int k = 0; factors && k < d->n_factors; k++) {
             fputc(',', cell->f);
-            put_text(cell->f, head ? d->factors[k].column : design_value(d, cell->row, k));
+            tables_text(cell->f, head ? d->factors[k].column : design_value(d, cell->row, k));
         }
     }
     fputc('\n', cell->f);
@@ -355,7 +354,7 @@ static bool put_stimulus(struct writing *w, int i, struct err *e)
         fprintf(w->files[SUMS].stream, "%s  %s\n", r.files[k].sha256, r.files[k].path);
     if (w->timings && t->rows[i].made) {
         FILE *f = w->files[TIMINGS].stream;
-        put_text(f, x->name);
+        tables_text(f, x->name);
         fputc(',', f);
         tables_number(f, t->rows[i].wall);
         fputc(',', f);

@@ -37,4 +37,7 @@ bool tables_are_there(const char *folder, struct arena *a);
 /* The shortest decimal number that reads back as the same; "n/a" of what is not finite. */
 void tables_number(FILE *f, double x);
 
+/* A cell, quoted where RFC 4180 wants it. */
+void tables_text(FILE *f, const char *text);
+
 #endif

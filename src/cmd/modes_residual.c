@@ -583,38 +583,11 @@ static bool write_files(struct job *j, const struct figures *g, struct err *e)
     return outfile_commit(o, e);
 }
 
-static void remove_folder(const struct job *j, const char *folder)
-{
-    static const char *const names[] = {RESIDUAL_WAV, RESIDUAL_MODES, RESIDUAL_STRIKE, RESIDUAL_YAML};
-    for (int k = 0; k < 4; k++)
-        unlink(arena_format(j->arena, "%s/%s", folder, names[k]));
-    rmdir(folder);
-}
-
 /* Whole, and in the place of one that is there, or not at all. */
 static bool write_folder(struct job *j, const struct figures *g, struct err *e)
 {
-    const char *beside = arena_format(j->arena, "%s/.rasp-%d", relpath_folder(j->folder, j->arena), (int)getpid()),
-               *old = arena_format(j->arena, "%s.old", beside);
-    j->temporary = arena_format(j->arena, "%s.part", beside);
-    interrupt_hold();
-    bool made = mkdir(j->temporary, 0777) == 0;
-    if (made) interrupt_temporary(j->temporary);
-    interrupt_go();
-    if (!made) return err_set(e, ERR_CREATE, "%s: cannot be created: %s", j->folder, strerror(errno));
-    bool ok = write_files(j, g, e);
-    interrupt_hold();
-    bool moved = ok && access(j->folder, F_OK) == 0 && rename(j->folder, old) == 0;
-    if (ok && rename(j->temporary, j->folder) != 0) {
-        ok = err_set(e, ERR_CREATE, "%s: cannot be created: %s", j->folder, strerror(errno));
-        if (moved) rename(old, j->folder);
-        moved = false;
-    }
-    if (moved) remove_folder(j, old);
-    if (!ok) remove_folder(j, j->temporary);
-    interrupt_forget(j->temporary);
-    interrupt_go();
-    return ok;
+    j->temporary = outfile_folder_open(j->folder, j->arena, e);
+    return j->temporary && outfile_folder_close(j->folder, j->temporary, write_files(j, g, e), j->arena, e);
 }
 
 /* ------------------------------------------------------------------ the report */

@@ -151,17 +151,7 @@ static void draw_item(struct page *g, struct item *item, struct err *e)
 
 /* ------------------------------------------------------------------ the page */
 
-static const char *html(const struct page *g, const char *text)
-{
-    char *out = arena_take(g->arena, 6 * strlen(text = text_shown(g->arena, text)) + 1, 1), *to = out;
-    for (const char *p = text; *p; p++)
-        to = stpcpy(to, *p == '<'   ? "&lt;"
-                        : *p == '>' ? "&gt;"
-                        : *p == '&' ? "&amp;"
-                        : *p == '"' ? "&quot;"
-                                    : (const char[]){*p, '\0'});
-    return out;
-}
+static const char *html(const struct page *g, const char *text) { return text_html(g->arena, text_shown(g->arena, text)); }
 
 /* A file as the page links it: relative, what is no plain character as %XX. */
 static const char *link_to(const struct page *g, const char *file)

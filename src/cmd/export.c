@@ -1,0 +1,478 @@
+/* rasp export: a rendered set as what programs for listening experiments, and readers of data sets, take. The trials of
+   the design are one list (batch/trials.h); a format (export_formats.c) prints it. The folder appears when it is
+   complete. */
+#include <ctype.h>
+#include <errno.h>
+#include <fts.h>
+#include <inttypes.h>
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/hash.h"
+#include "base/interrupt.h"
+#include "base/outfile.h"
+#include "base/relpath.h"
+#include "base/text.h"
+#include "batch/batch.h"
+#include "cmd/export.h"
+#include "cmd/message.h"
+#include "file/bytes.h"
+#include "num/noise.h"
+
+static const char sums_name[] = "SHA256SUMS";
+
+/* ------------------------------------------------------------------ files */
+
+bool export_open(struct export *x, const char *name, struct err *e)
+{
+    const char *path = arena_format(x->arena, "%s/%s", x->temporary, name);
+    if (!folder_make_for(x->temporary, name, e)) return false;
+    x->files = arena_more(x->arena, x->files, x->n_files, sizeof *x->files);
+    x->files[x->n_files++] = arena_text(x->arena, name);
+    x->stream = fopen(path, "wx");
+    return x->stream || err_set(e, err_system(ERR_CREATE), "%s: cannot be created: %s", path, strerror(errno));
+}
+
+bool export_close(struct export *x, struct err *e)
+{
+    bool bad = ferror(x->stream) != 0;
+    errno = 0;
+    bad |= fclose(x->stream) != 0;
+    return (!bad && !e->kind) || err_set(e, err_system(ERR_IO), "%s: cannot be written: %s", x->files[x->n_files - 1],
+                                         errno ? strerror(errno) : "not all of it arrived");
+}
+
+bool export_text(struct export *x, const char *name, const char *text, struct err *e)
+{
+    return export_open(x, name, e) && (fputs(text, x->stream), export_close(x, e));
+}
+
+bool export_json(struct export *x, const char *name, json_t *value, struct err *e)
+{
+    bool open = export_open(x, name, e);
+    if (open) json_dumpf(value, x->stream, JSON_INDENT(2) | JSON_ENSURE_ASCII);
+    json_decref(value);
+    return open && (fputc('\n', x->stream), export_close(x, e));
+}
+
+void export_cell(struct export *x, bool first, const char *text)
+{
+    if (!first) fputc(x->format->tabs ? '\t' : ',', x->stream);
+    if (x->format->tabs)
+        for (; *text; text++) /* which have no quotes */
+            fputc((unsigned char)*text < ' ' ? ' ' : *text, x->stream);
+    else
+        tables_text(x->stream, text);
+}
+
+const char *export_number(int i, int n, struct arena *a)
+{
+    return arena_format(a, "%0*d", snprintf(NULL, 0, "%d", n), i);
+}
+
+/* ------------------------------------------------------------------ the set */
+
+static const char *cell(const struct export *x, int i, const char *column)
+{
+    return x->manifest.cells[x->rows[i] * x->manifest.columns + (size_t)csv_column(&x->manifest, column)];
+}
+
+struct named {
+    const char *name;
+    size_t row;
+};
+
+static int by_name(const void *a, const void *b)
+{
+    return strcmp(((const struct named *)a)->name, ((const struct named *)b)->name);
+}
+
+/* What readers of tables take for a number, a truth or nothing: "007" would come back as 7. */
+static bool is_lost(const char *word)
+{
+    static const char *const words[] = {"NA",   "N/A",  "n/a",   "NaN", "nan", "-nan", "null", "NULL", "None", "Inf",
+                                        "inf",  "TRUE", "FALSE", "T",   "F",   "True", "False", "true", "false", NULL};
+    return !*word || text_number_length(word) == strlen(word) || text_is_one(word, words);
+}
+
+/* Each stimulus has its row, is done, makes a sound, and is what the design says. */
+static bool stimulus_check(struct export *x, int i, struct err *e)
+{
+    const struct design *d = x->design;
+    const char *name = d->stimuli[i].name, *status = cell(x, i, "status");
+    if (strcmp(status, "ok") != 0)
+        return err_set(e, ERR_SCENE, "%s: %s %s: render the set first, by rasp batch", x->set, name,
+                       strcmp(status, "failed") ? "is not there yet" : "has failed");
+    if (!text_ends(cell(x, i, "file_name"), ".wav"))
+        return err_set(e, ERR_SCENE, "%s: %s makes no sound that could be heard", x->set, name);
+    if (is_lost(name))
+        return err_set(e, ERR_SCENE,
+                       "%s: the stimulus '%s' would be read as a number or as nothing from a table: give the design a "
+                       "name: with a letter before it, as in s{order}",
+                       d->file, name);
+    for (int f = 0; f < d->n_factors; f++) {
+        const char *value = design_value(d, i, f);
+        double number;
+        if (csv_column(&x->manifest, d->factors[f].column) < 0 || strcmp(cell(x, i, d->factors[f].column), value) != 0)
+            return err_set(e, ERR_SCENE, "%s: %s is not the %s of %s: is it the set of another design, or of an "
+                           "earlier state of it?", x->set, d->factors[f].column, value, name);
+        if (d->stimuli[i].level[f] >= 0 && is_lost(value) && !text_double(value, &number))
+            return err_set(e, ERR_SCENE, "%s: the label '%s' of %s would be read as something else from a table: call "
+                           "it otherwise", d->file, value, d->factors[f].name);
+    }
+    if (x->format->browser && !strcmp(cell(x, i, "encoding"), "float64"))
+        return err_set(e, ERR_SCENE, "%s: %s is float64, which browsers do not play: set: {output.encoding: pcm24} in "
+                       "the design", x->set, name);
+    return true;
+}
+
+static bool set_read(struct export *x, struct err *e)
+{
+    static const char *const needed[] = {"stimulus_id", "file_name", "status", "encoding", "file_sha256", "seed",
+                                         "frames", NULL};
+    const struct design *d = x->design;
+    struct csv *m = &x->manifest;
+    if (!csv_read(arena_format(x->arena, "%s/manifest.csv", x->set), x->arena, m, e)) return false;
+    for (int k = 0; needed[k]; k++)
+        if (csv_column(m, needed[k]) < 0)
+            return err_set(e, ERR_SCENE, "%s: has no column %s: it is no manifest as rasp batch writes it", m->file,
+                           needed[k]);
+    struct named *all = ARENA_TAKE(x->arena, struct named, m->rows + 1);
+    for (size_t row = 0; row < m->rows; row++)
+        all[row] = (struct named){m->cells[row * m->columns + (size_t)csv_column(m, "stimulus_id")], row};
+    if (m->rows) qsort(all, m->rows, sizeof *all, by_name);
+    x->rows = ARENA_TAKE(x->arena, size_t, d->n_stimuli + 1);
+    for (int i = 0; i < d->n_stimuli; i++) {
+        const struct named key = {d->stimuli[i].name, 0}, *found = bsearch(&key, all, m->rows, sizeof *all, by_name);
+        if (!found)
+            return err_set(e, ERR_SCENE, "%s: has no stimulus %s: is it the set of %s?", m->file, key.name, d->file);
+        x->rows[i] = found->row;
+        if (!stimulus_check(x, i, e)) return false;
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------ splits */
+
+struct ranked {
+    long cell;
+    uint64_t rank;
+};
+
+static int by_rank(const void *pa, const void *pb)
+{
+    const struct ranked *a = pa, *b = pb;
+    return a->rank != b->rank ? (a->rank > b->rank) - (a->rank < b->rank) : (a->cell > b->cell) - (a->cell < b->cell);
+}
+
+/* "train=8,test=2": replicates of a cell stay together. */
+static bool splits_read(struct export *x, const char *given, struct err *e)
+{
+    static const char *const words[] = {"train", "validation", "test", NULL};
+    const struct design *d = x->design;
+    double shares[3] = {0}, sum = 0;
+    long cells = 0;
+    for (const char *p = given; *p;) {
+        size_t n = strcspn(p, "="), m = p[n] ? strcspn(p + n + 1, ",") : 0;
+        int k = 0;
+        while (words[k] && (strlen(words[k]) != n || strncmp(words[k], p, n) != 0))
+            k++;
+        if (!words[k] || !m || shares[k] > 0 || !text_scaled(p + n + 1, m, 0, &shares[k]) || !(shares[k] > 0))
+            return err_set(e, ERR_USAGE, "--splits: '%s' is not of the form train=8,validation=1,test=1", given);
+        sum += shares[k];
+        p += n + 1 + m;
+        p += *p == ',';
+    }
+    for (int i = 0; i < d->n_stimuli; i++)
+        cells = d->stimuli[i].cell >= cells ? d->stimuli[i].cell + 1 : cells;
+    struct ranked *all = ARENA_TAKE(x->arena, struct ranked, cells + 1);
+    const char **of = ARENA_TAKE(x->arena, const char *, cells + 1);
+    for (int i = d->n_stimuli - 1; i >= 0; i--) { /* by the name of the cell's first stimulus */
+        uint64_t bits[2];
+        noise_bits(noise_make(x->seed, arena_format(x->arena, "rasp export split %s", d->stimuli[i].name)), 0, 0, bits);
+        all[d->stimuli[i].cell] = (struct ranked){d->stimuli[i].cell, bits[0]};
+    }
+    qsort(all, (size_t)cells, sizeof *all, by_rank);
+    for (long c = 0; c < cells; c++) {
+        double at = ((double)c + 0.5) / (double)cells * sum;
+        int k = 0;
+        while (k < 2 && (at > shares[k] || shares[k] == 0))
+            at -= shares[k++];
+        of[all[c].cell] = words[k];
+    }
+    x->splits = ARENA_TAKE(x->arena, const char *, d->n_stimuli + 1);
+    for (int i = 0; i < d->n_stimuli; i++)
+        x->splits[i] = of[d->stimuli[i].cell];
+    return true;
+}
+
+/* ------------------------------------------------------------------ the sounds, and the table of them */
+
+static const char *sounds_folder(const struct export *x, int i, struct arena *a)
+{
+    return x->splits ? x->splits[i] : arena_format(a, x->format->sounds, x->name);
+}
+
+const char *export_sound(const struct export *x, int i, struct arena *a)
+{
+    return arena_format(a, "%s/%s.wav", sounds_folder(x, i, a), x->design->stimuli[i].name);
+}
+
+static bool sound_copy(struct export *x, int i, struct err *e)
+{
+    struct arena *a = arena_open();
+    const char *from = arena_format(a, "%s/%s", x->set, cell(x, i, "file_name"));
+    struct bytes b;
+    char hex[HASH_TEXT];
+    bool ok = bytes_read(from, a, &b, e);
+    if (ok) hash_bytes(b.at, b.n, hex);
+    if (ok && strcmp(hex, cell(x, i, "file_sha256")) != 0)
+        ok = err_set(e, ERR_INPUT, "%s: was changed since the set was rendered: run rasp batch again", from);
+    ok = ok && export_open(x, export_sound(x, i, a), e) && (fwrite(b.at, 1, b.n, x->stream), export_close(x, e));
+    arena_close(a);
+    return ok;
+}
+
+/* The rows of the manifest whose sounds lie in the folder. Seeds have a letter before them, since 64 bits do not survive
+   where they are read as a number. */
+static bool table_write(struct export *x, const char *folder, struct err *e)
+{
+    const struct csv *m = &x->manifest;
+    struct arena *a = arena_open();
+    int file = csv_column(m, "file_name"), seed = csv_column(m, "seed");
+    const char *stem = relpath_stem(x->format->table, a), *called = x->format->tabs ? "stim_file" : m->names[file];
+    bool ok = export_open(x, arena_format(a, "%s/%s", folder, x->format->table), e);
+    for (size_t c = 0; ok && c < m->columns; c++)
+        export_cell(x, c == 0, (int)c == file ? called : m->names[c]);
+    for (int i = 0; ok && i < x->design->n_stimuli; i++) {
+        if (strcmp(sounds_folder(x, i, a), folder) != 0) continue;
+        fputc('\n', x->stream);
+        for (int c = 0; c < (int)m->columns; c++) {
+            const char *text = m->cells[x->rows[i] * m->columns + (size_t)c];
+            if (c == file) text = arena_format(a, "%s.wav", x->design->stimuli[i].name);
+            if (c == seed && isdigit((unsigned char)*text)) text = arena_format(a, "s%s", text);
+            export_cell(x, c == 0, text);
+        }
+    }
+    ok = ok && (fputc('\n', x->stream), export_close(x, e));
+    json_t *j = ok ? json_load_file(arena_format(a, "%s/manifest.json", x->set), 0, NULL) : NULL, *one;
+    if (ok && !json_is_object(j))
+        ok = err_set(e, ERR_INPUT, "%s/manifest.json: is not there, or no side-car of the manifest", x->set);
+    if (ok && (one = json_object_get(j, "seed")))
+        json_object_set_new(one, "Description",
+                            json_sprintf("the letter s, and the %s", json_string_value(json_object_get(one, "Description"))));
+    if (ok && (one = json_object_get(j, m->names[file])) && strcmp(called, m->names[file]) != 0) {
+        json_object_set(j, called, one);
+        json_object_del(j, m->names[file]);
+    }
+    ok = ok && export_json(x, arena_format(a, "%s/%s.json", folder, stem), j, e);
+    arena_close(a);
+    return ok;
+}
+
+static bool sounds_write(struct export *x, struct err *e)
+{
+    for (int i = 0; i < x->design->n_stimuli; i++) {
+        if (interrupt_seen()) return err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written");
+        if (!sound_copy(x, i, e)) return false;
+    }
+    for (int i = 0; i < x->design->n_stimuli; i++) {
+        const char *folder = sounds_folder(x, i, x->arena);
+        bool first = true;
+        for (int k = 0; first && k < i && x->splits; k++)
+            first = strcmp(x->splits[k], folder) != 0;
+        if (first && (i == 0 || x->splits) && !table_write(x, folder, e)) return false;
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------ the folder */
+
+static bool lists_write(struct export *x, struct err *e)
+{
+    int sittings = x->trials.n_sessions;
+    for (int p = 1; x->format->list && p <= x->people; p++)
+        for (int s = 1; s <= sittings; s++) {
+            struct export_list l = {.participant = p, .sitting = s, .arena = arena_open()};
+            l.name = arena_format(l.arena, "p%s", export_number(p, x->people, l.arena));
+            if (sittings > 1) l.name = arena_format(l.arena, "%s_s%s", l.name, export_number(s, sittings, l.arena));
+            l.trials = trials_list(&x->trials, x->seed, p, s, l.arena, &l.n);
+            bool ok = x->format->list(x, &l, e);
+            arena_close(l.arena);
+            if (!ok) return false;
+        }
+    return true;
+}
+
+static int by_text(const void *a, const void *b) { return strcmp(*(const char *const *)a, *(const char *const *)b); }
+
+/* What the export consists of, by name; by it the folder is known as one that may be replaced. */
+static bool sums_write(struct export *x, struct err *e)
+{
+    int n = x->n_files;
+    char hex[HASH_TEXT];
+    qsort(x->files, (size_t)n, sizeof *x->files, by_text);
+    if (!export_open(x, sums_name, e)) return false;
+    for (int i = 0; i < n && hash_file(arena_format(x->arena, "%s/%s", x->temporary, x->files[i]), hex, e); i++)
+        fprintf(x->stream, "%s  %s\n", hex, x->files[i]);
+    return export_close(x, e);
+}
+
+/* A folder that is there is replaced if all in it is as an export left it. ERR_CREATE */
+static bool may_replace(const struct export *x, struct err *e)
+{
+    struct stat st;
+    struct bytes b;
+    struct err none = {0};
+    if (lstat(x->output, &st) != 0) return true;
+    if (!S_ISDIR(st.st_mode)) return err_set(e, ERR_CREATE, "%s: is there already, and no folder", x->output);
+    if (rmdir(x->output) == 0) return true; /* it was empty */
+    const char *sums = bytes_read(arena_format(x->arena, "%s/%s", x->output, sums_name), x->arena, &b, &none)
+                           ? arena_format(x->arena, "\n%.*s", (int)b.n, b.at)
+                           : "";
+    char *const roots[] = {arena_text(x->arena, x->output), NULL};
+    FTS *walk = fts_open(roots, FTS_PHYSICAL | FTS_NOCHDIR, NULL);
+    const char *strange = walk ? NULL : ".";
+    for (FTSENT *f; walk && !strange && (f = fts_read(walk));) {
+        const char *name = f->fts_path + strlen(x->output);
+        char hex[HASH_TEXT];
+        name += *name == '/';
+        if (f->fts_info == FTS_D || f->fts_info == FTS_DP || !strcmp(name, sums_name)) continue;
+        if (f->fts_info != FTS_F || !hash_file(f->fts_path, hex, &none) ||
+            !strstr(sums, arena_format(x->arena, "\n%s  %s\n", hex, name)))
+            strange = arena_text(x->arena, name);
+    }
+    if (walk) fts_close(walk);
+    return !strange || err_set(e, ERR_CREATE,
+                               "%s: is there already, and %s in it is not as an export left it: give another folder, "
+                               "or move it away", x->output, strange);
+}
+
+static bool folder_write(struct export *x, struct err *e)
+{
+    if (!may_replace(x, e)) return false;
+    x->temporary = outfile_folder_open(x->output, x->arena, e);
+    if (!x->temporary) return false;
+    bool ok = sounds_write(x, e) && (!x->format->files || x->format->files(x, e)) && lists_write(x, e) &&
+              sums_write(x, e);
+    return outfile_folder_close(x->output, x->temporary, ok, x->arena, e);
+}
+
+/* ------------------------------------------------------------------ command */
+
+static bool format_read(struct export *x, const struct cmd_call *c, struct err *e)
+{
+    const char *words[16] = {NULL}, *list = "";
+    int k = -1;
+    for (int i = 0; export_formats_table[i].name; i++) {
+        words[i] = export_formats_table[i].name;
+        list = arena_format(x->arena, "%s%s%s", list, i ? ", " : "", words[i]);
+    }
+    if (!args_given(&c->args, "for"))
+        return err_set(e, ERR_USAGE, "--for: say for what the set is: %s", list);
+    if (!args_word(&c->args, "for", words, &k, e)) return false;
+    x->format = &export_formats_table[k];
+    return true;
+}
+
+static bool read_ask(struct export *x, struct cmd_call *c, struct err *e)
+{
+    const char *output = args_value(&c->args, "output"), *name = args_value(&c->args, "name");
+    long people = 1;
+    if (!format_read(x, c, e)) return false;
+    if (!output || !*output) return err_set(e, ERR_USAGE, "--output: a folder is needed, as in -o study");
+    x->set = batch_folder(x->arena, c->args.operands[1]);
+    x->output = batch_folder(x->arena, output);
+    if (!name) { /* of what cannot be in it: _ */
+        char *made = arena_text(x->arena, relpath_stem(c->args.operands[0], x->arena));
+        for (char *p = made; *p; p++)
+            *p = isalnum((unsigned char)*p) ? *p : '_';
+        name = made;
+    }
+    if (!*name || name[strspn(name, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-")])
+        return err_set(e, ERR_USAGE, "--name: '%s' is not of letters, digits, _ and - alone", name);
+    x->name = name;
+    if (!args_whole(&c->args, "participants", (const long[2]){1, TRIALS_PEOPLE}, &people, e)) return false;
+    x->people = (int)people;
+    return true;
+}
+
+static int export_run(struct cmd_call *c, struct err *e)
+{
+    struct export x = {.arena = c->arena};
+    struct batch_report r = {.messages = ""};
+    const char *file = c->args.operands[0], *seed = args_value(&c->args, "seed");
+    if (!read_ask(&x, c, e)) return (int)e->kind;
+    message_group(c);
+    if (!design_read(file, x.arena, &r.design, &r.messages, e)) {
+        batch_message_unread(c, file, &r, e);
+        return (int)e->kind;
+    }
+    x.design = &r.design;
+    x.seed = r.design.seed;
+    if (seed && !text_u64(seed, &x.seed))
+        return err_set(e, ERR_USAGE, "--seed: '%s' is not a whole number from 0 to 18446744073709551615", seed),
+               (int)e->kind;
+    if (args_given(&c->args, "splits") && !x.format->splits)
+        err_set(e, ERR_USAGE, "--splits: %s has none", x.format->name);
+    else if (x.format->list && !r.design.trials && !x.format->bare)
+        err_set(e, ERR_SCENE, "%s: has no trials: say what listeners do, as in trials: {task: choose, question: Which "
+                "material is it?, answers: material}; rasp explain trials", file);
+    if (e->kind || (r.design.trials && x.format->list && !trials_make(&r.design, x.arena, &x.trials, e)) ||
+        !set_read(&x, e) ||
+        (x.format->splits &&
+         !splits_read(&x, args_given(&c->args, "splits") ? args_value(&c->args, "splits") : "train=1", e)) ||
+        !folder_write(&x, e))
+        return (int)e->kind;
+    if (x.trials.n)
+        printf("%s: for %s: %d sounds, %d trials, %d participant%s\n", x.output, x.format->name, r.design.n_stimuli,
+               x.trials.n, x.people, x.people == 1 ? "" : "s");
+    else
+        printf("%s: for %s: %d sounds\n", x.output, x.format->name, r.design.n_stimuli);
+    return (int)e->kind;
+}
+
+static const struct args_option export_options[] = {
+    {"for", 0, "webmushra|psychopy|jspsych|page|bids|audiofolder", false, "what the folder is for, see above"},
+    {"output", 'o', "FOLDER", false, "the folder that is made; one that an export left is replaced"},
+    {"participants", 'p', "N", false, "how many participants have an order of their own, 1 to 10000; default: 1"},
+    {"seed", 0, "NUMBER", false, "what orders and splits are drawn from; default: the design's seed"},
+    {"name", 0, "WORD", false, "what the study is called in names of files; default: the design's"},
+    {"splits", 0, "SHARES", false, "of audiofolder: shares of train, validation, test, as in train=8,test=2"},
+    {0},
+};
+
+const struct command export_command = {
+    .name = "export",
+    .summary = "makes a listening experiment, or a data set, of a rendered set",
+    .does =
+        "DESIGN is that of the set in FOLDER, which rasp batch has rendered; its trials (rasp-design(5)) say what "
+        "listeners do. The folder that is made has the sounds, copied, a table of them with the columns of "
+        "manifest.csv and its side-car, and:\n"
+        "webmushra: configs/NAME_p01.yaml for each participant, to be laid over a copy of webMUSHRA (which is not part "
+        "of this; PHP 7, or pymushra) and opened with ?config=NAME_p01.yaml. Trials with a reference are MUSHRA pages, "
+        "which want sounds of one length (length: longest); all others are Likert pages. webMUSHRA shuffles the sounds "
+        "of a page by itself. It has no page for two sounds that are compared.\n"
+        "psychopy: conditions_p01.csv, a row a trial, in order (loopType sequential), with file_1, file_2 and so on.\n"
+        "jspsych: index.html and lists/p01.js, whose trials are timeline variables; npm install fetches jsPsych. "
+        "page: the same without any library: buttons, or sliders. Both are opened as index.html?list=p01, from the "
+        "disk or from a server of files, and give answers_p01.csv, a row an answer, to be kept by the browser.\n"
+        "bids: stimuli/, and sub-01/beh/ with the trials of each participant, to be filled in; side-cars for all "
+        "columns. audiofolder: train/metadata.csv with its sounds, as Hugging Face's datasets read it; --splits shares "
+        "them out, replicates of a cell together.",
+    .also =
+        "Where trials have a session, each participant has a list for each (p01_s1), and every order of sessions comes "
+        "equally often. Orders are drawn from the seed: the same seed gives the same bytes everywhere, and a "
+        "participant more changes nobody's order. In tables seeds begin with s: 64 bits do not survive where they are "
+        "read as numbers. The folder appears when it is complete; SHA256SUMS has what is in it.",
+    .operands = "DESIGN FOLDER",
+    .least = 2,
+    .most = 2,
+    .options = export_options,
+    .examples = "rasp batch scenes/designs/materials_by_rate.yaml -o clips -q\n"
+                "rasp export scenes/designs/materials_by_rate.yaml clips --for page -o study --participants 4\n",
+    .run = export_run,
+};
