@@ -49,6 +49,31 @@ END
     done
 done
 
+cat > "$to/002_rolling.yaml" << 'END'
+# Conan et al. 2014, section III: is it rolling? The 36 stimuli of 002_rolling/ (3 kappa x 3 mu x 2 exponents, raw and through metal), each rated on five
+# words; 17 listeners. Six others come first, for training: the paper does not say which, ours have another mu. Equal loudness is ours.
+rasp-design: 1
+title: Conan et al. 2014, how much like rolling
+base: 002_rolling/parts/ball.yaml
+seed: 1
+factors:
+  contact.roll.kappa: [5e7, 5e9, 5e11]
+  contact.roll.mu: [0.1, 1, 10, 3]
+  surface.fractal.exponent: [-0.5, -1]
+  sound:
+    - {label: raw, set: {output.quantity: force}}
+    - {label: metal, set: {surface.space: {from: [-0.5, 0.866], dimension: 2, fundamental: 400 Hz}}}
+exclude: [{contact.roll.mu: 3, surface.fractal.exponent: -1}]
+name: "kappa_{contact.roll.kappa}_mu_{contact.roll.mu}_beta_{surface.fractal.exponent}_{sound}"
+level: {each: {lufs: -26}}
+length: own
+trials:
+  task: rate
+  question: How much does it sound like a rolling ball?
+  answers: [Not at all, A little bit, Somewhat, Close to, Exactly like rolling]
+  training: [{contact.roll.mu: 3}]
+END
+
 # ------------------------------------------------------------------ papers/000, experiment 3
 
 cd "$to/000_rolling"
@@ -185,6 +210,10 @@ END
 name: "{scraper}_on_{surface}_{motion}/{condition}"
 level: {each: {lufs: -26}}
 length: own
+trials:
+  task: rate
+  question: How realistic is each of these sounds?
+  within: condition
 END
 } > "$to/000_experiment_1.yaml"
 
@@ -219,6 +248,10 @@ END
 name: "{motion}/{condition}"
 level: {each: {lufs: -26}}
 length: own
+trials:
+  task: choose
+  question: How was the object moved?
+  answers: motion
 END
 } > "$to/000_experiment_2.yaml"
 
@@ -272,6 +305,10 @@ END
 name: "{ball_material}_on_{surface}_{way}/{condition}"
 level: {each: {lufs: -26}}
 length: own
+trials:
+  task: rate
+  question: How realistic is each of these sounds?
+  within: condition
 END
 } > "$to/000_experiment_3.yaml"
 
@@ -305,6 +342,56 @@ for size in 0.1 0.5 0.9; do
     for roughness in 0 0.25 0.5 0.8 1; do control roughness $size 0.5 $roughness; done
 done
 
+{
+    cat << 'END'
+# Conan et al. 2014, section VI: do the controls act as they are called? 45 stimuli of 002_controls/: for each control three groups, in which the other two
+# stand still, of five levels; 90 pairs. A session has one control, three blocks of ten pairs, and three pairs for training before them, drawn from its own;
+# each order of sessions comes equally often over listeners (14 in the paper). What listeners read is ours.
+rasp-design: 1
+title: Conan et al. 2014, size, velocity and roughness compared
+base: 002_controls/parts/rolling.yaml
+seed: 1
+text: "Which ball {control}?"
+factors:
+  control: [{label: size, text: is larger}, {label: velocity, text: is faster}, {label: roughness, text: rolls over rougher ground}]
+  group: [{label: first}, {label: second}, {label: third}]
+  contact.impacts.size: [0.1, 0.3, 0.5, 0.7, 0.9]
+  contact.impacts.velocity: [0.1, 0.3, 0.5, 0.8, 1]
+  contact.impacts.roughness: [0, 0.25, 0.5, 0.75, 0.8, 1]
+cells:
+END
+    cell() {
+        echo "  - {control: $1, group: $2, contact.impacts.size: $3, contact.impacts.velocity: $4, contact.impacts.roughness: $5}"
+    }
+    for size in 0.1 0.3 0.5 0.7 0.9; do
+        cell size first $size 0.1 0.5
+        cell size second $size 0.5 0.5
+        cell size third $size 1 0.5
+    done
+    for velocity in 0.1 0.3 0.5 0.8 1; do
+        cell velocity first 0.1 $velocity 0.75
+        cell velocity second 0.3 $velocity 0.75
+        cell velocity third 0.5 $velocity 0.75
+    done
+    for roughness in 0 0.25 0.5 0.8 1; do
+        cell roughness first 0.1 0.5 $roughness
+        cell roughness second 0.5 0.5 $roughness
+        cell roughness third 0.9 0.5 $roughness
+    done
+    cat << 'END'
+name: "{control}_{group}/size_{contact.impacts.size}_velocity_{contact.impacts.velocity}_roughness_{contact.impacts.roughness}"
+level: scene
+length: own
+trials:
+  task: compare
+  within: [contact.impacts.size, contact.impacts.velocity, contact.impacts.roughness]
+  session: control
+  blocks: group
+  training: 3
+  answers: [A, no difference, B]
+END
+} > "$to/002_controls.yaml"
+
 # ------------------------------------------------------------------ papers/004, figure 3
 
 cd "$to/004_continuum"
@@ -330,6 +417,32 @@ awk 'BEGIN {
     }
 }'
 
+{
+    cat << 'END'
+# Conan et al. 2014 (CMJ), figure 3: rubbing or scratching? The thirty sounds of 004_continuum/, in random order; 35 listeners.
+rasp-design: 1
+title: Conan et al. 2014, from rubbing to scratching
+base: 004_continuum/parts/friction.yaml
+seed: 1
+factors:
+  contact.impacts.scratch.interval:
+END
+    awk 'BEGIN {
+        for (i = 0; i < 30; i++) {
+            printf "    - %.6g us\n", 1e6 / sprintf("%.4g", 10 * 4410 ^ (i / 29))
+        }
+    }'
+    cat << 'END'
+name: "step_{cell}"
+level: {each: {lufs: -26}}
+length: own
+trials:
+  task: choose
+  question: Is this rubbing or scratching?
+  answers: [rubbing, scratching]
+END
+} > "$to/004_continuum.yaml"
+
 # ------------------------------------------------------------------ papers/004, "Rolling Interaction"
 
 cd "$to/004_durations"
@@ -344,3 +457,37 @@ output: {sample_rate: 44.1 kHz, tail: 0, quantity: force}
 END
 printf 'include: [parts/rolling.yaml]\ntitle: durations by amplitude\n' > by_amplitude.yaml
 printf 'include: [parts/rolling.yaml]\ntitle: all of one duration\ncontact: {impacts: {duration: {theta: 0, zeta: 0.5342 ms}}}\n' > fixed.yaml
+
+# ------------------------------------------------------------------ papers/003, section F
+
+cat > "$to/003_materials.yaml" << 'END'
+# Ren, Yeh, Lin 2013, section F: of which material is it? One of five answers to each of 24 clips, 8 recorded and 16 synthesised. These are the 16: a steel ball
+# on five objects whose materials were fitted to strikes (scenes/*_fitted.yaml), at three speeds, and once on a smaller bowl. The paper does not say which
+# clips it had, how often, how loud. Recordings are yours to give, 8 of them, as a level of condition that only they have, of one sample rate and one length:
+#   condition: [{label: synthesised}, {label: recorded, of: recordings}]
+#   recordings: [{file: recordings/wood_1.wav, material: wood, condition: recorded}, ...]
+rasp-design: 1
+title: Ren et al. 2013, which material is it?
+seed: 1
+factors:
+  condition: [{label: synthesised}]
+  material:
+    - {label: wood, base: ../wood_plate_fitted.yaml}
+    - {label: plastic, base: ../plastic_plate_fitted.yaml}
+    - {label: metal, base: ../metal_plate_fitted.yaml}
+    - {label: porcelain, base: ../porcelain_plate_fitted.yaml}
+    - {label: glass, base: ../glass_bowl_fitted.yaml}
+  strike:
+    - {label: soft, set: {contact.strike.speed: 0.2 m/s}}
+    - {label: medium, set: {contact.strike.speed: 0.8 m/s}}
+    - {label: hard, set: {contact.strike.speed: 2 m/s}}
+    - {label: small, set: {surface.response: ../../irs/fitted/glass_bowl_half.csv}}
+exclude: [{strike: small, material: [wood, plastic, metal, porcelain]}]
+name: "{material}_{strike}"
+level: {each: {lufs: -23}}
+length: 1.5 s
+trials:
+  task: choose
+  question: Which material do you hear?
+  answers: material
+END

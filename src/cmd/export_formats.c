@@ -251,6 +251,13 @@ static bool list_table(struct export *x, const struct export_list *l, const char
 
 static bool psychopy_list(struct export *x, const struct export_list *l, struct err *e)
 {
+    for (int k = 0; k < l->n; k++)
+        for (int c = 5; c < 8; c++) {
+            const char *text = trial_cell(x, l, k, c, 0);
+            if (text && *text == '[' && text[strlen(text) - 1] == ']')
+                return err_set(e, ERR_SCENE, "%s: '%s' stands in brackets, which PsychoPy would compute: leave them out",
+                               x->design->file, text);
+        }
     return list_table(x, l, arena_format(l->arena, "conditions_%s.csv", l->name), e);
 }
 

@@ -1,0 +1,65 @@
+// Serves a folder on the loopback, opens a page of it in headless Chromium, and answers as a listener would: presses Start, moves sliders, waits until
+// sounds are over, presses the first button that can be pressed. Prints the table of answers that the page gives, then the titles of failed requests.
+//     node browser.js CHROMIUM FOLDER 'index.html?list=p1' [SCRIPT]     SCRIPT: JavaScript to put behind the page's own
+const http = require('http'), fs = require('fs'), path = require('path'), os = require('os'), {spawn} = require('child_process');
+const [chromium, folder, page, own] = process.argv.slice(2);
+const types = {'.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wav': 'audio/wav', '.yaml': 'text/yaml'};
+const listener = `
+<script>
+addEventListener('error', e => fetch('/failed', {method: 'POST', body: String(e.message)}), true);
+addEventListener('load', () => {
+  const keep = save;
+  save = all => fetch('/done', {method: 'POST', body: keep(all)});
+  let heard = 0;
+  setInterval(() => {
+    document.querySelectorAll('audio').forEach(a => {
+      if (!a.begun) { a.begun = true; a.muted = true; a.playbackRate = 4; a.play().catch(() => a.begun = false); }
+      else if (a.paused && !a.ended && [...document.querySelectorAll('audio')].every(o => o.paused)) a.play().catch(() => {});
+    });
+    document.querySelectorAll('input[type=range]').forEach((s, k) => {
+      if (s.moved) return;
+      s.moved = true; s.value = 10 + 20 * k;
+      for (const event of ['mousedown', 'pointerdown', 'input', 'change']) s.dispatchEvent(new Event(event, {bubbles: true}));
+    });
+    const audio = [...document.querySelectorAll('audio')];
+    const b = [...document.querySelectorAll('button, input[type=submit]')].find(b => !b.disabled);
+    if (b && audio.every(a => a.ended)) b.click();
+  }, 100);
+});
+</script>`;
+const failed = [];
+const profile = fs.mkdtempSync(path.join(os.tmpdir(), 'browser-'));
+let child;
+const end = code => {
+  failed.forEach(f => console.log('failed: ' + f));
+  child.kill();
+  child.on('exit', () => { fs.rmSync(profile, {recursive: true, force: true}); process.exit(code); });
+};
+const server = http.createServer((request, response) => {
+  const name = decodeURIComponent(new URL(request.url, 'http://x').pathname);
+  if (request.method === 'POST') {
+    let body = '';
+    request.on('data', d => body += d);
+    request.on('end', () => {
+      response.end();
+      if (name === '/failed') failed.push(body);
+      else { process.stdout.write(body); end(0); }
+    });
+    return;
+  }
+  const file = path.join(folder, name);
+  if (!fs.existsSync(file) || fs.statSync(file).isDirectory()) {
+    if (name !== '/favicon.ico') failed.push(name);
+    response.writeHead(404).end();
+    return;
+  }
+  response.writeHead(200, {'Content-Type': types[path.extname(file)] || 'application/octet-stream'});
+  let data = fs.readFileSync(file);
+  if (name.endsWith('index.html')) data = data.toString().replace('</body>', (own || listener) + '</body>');
+  response.end(data);
+}).listen(0, '127.0.0.1', () => {
+  child = spawn(chromium, ['--headless=new', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage', '--mute-audio', '--no-first-run',
+    '--autoplay-policy=no-user-gesture-required', '--user-data-dir=' + profile,
+    `http://127.0.0.1:${server.address().port}/${page}`], {stdio: 'ignore'});
+  setTimeout(() => { console.log('no answers in time'); end(1); }, 90000);
+});
