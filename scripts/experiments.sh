@@ -434,7 +434,7 @@ END
     }'
     cat << 'END'
 name: "step_{cell}"
-level: {each: {lufs: -26}}
+level: {each: {lufs: -30}}
 length: own
 trials:
   task: choose
@@ -484,7 +484,7 @@ factors:
     - {label: small, set: {surface.response: ../../irs/fitted/glass_bowl_half.csv}}
 exclude: [{strike: small, material: [wood, plastic, metal, porcelain]}]
 name: "{material}_{strike}"
-level: {each: {lufs: -23}}
+level: {each: {lufs: -28}}
 length: 1.5 s
 trials:
   task: choose

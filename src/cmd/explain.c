@@ -323,6 +323,40 @@ static json_t *level(struct arena *a)
                      "stimulus, as in {each: {lufs: -23}}: all equally loud; or as each scene says (scene)");
 }
 
+/* What listeners do. */
+static json_t *trials(void)
+{
+    static const char *const texts[][2] = {
+        {"question", "what listeners are asked"},
+        {"instructions", "what they read before the first trial"},
+        {"session", "a factor each of whose levels has a session of its own"},
+        {"blocks", "a factor each of whose levels has a block of its own within a session"}};
+    json_t *all = json_object(), *picked = list(json_pack("{s:s}", "type", "object"), 0, 1000, NULL);
+    json_object_set_new(all, "task",
+                        json_pack("{s:[s, s, s], s:s}", "enum", "rate", "choose", "compare", "description",
+                                  "rate: a number for each sound of a trial; choose: an answer to its one sound; "
+                                  "compare: which of two sounds"));
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        json_object_set_new(all, texts[i][0], plain("text", texts[i][1]));
+    for (int i = 0; i < 2; i++)
+        json_object_set_new(all, i ? "answers" : "within",
+                            json_pack("{s:[o, o], s:s}", "anyOf", plain("text", NULL),
+                                      list(plain("text", NULL), 1, 1000, NULL), "description",
+                                      i ? "texts of the answers, or the factor whose levels they are; of rate: words of "
+                                          "the scale; of compare: A, neither, B"
+                                        : "factors whose levels are heard within one trial"));
+    json_object_set_new(all, "reference", described(json_deep_copy(picked), "levels of the sound that the others are rated by"));
+    json_object_set_new(all, "anchors", described(json_deep_copy(picked), "levels of sounds that are known to be bad"));
+    json_object_set_new(all, "training",
+                        json_pack("{s:[{s:s, s:i}, o], s:s}", "anyOf", "type", "integer", "minimum", 0, picked,
+                                  "description",
+                                  "how many trials are drawn to begin each session with, or levels of sounds that are for "
+                                  "training alone"));
+    json_t *o = map(all, "what listeners do with the stimuli, for rasp export: nothing that is rendered depends on it");
+    json_object_set_new(o, "required", json_pack("[s]", "task"));
+    return o;
+}
+
 static json_t *schema_design(struct arena *a)
 {
     json_t *seed = described(key_value(keys_find("seed"), a),
@@ -363,6 +397,7 @@ static json_t *schema_design(struct arena *a)
         described(
             quantity(KEY_TIME, 0, 0, false, "longest|own", a),
             "how long each sound is: as the longest of the set (longest, the default), as by itself (own), or a time"));
+    json_object_set_new(all, "trials", trials());
     json_t *defs = schema_maps(a);
     json_object_set_new(defs, "set", settings(a));
     return json_pack("{s:s, s:s, s:s, s:s, s:o, s:b, s:[s], s:o}", "$schema",

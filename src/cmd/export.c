@@ -464,8 +464,8 @@ const struct command export_command = {
         "columns. audiofolder: train/metadata.csv with its sounds, as Hugging Face's datasets read it; --splits shares "
         "them out, replicates of a cell together.",
     .also =
-        "Where trials have a session, each participant has a list for each (p01_s1), and every order of sessions comes "
-        "equally often. Orders are drawn from the seed: the same seed gives the same bytes everywhere, and a "
+        "Where trials have a session, each participant has a list for each (p01_s1); each session comes at each place, and "
+        "behind each other one, equally often. Orders are drawn from the seed: the same seed gives the same bytes everywhere, and a "
         "participant more changes nobody's order. In tables seeds begin with s: 64 bits do not survive where they are "
         "read as numbers. The folder appears when it is complete; SHA256SUMS has what is in it.",
     .operands = "DESIGN FOLDER",
