@@ -279,7 +279,8 @@ const char *outfile_folder_open(const char *target, struct arena *a, struct err 
     if (made) interrupt_temporary(temporary);
     interrupt_go();
     if (made) return temporary;
-    err_set(e, ERR_CREATE, "%s: cannot be created: %s", target, why == ENOENT ? "its folder does not exist" : strerror(why));
+    err_set(e, ERR_CREATE, "%s: cannot be created: %s", target,
+            why == ENOENT ? "its folder does not exist" : strerror(why));
     return NULL;
 }
 

@@ -61,8 +61,8 @@ struct design_trials {                   /* what listeners do with the stimuli (
     int asked;                           /* the factor whose level is the right answer; -1: none                 */
     struct design_answer *answers;       /* of RATE: words of the scale, from 0 to 100 at equal distances        */
     int n_answers;
-    int session, block; /* factors whose levels are heard in different sessions, blocks; -1: none           */
-    int training;       /* trials that are drawn to begin each session with                                 */
+    int session, block;      /* factors whose levels are heard in different sessions, blocks; -1: none           */
+    int training;            /* trials that are drawn to begin each session with                                 */
     enum design_role *roles; /* [n_stimuli] */
 };
 
@@ -81,9 +81,9 @@ struct design {
     uint64_t order_seed;
     int level_rule; /* enum design_level_rule. COMMON: one gain, such that the greatest peak (or rms, or loudness) of
                        the set is level's */
-    struct level level;     /* of scene.h: exactly one of peak, rms, lufs, full_scale, dbfs_at_1_pa           */
-    int length_rule;        /* enum design_length_rule                                                       */
-    double length;          /* s, of FIXED                                                                   */
+    struct level level; /* of scene.h: exactly one of peak, rms, lufs, full_scale, dbfs_at_1_pa           */
+    int length_rule;    /* enum design_length_rule                                                       */
+    double length;      /* s, of FIXED                                                                   */
     const struct design_trials *trials; /* NULL: the design has none                                          */
     const char **sources;   /* every text file that was read for the design; ends with NULL                   */
     char sha256[HASH_TEXT]; /* of what the design means: two designs that differ in comments alone share it   */
@@ -104,6 +104,9 @@ bool design_scene(const struct design *d, int i, struct arena *a, struct scene *
 
 /* Puts the place at which the design names recording i before an error that is about it; returns false. */
 bool design_scene_recording(const struct design *d, int i, struct err *e);
+
+/* The same of its trials. */
+bool design_trials_at(const struct design *d, struct err *e);
 
 /* Where the design's level and length stand, where it gives them, for a scene that they are laid over: errors are
    reported with those places. */

@@ -146,9 +146,8 @@ struct design_match *design_rows_matches(const struct design_reading *r, const s
         if (entry->kind != YAML_MAP) continue;
         struct design_match *x = &all[(*n)++];
         *x = (struct design_match){.entry = entry,
-                                .named = ARENA_TAKE(r->arena, unsigned char *, r->design->n_factors + 1)};
-        if (entry->n == 0)
-            diag_add(r->yaml->diag, entry->at, cure, "this names every cell");
+                                   .named = ARENA_TAKE(r->arena, unsigned char *, r->design->n_factors + 1)};
+        if (entry->n == 0) diag_add(r->yaml->diag, entry->at, cure, "this names every cell");
         for (const struct yaml_node *item = entry->first; item; item = item->next) {
             int f = design_reading_factor(r, item->key);
             if (f < 0) continue;

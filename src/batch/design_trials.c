@@ -62,13 +62,14 @@ static void within_read(const struct reading_trials *x)
     if (x->t->task == DESIGN_TASK_CHOOSE && node)
         diag_add(x->r->yaml->diag, node->at, "leave it out", "a trial has one sound where listeners choose: no within");
     if (x->t->task == DESIGN_TASK_COMPARE && !node)
-        diag_add(x->r->yaml->diag, x->map->at, cure, "trials.within must say in which factors two compared sounds differ");
+        diag_add(x->r->yaml->diag, x->map->at, cure,
+                 "trials.within must say in which factors two compared sounds differ");
 }
 
 static void answers_read(const struct reading_trials *x)
 {
-    static const char *const scale[] = {"Bad", "Poor", "Fair", "Good", "Excellent", NULL},
-                             *const pair[] = {"A", "equal", "B", NULL};
+    static const char *const scale[] = {"Bad", "Poor", "Fair", "Good", "Excellent", NULL}, *const pair[] = {
+                                                                                               "A", "equal", "B", NULL};
     struct arena *a = x->r->arena;
     const struct yaml_node *node = value(x, "answers");
     struct design_trials *t = x->t;
@@ -136,8 +137,8 @@ static void role_read(const struct reading_trials *x, enum design_role role, con
 
 void design_trials_read(struct design_reading *r)
 {
-    static const char *const names[] = {"task",     "question", "instructions", "within",  "answers", "reference",
-                                        "anchors",  "training", "session",      "blocks",  NULL};
+    static const char *const names[] = {"task",    "question", "instructions", "within", "answers", "reference",
+                                        "anchors", "training", "session",      "blocks", NULL};
     const struct yaml_node *map = design_reading_value(r, "trials"), *task = map ? yaml_get(map, "task") : NULL;
     struct design_trials *t = ARENA_TAKE(r->arena, struct design_trials, 1);
     const struct reading_trials x = {r, map, t};
@@ -169,5 +170,8 @@ void design_trials_read(struct design_reading *r)
     if ((t->session >= 0 && t->within[t->session]) || (t->block >= 0 && t->within[t->block]))
         diag_add(r->yaml->diag, map->at, "leave it out of within",
                  "a factor of sessions or blocks cannot differ within a trial");
+    r->texts->trials = map->key->at;
     r->design->trials = t;
 }
+
+bool design_trials_at(const struct design *d, struct err *e) { return design_reading_at(&d->texts->trials, e); }

@@ -52,13 +52,11 @@ static bool text_set(const struct trials *t, struct trial *x, struct arena *a, s
         const char *text = d->stimuli[x->stimuli[k]].recording && x->n > 1 ? NULL : design_text(d, x->stimuli[k], a);
         if (!text) continue;
         if (x->text && strcmp(x->text, text) != 0)
-            return err_set(e, ERR_SCENE,
-                           "%s: text: names a factor that differs within a trial: '%s' and '%s' (%s and %s)", d->file,
+            return err_set(e, ERR_SCENE, "text: names a factor that differs within a trial: '%s' and '%s' (%s and %s)",
                            x->text, text, name_of(t, x, 0), name_of(t, x, k));
         for (const char *s = text; *s; s++)
             if ((unsigned char)*s < ' ')
-                return err_set(e, ERR_SCENE, "%s: text: must be one line, as '%s' of %s is not", d->file, text,
-                               name_of(t, x, k));
+                return err_set(e, ERR_SCENE, "text: must be one line, as '%s' of %s is not", text, name_of(t, x, k));
         x->text = text;
     }
     return true;
@@ -79,13 +77,13 @@ static bool add(struct trials *t, const int *stimuli, int n, struct arena *a, st
     for (int k = 0; k < n; k++) {
         bool is = w->roles[x.stimuli[k] = stimuli[k]] == DESIGN_ROLE_REFERENCE;
         if (is && x.reference >= 0)
-            return err_set(e, ERR_SCENE, "%s: trials.reference: one trial has two: %s and %s", d->file,
-                           d->stimuli[x.reference].name, name_of(t, &x, k));
+            return err_set(e, ERR_SCENE, "trials.reference: one trial has two: %s and %s", d->stimuli[x.reference].name,
+                           name_of(t, &x, k));
         if (is) x.reference = stimuli[k];
     }
     if (n > TRIALS_SOUNDS)
-        return err_set(e, ERR_SCENE, "%s: trials.within: the trial of %s has %d sounds, more than %d", d->file,
-                       name_of(t, &x, 0), n, TRIALS_SOUNDS);
+        return err_set(e, ERR_SCENE, "trials.within: the trial of %s has %d sounds, more than %d", name_of(t, &x, 0), n,
+                       TRIALS_SOUNDS);
     if (!text_set(t, &x, a, e)) return false;
     t->all = arena_more(a, t->all, t->n, sizeof *t->all);
     t->all[t->n++] = x;
@@ -99,7 +97,7 @@ static bool add_group(struct trials *t, const int *stimuli, int n, struct arena 
     const struct design *d = t->design;
     bool compare = d->trials->task == DESIGN_TASK_COMPARE;
     if (n == 1 && compare)
-        return err_set(e, ERR_SCENE, "%s: trials.within: %s has no other sound to be compared with", d->file,
+        return err_set(e, ERR_SCENE, "trials.within: %s has no other sound to be compared with",
                        d->stimuli[stimuli[0]].name);
     if (!compare) return add(t, stimuli, n, a, e);
     for (int i = 0; i < n; i++)
@@ -113,14 +111,13 @@ static bool all_check(const struct trials *t, struct err *e)
     const struct trial *with = NULL, *without = NULL;
     for (int i = 0; i < t->n; i++)
         *(t->all[i].reference < 0 ? &without : &with) = &t->all[i];
-    if (t->n_sessions == 0)
-        return err_set(e, ERR_SCENE, "%s: trials.training: no trial is left that counts", t->design->file);
+    if (t->n_sessions == 0) return err_set(e, ERR_SCENE, "trials.training: no trial is left that counts");
     return !with || !without ||
-           err_set(e, ERR_SCENE, "%s: trials.reference: the trial of %s has none, that of %s has one", t->design->file,
+           err_set(e, ERR_SCENE, "trials.reference: the trial of %s has none, that of %s has one",
                    name_of(t, without, 0), name_of(t, with, 0));
 }
 
-bool trials_make(const struct design *d, struct arena *a, struct trials *t, struct err *e)
+static bool make(const struct design *d, struct arena *a, struct trials *t, struct err *e)
 {
     struct placed *all = ARENA_TAKE(a, struct placed, d->n_stimuli + 1);
     int *stimuli = ARENA_TAKE(a, int, d->n_stimuli + 1), session = d->trials->session;
@@ -129,8 +126,8 @@ bool trials_make(const struct design *d, struct arena *a, struct trials *t, stru
         all[i] = (struct placed){d, i, 0};
     qsort(all, (size_t)d->n_stimuli, sizeof *all, by_group);
     for (int i = 0; i < d->n_stimuli; i++)
-        all[i].first = i > 0 && group_order(d, all[i].stimulus, all[i - 1].stimulus) == 0 ? all[i - 1].first
-                                                                                         : all[i].stimulus;
+        all[i].first =
+            i > 0 && group_order(d, all[i].stimulus, all[i - 1].stimulus) == 0 ? all[i - 1].first : all[i].stimulus;
     qsort(all, (size_t)d->n_stimuli, sizeof *all, by_first);
     bool alone = d->trials->task == DESIGN_TASK_CHOOSE; /* so are takes of a recording that share all levels */
     for (int i = 0, n = 0; i < d->n_stimuli; i++) {
@@ -147,6 +144,11 @@ bool trials_make(const struct design *d, struct arena *a, struct trials *t, stru
         if (counts) t->sessions[t->n_sessions++] = l;
     }
     return all_check(t, e);
+}
+
+bool trials_make(const struct design *d, struct arena *a, struct trials *t, struct err *e)
+{
+    return make(d, a, t, e) || design_trials_at(d, e);
 }
 
 int trials_right(const struct trials *t, const struct trial *x)

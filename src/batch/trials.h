@@ -11,12 +11,12 @@
 enum { TRIALS_SOUNDS = 100 /* in one trial */, TRIALS_PEOPLE = 10000 };
 
 struct trial {
-    int id;              /* from 1, in the order of the design                                  */
-    int session, block;  /* levels of those factors; -1: there is none                          */
-    bool training;       /* its answer does not count                                           */
-    int n, *stimuli;     /* of the design, in the order in which they are heard                 */
-    int reference;       /* the one of them that the others are rated by; -1: none              */
-    const char *text;    /* of the design, for this trial; NULL: none                           */
+    int id;             /* from 1, in the order of the design                                  */
+    int session, block; /* levels of those factors; -1: there is none                          */
+    bool training;      /* its answer does not count                                           */
+    int n, *stimuli;    /* of the design, in the order in which they are heard                 */
+    int reference;      /* the one of them that the others are rated by; -1: none              */
+    const char *text;   /* of the design, for this trial; NULL: none                           */
 };
 
 struct trials {

@@ -339,19 +339,21 @@ static json_t *trials(void)
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         json_object_set_new(all, texts[i][0], plain("text", texts[i][1]));
     for (int i = 0; i < 2; i++)
-        json_object_set_new(all, i ? "answers" : "within",
-                            json_pack("{s:[o, o], s:s}", "anyOf", plain("text", NULL),
-                                      list(plain("text", NULL), 1, 1000, NULL), "description",
-                                      i ? "texts of the answers, or the factor whose levels they are; of rate: words of "
-                                          "the scale; of compare: A, neither, B"
-                                        : "factors whose levels are heard within one trial"));
-    json_object_set_new(all, "reference", described(json_deep_copy(picked), "levels of the sound that the others are rated by"));
+        json_object_set_new(
+            all, i ? "answers" : "within",
+            json_pack("{s:[o, o], s:s}", "anyOf", plain("text", NULL), list(plain("text", NULL), 1, 1000, NULL),
+                      "description",
+                      i ? "texts of the answers, or the factor whose levels they are; of rate: words of "
+                          "the scale; of compare: A, neither, B"
+                        : "factors whose levels are heard within one trial"));
+    json_object_set_new(all, "reference",
+                        described(json_deep_copy(picked), "levels of the sound that the others are rated by"));
     json_object_set_new(all, "anchors", described(json_deep_copy(picked), "levels of sounds that are known to be bad"));
-    json_object_set_new(all, "training",
-                        json_pack("{s:[{s:s, s:i}, o], s:s}", "anyOf", "type", "integer", "minimum", 0, picked,
-                                  "description",
-                                  "how many trials are drawn to begin each session with, or levels of sounds that are for "
-                                  "training alone"));
+    json_object_set_new(
+        all, "training",
+        json_pack("{s:[{s:s, s:i}, o], s:s}", "anyOf", "type", "integer", "minimum", 0, picked, "description",
+                  "how many trials are drawn to begin each session with, or levels of sounds that are for "
+                  "training alone"));
     json_t *o = map(all, "what listeners do with the stimuli, for rasp export: nothing that is rendered depends on it");
     json_object_set_new(o, "required", json_pack("[s]", "task"));
     return o;

@@ -93,8 +93,8 @@ static int by_name(const void *a, const void *b)
 /* What readers of tables take for a number, a truth or nothing: "007" would come back as 7. */
 static bool is_lost(const char *word)
 {
-    static const char *const words[] = {"NA",   "N/A",  "n/a",   "NaN", "nan", "-nan", "null", "NULL", "None", "Inf",
-                                        "inf",  "TRUE", "FALSE", "T",   "F",   "True", "False", "true", "false", NULL};
+    static const char *const words[] = {"NA",  "N/A",  "n/a",   "NaN", "nan", "-nan", "null",  "NULL", "None",  "Inf",
+                                        "inf", "TRUE", "FALSE", "T",   "F",   "True", "False", "true", "false", NULL};
     return !*word || text_number_length(word) == strlen(word) || text_is_one(word, words);
 }
 
@@ -117,22 +117,28 @@ static bool stimulus_check(struct export *x, int i, struct err *e)
         const char *value = design_value(d, i, f);
         double number;
         if (csv_column(&x->manifest, d->factors[f].column) < 0 || strcmp(cell(x, i, d->factors[f].column), value) != 0)
-            return err_set(e, ERR_SCENE, "%s: %s is not the %s of %s: is it the set of another design, or of an "
-                           "earlier state of it?", x->set, d->factors[f].column, value, name);
+            return err_set(e, ERR_SCENE,
+                           "%s: %s is not the %s of %s: is it the set of another design, or of an "
+                           "earlier state of it?",
+                           x->set, d->factors[f].column, value, name);
         if (d->stimuli[i].level[f] >= 0 && is_lost(value) && !text_double(value, &number))
-            return err_set(e, ERR_SCENE, "%s: the label '%s' of %s would be read as something else from a table: call "
-                           "it otherwise", d->file, value, d->factors[f].name);
+            return err_set(e, ERR_SCENE,
+                           "%s: the label '%s' of %s would be read as something else from a table: call "
+                           "it otherwise",
+                           d->file, value, d->factors[f].name);
     }
     if (x->format->browser && !strcmp(cell(x, i, "encoding"), "float64"))
-        return err_set(e, ERR_SCENE, "%s: %s is float64, which browsers do not play: set: {output.encoding: pcm24} in "
-                       "the design", x->set, name);
+        return err_set(e, ERR_SCENE,
+                       "%s: %s is float64, which browsers do not play: set: {output.encoding: pcm24} in "
+                       "the design",
+                       x->set, name);
     return true;
 }
 
 static bool set_read(struct export *x, struct err *e)
 {
-    static const char *const needed[] = {"stimulus_id", "file_name", "status", "encoding", "file_sha256", "seed",
-                                         "frames", NULL};
+    static const char *const needed[] = {"stimulus_id", "file_name", "status", "encoding",
+                                         "file_sha256", "seed",      "frames", NULL};
     const struct design *d = x->design;
     struct csv *m = &x->manifest;
     if (!csv_read(arena_format(x->arena, "%s/manifest.csv", x->set), x->arena, m, e)) return false;
@@ -262,8 +268,9 @@ static bool table_write(struct export *x, const char *folder, struct err *e)
     if (ok && !json_is_object(j))
         ok = err_set(e, ERR_INPUT, "%s/manifest.json: is not there, or no side-car of the manifest", x->set);
     if (ok && (one = json_object_get(j, "seed")))
-        json_object_set_new(one, "Description",
-                            json_sprintf("the letter s, and the %s", json_string_value(json_object_get(one, "Description"))));
+        json_object_set_new(
+            one, "Description",
+            json_sprintf("the letter s, and the %s", json_string_value(json_object_get(one, "Description"))));
     if (ok && (one = json_object_get(j, m->names[file])) && strcmp(called, m->names[file]) != 0) {
         json_object_set(j, called, one);
         json_object_del(j, m->names[file]);
@@ -348,7 +355,8 @@ static bool may_replace(const struct export *x, struct err *e)
     if (walk) fts_close(walk);
     return !strange || err_set(e, ERR_CREATE,
                                "%s: is there already, and %s in it is not as an export left it: give another folder, "
-                               "or move it away", x->output, strange);
+                               "or move it away",
+                               x->output, strange);
 }
 
 static bool folder_write(struct export *x, struct err *e)
@@ -356,8 +364,8 @@ static bool folder_write(struct export *x, struct err *e)
     if (!may_replace(x, e)) return false;
     x->temporary = outfile_folder_open(x->output, x->arena, e);
     if (!x->temporary) return false;
-    bool ok = sounds_write(x, e) && (!x->format->files || x->format->files(x, e)) && lists_write(x, e) &&
-              sums_write(x, e);
+    bool ok =
+        sounds_write(x, e) && (!x->format->files || x->format->files(x, e)) && lists_write(x, e) && sums_write(x, e);
     return outfile_folder_close(x->output, x->temporary, ok, x->arena, e);
 }
 
@@ -371,8 +379,7 @@ static bool format_read(struct export *x, const struct cmd_call *c, struct err *
         words[i] = export_formats_table[i].name;
         list = arena_format(x->arena, "%s%s%s", list, i ? ", " : "", words[i]);
     }
-    if (!args_given(&c->args, "for"))
-        return err_set(e, ERR_USAGE, "--for: say for what the set is: %s", list);
+    if (!args_given(&c->args, "for")) return err_set(e, ERR_USAGE, "--for: say for what the set is: %s", list);
     if (!args_word(&c->args, "for", words, &k, e)) return false;
     x->format = &export_formats_table[k];
     return true;
@@ -419,8 +426,10 @@ static int export_run(struct cmd_call *c, struct err *e)
     if (args_given(&c->args, "splits") && !x.format->splits)
         err_set(e, ERR_USAGE, "--splits: %s has none", x.format->name);
     else if (x.format->list && !r.design.trials && !x.format->bare)
-        err_set(e, ERR_SCENE, "%s: has no trials: say what listeners do, as in trials: {task: choose, question: Which "
-                "material is it?, answers: material}; rasp explain trials", file);
+        err_set(e, ERR_SCENE,
+                "%s: has no trials: say what listeners do, as in trials: {task: choose, question: Which "
+                "material is it?, answers: material}; rasp explain trials",
+                file);
     if (e->kind || (r.design.trials && x.format->list && !trials_make(&r.design, x.arena, &x.trials, e)) ||
         !set_read(&x, e) ||
         (x.format->splits &&
@@ -464,8 +473,10 @@ const struct command export_command = {
         "columns. audiofolder: train/metadata.csv with its sounds, as Hugging Face's datasets read it; --splits shares "
         "them out, replicates of a cell together.",
     .also =
-        "Where trials have a session, each participant has a list for each (p01_s1); each session comes at each place, and "
-        "behind each other one, equally often. Orders are drawn from the seed: the same seed gives the same bytes everywhere, and a "
+        "Where trials have a session, each participant has a list for each (p01_s1); each session comes at each place, "
+        "and "
+        "behind each other one, equally often. Orders are drawn from the seed: the same seed gives the same bytes "
+        "everywhere, and a "
         "participant more changes nobody's order. In tables seeds begin with s: 64 bits do not survive where they are "
         "read as numbers. The folder appears when it is complete; SHA256SUMS has what is in it.",
     .operands = "DESIGN FOLDER",

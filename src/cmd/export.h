@@ -22,7 +22,7 @@ struct export_format {
     bool (*list)(struct export *x, const struct export_list *l, struct err *e); /* for each; NULL: it has no trials */
 };
 
-struct export_list { /* what one participant hears in one sitting */
+struct export_list {  /* what one participant hears in one sitting */
     const char *name; /* "p01", or of several sittings "p01_s1"     */
     int participant, sitting;
     const struct trial *trials;
@@ -30,14 +30,15 @@ struct export_list { /* what one participant hears in one sitting */
     struct arena *arena;
 };
 
-struct export {
+struct export
+{
     const struct design *design;
     const struct export_format *format;
     struct trials trials; /* n 0: the design has none                               */
     struct csv manifest;
-    size_t *rows;      /* [n_stimuli] of the manifest                            */
-    const char *set;   /* the set's folder                                       */
-    const char *name;  /* of the study: letters, digits, _ and -                  */
+    size_t *rows;     /* [n_stimuli] of the manifest                            */
+    const char *set;  /* the set's folder                                       */
+    const char *name; /* of the study: letters, digits, _ and -                  */
     const char *output, *temporary;
     int people;
     uint64_t seed;

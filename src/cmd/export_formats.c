@@ -106,8 +106,11 @@ static json_t *webmushra_page(const struct export *x, const struct export_list *
     const char *id = arena_format(a, "%s%s", t->training ? "training_" : "", id_of(x, t, a));
     json_t *stimuli = json_object(), *page = json_object();
     json_value_set(page, "type:s id:s name:s content:s",
-                   t->reference >= 0 ? "mushra" : several ? "likert_multi_stimulus" : "likert_single_stimulus", id,
-                   arena_format(a, "%s %d / %d", t->training ? "Training" : "Trial", k + 1, l->n), content(x, t, a));
+                   t->reference >= 0 ? "mushra"
+                   : several         ? "likert_multi_stimulus"
+                                     : "likert_single_stimulus",
+                   id, arena_format(a, "%s %d / %d", t->training ? "Training" : "Trial", k + 1, l->n),
+                   content(x, t, a));
     for (int i = 0; i < t->n; i++)
         if (t->stimuli[i] != t->reference)
             json_object_set_new(stimuli, x->design->stimuli[t->stimuli[i]].name,
@@ -137,12 +140,13 @@ static bool webmushra_lengths(const struct export *x, const struct trial *t, str
     for (int i = 0; t->reference >= 0 && i < t->n; i++) {
         const char *frames[2];
         for (int k = 0; k < 2; k++)
-            frames[k] = m->cells[x->rows[k ? t->reference : t->stimuli[i]] * m->columns + (size_t)csv_column(m, "frames")];
+            frames[k] =
+                m->cells[x->rows[k ? t->reference : t->stimuli[i]] * m->columns + (size_t)csv_column(m, "frames")];
         if (strcmp(frames[0], frames[1]) != 0)
             return err_set(e, ERR_SCENE,
                            "%s: %s has %s samples, its reference %s: webMUSHRA wants sounds of one length on a page: "
-                           "length: longest, in the design", x->set, x->design->stimuli[t->stimuli[i]].name, frames[0],
-                           frames[1]);
+                           "length: longest, in the design",
+                           x->set, x->design->stimuli[t->stimuli[i]].name, frames[0], frames[1]);
     }
     return true;
 }
@@ -151,9 +155,11 @@ static bool webmushra_list(struct export *x, const struct export_list *l, struct
 {
     json_t *pages = json_array();
     if (said(x)->task == DESIGN_TASK_COMPARE)
-        return err_set(e, ERR_SCENE,
-                       "%s: trials.task: webMUSHRA has no page on which one of two sounds is chosen; --for jspsych, page "
-                       "and psychopy do", x->design->file);
+        return err_set(
+                   e, ERR_SCENE,
+                   "trials.task: webMUSHRA has no page on which one of two sounds is chosen; --for jspsych, page and "
+                   "psychopy do"),
+               design_trials_at(x->design, e);
     if (said(x)->instructions)
         json_array_append_new(pages, json_value_object("type:s id:s name:s content:s", "generic", "instructions",
                                                        title(x), text_html(l->arena, said(x)->instructions)));
@@ -161,8 +167,9 @@ static bool webmushra_list(struct export *x, const struct export_list *l, struct
         if (!webmushra_lengths(x, &l->trials[k], e)) return false;
         json_array_append_new(pages, webmushra_page(x, l, k));
     }
-    json_array_append_new(pages, json_value_object("type:s name:s content:s popupContent:s showResults:b writeResults:b",
-                                                   "finish", "Thank you", "", "Your answers were sent.", false, true));
+    json_array_append_new(pages,
+                          json_value_object("type:s name:s content:s popupContent:s showResults:b writeResults:b",
+                                            "finish", "Thank you", "", "Your answers were sent.", false, true));
     json_t *all = json_value_object("testname:s testId:s bufferSize:i stopOnErrors:b showButtonPreviousPage:b "
                                     "remoteService:s language:s pages:o",
                                     title(x), arena_format(l->arena, "%s_%s", x->name, l->name), 2048, true, false,
@@ -206,21 +213,32 @@ static const char *trial_cell(const struct export *x, const struct export_list *
     struct arena *a = l->arena;
     int i = sound < t->n ? t->stimuli[sound] : -1;
     switch (column) {
-    case 0: return arena_format(a, "%d", k + 1);
-    case 1: return id_of(x, t, a);
-    case 2: return label(x, said(x)->session, t->session);
-    case 3: return arena_format(a, "%d", block_of(l, k));
-    case 4: return t->training ? "1" : "0";
-    case 5: return said(x)->question;
-    case 6: return t->text;
-    case 7: return played(x, t);
+    case 0:
+        return arena_format(a, "%d", k + 1);
+    case 1:
+        return id_of(x, t, a);
+    case 2:
+        return label(x, said(x)->session, t->session);
+    case 3:
+        return arena_format(a, "%d", block_of(l, k));
+    case 4:
+        return t->training ? "1" : "0";
+    case 5:
+        return said(x)->question;
+    case 6:
+        return t->text;
+    case 7:
+        return played(x, t);
     case OF_SOUND:
-        return i < 0               ? NULL
+        return i < 0             ? NULL
                : x->format->tabs ? arena_format(a, "%s.wav", x->design->stimuli[i].name)
                                  : export_sound(x, i, a);
-    case OF_SOUND + 1: return i < 0 ? NULL : x->design->stimuli[i].name;
-    case OF_SOUND + 2: return i < 0 ? NULL : role(x, i);
-    default: return NULL;
+    case OF_SOUND + 1:
+        return i < 0 ? NULL : x->design->stimuli[i].name;
+    case OF_SOUND + 2:
+        return i < 0 ? NULL : role(x, i);
+    default:
+        return NULL;
     }
 }
 
@@ -255,7 +273,8 @@ static bool psychopy_list(struct export *x, const struct export_list *l, struct 
         for (int c = 5; c < 8; c++) {
             const char *text = trial_cell(x, l, k, c, 0);
             if (text && *text == '[' && text[strlen(text) - 1] == ']')
-                return err_set(e, ERR_SCENE, "%s: '%s' stands in brackets, which PsychoPy would compute: leave them out",
+                return err_set(e, ERR_SCENE,
+                               "%s: '%s' stands in brackets, which PsychoPy would compute: leave them out",
                                x->design->file, text);
         }
     return list_table(x, l, arena_format(l->arena, "conditions_%s.csv", l->name), e);
@@ -345,14 +364,15 @@ static bool script_list(struct export *x, const struct export_list *l, struct er
         json_t *sounds = json_array();
         for (int i = 0; i < t->n; i++)
             json_array_append_new(sounds, script_sound(x, t->stimuli[i], a));
-        json_array_append_new(trials, json_value_object("trial:i trial_id:s block:i training:i text:s played:s sounds:o",
-                                                        k + 1, id_of(x, t, a), block_of(l, k), t->training, t->text,
-                                                        played(x, t), sounds));
+        json_array_append_new(
+            trials, json_value_object("trial:i trial_id:s block:i training:i text:s played:s sounds:o", k + 1,
+                                      id_of(x, t, a), block_of(l, k), t->training, t->text, played(x, t), sounds));
     }
-    json_t *study = json_value_object(
-        "title:s instructions:s task:s question:s answers:o participant:s session:s trials:o", title(x),
-        w->instructions, design_tasks[w->task], w->question, answers, arena_format(a, "%.*s", (int)strcspn(l->name, "_"), l->name),
-        l->n ? label(x, w->session, l->trials[0].session) : "n/a", trials);
+    json_t *study =
+        json_value_object("title:s instructions:s task:s question:s answers:o participant:s session:s trials:o",
+                          title(x), w->instructions, design_tasks[w->task], w->question, answers,
+                          arena_format(a, "%.*s", (int)strcspn(l->name, "_"), l->name),
+                          l->n ? label(x, w->session, l->trials[0].session) : "n/a", trials);
     bool ok = export_open(x, arena_format(a, "lists/%s.js", l->name), e);
     if (ok) {
         fputs("study = ", x->stream);
@@ -370,8 +390,8 @@ static bool page_files(struct export *x, struct err *e)
 
 static bool jspsych_files(struct export *x, struct err *e)
 {
-    static const char *const plugins[] = {"audio-button-response", "audio-slider-response", "html-button-response",
-                                          "preload", "survey-html-form", NULL};
+    static const char *const plugins[] = {
+        "audio-button-response", "audio-slider-response", "html-button-response", "preload", "survey-html-form", NULL};
     json_t *needs = json_value_object("jspsych:s", "8.3.0");
     for (int k = 0; plugins[k]; k++)
         json_object_set_new(needs, arena_format(x->arena, "@jspsych/plugin-%s", plugins[k]), json_string("^2.1.0"));

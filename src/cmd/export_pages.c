@@ -9,7 +9,7 @@
     "body { font: 18px/1.5 sans-serif; text-align: center; max-width: 50em; margin: 2em auto; padding: 0 1em }\n"      \
     "button { font: inherit; margin: .3em; padding: .4em 1.2em }\n"                                                    \
     "input[type=range] { width: 24em; max-width: 100% }\n"                                                             \
-    ".scale { display: flex; justify-content: space-between; max-width: 26em; margin: auto; font-size: .8em }\n"        \
+    ".scale { display: flex; justify-content: space-between; max-width: 26em; margin: auto; font-size: .8em }\n"       \
     "</style>\n"
 
 const char export_pages_study[] =
@@ -29,7 +29,8 @@ const char export_pages_study[] =
     "const paragraph = text => text ? '<p>' + html(text) + '</p>' : '';\n"
     "const head = t => (t.training ? '<p><i>Training</i></p>' : '') + paragraph(study.question) + paragraph(t.text);\n"
     "const player = (s, name) => `<p>${name} <audio controls preload=\"auto\" src=\"${html(s.file)}\"></audio></p>`;\n"
-    "const scale = () => '<div class=\"scale\">' + study.answers.map(a => '<span>' + html(a.text) + '</span>').join('') + '</div>';\n"
+    "const scale = () => '<div class=\"scale\">' + study.answers.map(a => '<span>' + html(a.text) + "
+    "'</span>').join('') + '</div>';\n"
     "const slider = k => `<input type=\"range\" name=\"${k}\" min=\"0\" max=\"100\" value=\"50\">`;\n"
     "\n"
     "/* All sounds of a trial: a reference by itself, too, then each with a slider or its letter. */\n"
@@ -44,11 +45,14 @@ const char export_pages_study[] =
     "function rows(t, answer, ms) {\n"
     "  const {participant, session, answers} = study, {block, trial, trial_id, training} = t;\n"
     "  const first = {participant, session, block, trial, trial_id, training}, last = {time_ms: Math.round(ms)};\n"
-    "  const one = (s, more) => ({...first, stimulus_id: s.stimulus_id, role: s.role, ...s.levels, ...more, ...last});\n"
+    "  const one = (s, more) => ({...first, stimulus_id: s.stimulus_id, role: s.role, ...s.levels, ...more, "
+    "...last});\n"
     "  if (study.task == 'rate') return t.sounds.map((s, k) => one(s, {rating: Number(answer[k])}));\n"
-    "  if (study.task == 'choose') return [one(t.sounds[0], {played: t.played ?? 'n/a', chosen: answers[answer].label})];\n"
+    "  if (study.task == 'choose') return [one(t.sounds[0], {played: t.played ?? 'n/a', chosen: "
+    "answers[answer].label})];\n"
     "  const [a, b] = t.sounds, same = Object.entries(a.levels).filter(([k, v]) => b.levels[k] === v);\n"
-    "  return [{...first, ...Object.fromEntries(same), stimulus_a: a.stimulus_id, stimulus_b: b.stimulus_id, a: a.level,\n"
+    "  return [{...first, ...Object.fromEntries(same), stimulus_a: a.stimulus_id, stimulus_b: b.stimulus_id, a: "
+    "a.level,\n"
     "    b: b.level, answer: answers[answer].label, ...last}];\n"
     "}\n"
     "\n"
@@ -91,7 +95,8 @@ const char export_pages_page[] =
     "    study.answers.map((a, i) => button(a.text, () => next(i)));\n"
     "  const wait = (what, event) => {\n"
     "    waits.add(what);\n"
-    "    what.addEventListener(event, () => { waits.delete(what); buttons.forEach(b => b.disabled = waits.size > 0); });\n"
+    "    what.addEventListener(event, () => { waits.delete(what); buttons.forEach(b => b.disabled = waits.size > 0); "
+    "});\n"
     "  };\n"
     "  sliders.forEach(s => wait(s, 'input'));\n"
     "  main.querySelectorAll('audio').forEach((s, i, sounds) => {\n"
@@ -137,7 +142,8 @@ const char export_pages_jspsych[] =
     "  const sounds = [...new Set(study.trials.flatMap(t => t.sounds.map(s => s.file)))];\n"
     "  jsPsych.run([\n"
     "    ...from_disk ? [] : [{type: jsPsychPreload, audio: sounds}],\n"
-    "    {type: jsPsychHtmlButtonResponse, stimulus: '<h1>' + html(study.title) + '</h1>' + paragraph(study.instructions),\n"
+    "    {type: jsPsychHtmlButtonResponse, stimulus: '<h1>' + html(study.title) + '</h1>' + "
+    "paragraph(study.instructions),\n"
     "      choices: ['Start']},\n"
     "    ...study.trials.map(t => ({...trial(t), data: {trial_id: t.trial_id}})),\n"
     "  ]);\n"

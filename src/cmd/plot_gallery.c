@@ -151,7 +151,10 @@ static void draw_item(struct page *g, struct item *item, struct err *e)
 
 /* ------------------------------------------------------------------ the page */
 
-static const char *html(const struct page *g, const char *text) { return text_html(g->arena, text_shown(g->arena, text)); }
+static const char *html(const struct page *g, const char *text)
+{
+    return text_html(g->arena, text_shown(g->arena, text));
+}
 
 /* A file as the page links it: relative, what is no plain character as %XX. */
 static const char *link_to(const struct page *g, const char *file)

@@ -59,7 +59,8 @@ START_TEST(papers_have_their_counts)
                   {"002_controls", 90, 0, 3, 2},     {"003_materials", 16, 0, 5, 1},    {"004_continuum", 30, 0, 2, 1}};
     arena = folder_make();
     for (size_t i = 0; i < sizeof papers / sizeof *papers; i++) {
-        struct design d = read_file(arena_format(arena, "%s/scenes/experiments/%s.yaml", getenv("ROOT"), papers[i].file));
+        struct design d =
+            read_file(arena_format(arena, "%s/scenes/experiments/%s.yaml", getenv("ROOT"), papers[i].file));
         struct trials t = trials_of(&d);
         int training = 0, sounds = papers[i].sounds ? papers[i].sounds : d.factors[d.n_factors - 1].n_levels;
         for (int k = 0; k < t.n; k++) {
@@ -77,7 +78,7 @@ START_TEST(papers_have_their_counts)
 END_TEST
 
 #define FACTORS                                                                                                        \
-    "factors:\n  place: [{label: p}, {label: q}]\n  kind: [{label: a, text: an A}, {label: b}, {label: c}]\n"            \
+    "factors:\n  place: [{label: p}, {label: q}]\n  kind: [{label: a, text: an A}, {label: b}, {label: c}]\n"          \
     "text: \"at {place}\"\n"
 
 START_TEST(together_is_what_differs_within)
@@ -133,15 +134,17 @@ START_TEST(a_level_more_moves_no_other)
     arena = folder_make();
     const char *orders[2];
     for (int k = 0; k < 2; k++) {
-        struct trials t = trials_of(made(arena_format(arena,
-                                                      "factors:\n  kind: [%s{label: a}, {label: b}, {label: c}, {label: d}, "
-                                                      "{label: e}]\ntrials: {task: rate}\n",
-                                                      k ? "{label: new}, " : "")));
+        struct trials t =
+            trials_of(made(arena_format(arena,
+                                        "factors:\n  kind: [%s{label: a}, {label: b}, {label: c}, {label: d}, "
+                                        "{label: e}]\ntrials: {task: rate}\n",
+                                        k ? "{label: new}, " : "")));
         int n;
         struct trial *l = trials_list(&t, 7, 2, 1, arena, &n);
         orders[k] = "";
         for (int i = 0; i < n; i++)
-            if (strcmp(names(&t, &l[i]), "new") != 0) orders[k] = arena_format(arena, "%s %s", orders[k], names(&t, &l[i]));
+            if (strcmp(names(&t, &l[i]), "new") != 0)
+                orders[k] = arena_format(arena, "%s %s", orders[k], names(&t, &l[i]));
         ck_assert_int_eq(n, 5 + k);
     }
     ck_assert_str_eq(orders[0], orders[1]);
@@ -157,11 +160,12 @@ START_TEST(sessions_are_balanced)
         const char *levels = "";
         for (int i = 0; i < sessions; i++)
             levels = arena_format(arena, "%s%s{label: s%d}", levels, i ? ", " : "", i);
-        struct trials t = trials_of(made(arena_format(arena,
-                                                      "factors:\n  s: [%s]\n  b: [{label: x}, {label: y}]\n  k: [{label: l}, "
-                                                      "{label: m}, {label: o}]\n"
-                                                      "trials: {task: compare, within: k, session: s, blocks: b, training: 2}\n",
-                                                      levels)));
+        struct trials t =
+            trials_of(made(arena_format(arena,
+                                        "factors:\n  s: [%s]\n  b: [{label: x}, {label: y}]\n  k: [{label: l}, "
+                                        "{label: m}, {label: o}]\n"
+                                        "trials: {task: compare, within: k, session: s, blocks: b, training: 2}\n",
+                                        levels)));
         int at[6][6] = {{0}}, behind[6][6] = {{0}}, people = sessions % 2 ? 2 * sessions : sessions, n;
         for (int p = 1; p <= people; p++)
             for (int s = 1, last = -1; s <= sessions; s++) {
@@ -232,5 +236,5 @@ START_TEST(what_cannot_be_is_refused)
 }
 END_TEST
 
-UNIT("trials", papers_have_their_counts, together_is_what_differs_within, orders_are_everyones_own, a_level_more_moves_no_other,
-     sessions_are_balanced, what_cannot_be_is_refused)
+UNIT("trials", papers_have_their_counts, together_is_what_differs_within, orders_are_everyones_own,
+     a_level_more_moves_no_other, sessions_are_balanced, what_cannot_be_is_refused)
