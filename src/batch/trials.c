@@ -84,6 +84,7 @@ static bool add(struct trials *t, const int *stimuli, int n, struct arena *a, st
     if (n > TRIALS_SOUNDS)
         return err_set(e, ERR_SCENE, "trials.within: the trial of %s has %d sounds, more than %d", name_of(t, &x, 0), n,
                        TRIALS_SOUNDS);
+    if (t->n == TRIALS_MOST) return err_set(e, ERR_SCENE, "trials.within: there are more than %d trials", TRIALS_MOST);
     if (!text_set(t, &x, a, e)) return false;
     t->all = arena_more(a, t->all, t->n, sizeof *t->all);
     t->all[t->n++] = x;

@@ -8,7 +8,7 @@
 #define BATCH_TRIALS_H
 #include "batch/design.h"
 
-enum { TRIALS_SOUNDS = 100 /* in one trial */, TRIALS_PEOPLE = 10000 };
+enum { TRIALS_SOUNDS = 100 /* in one trial */, TRIALS_MOST = 1000000, TRIALS_PEOPLE = 10000 };
 
 struct trial {
     int id;             /* from 1, in the order of the design                                  */
@@ -28,7 +28,7 @@ struct trials {
 };
 
 /* ERR_SCENE: a compared sound is alone; a trial has several references, or none where others have one, more than
-   TRIALS_SOUNDS sounds, or several texts; all trials are of training. The design has `trials`. */
+   TRIALS_SOUNDS sounds, or several texts; there are more than TRIALS_MOST; all trials are of training. The design has `trials`. */
 bool trials_make(const struct design *d, struct arena *a, struct trials *t, struct err *e);
 
 /* What one participant (from 1) hears in one sitting (from 1). Sessions: by a Latin square in which each comes at each

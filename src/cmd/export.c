@@ -22,7 +22,7 @@
 #include "file/bytes.h"
 #include "num/noise.h"
 
-static const char sums_name[] = "SHA256SUMS";
+static const char sums_name[] = "SHA256SUMS", mark[] = "# rasp export\n"; /* its first line, which sha256sum skips */
 
 /* ------------------------------------------------------------------ files */
 
@@ -323,6 +323,7 @@ static bool sums_write(struct export *x, struct err *e)
     char hex[HASH_TEXT];
     qsort(x->files, (size_t)n, sizeof *x->files, by_text);
     if (!export_open(x, sums_name, e)) return false;
+    fputs(mark, x->stream);
     for (int i = 0; i < n && hash_file(arena_format(x->arena, "%s/%s", x->temporary, x->files[i]), hex, e); i++)
         fprintf(x->stream, "%s  %s\n", hex, x->files[i]);
     return export_close(x, e);
@@ -338,8 +339,9 @@ static bool may_replace(const struct export *x, struct err *e)
     if (!S_ISDIR(st.st_mode)) return err_set(e, ERR_CREATE, "%s: is there already, and no folder", x->output);
     if (rmdir(x->output) == 0) return true; /* it was empty */
     const char *sums = bytes_read(arena_format(x->arena, "%s/%s", x->output, sums_name), x->arena, &b, &none)
-                           ? arena_format(x->arena, "\n%.*s", (int)b.n, b.at)
+                           ? arena_format(x->arena, "%.*s", (int)b.n, b.at)
                            : "";
+    if (strncmp(sums, mark, strlen(mark)) != 0) sums = "";
     char *const roots[] = {arena_text(x->arena, x->output), NULL};
     FTS *walk = fts_open(roots, FTS_PHYSICAL | FTS_NOCHDIR, NULL);
     const char *strange = walk ? NULL : ".";

@@ -162,7 +162,7 @@ static bool webmushra_list(struct export *x, const struct export_list *l, struct
                design_trials_at(x->design, e);
     if (said(x)->instructions)
         json_array_append_new(pages, json_value_object("type:s id:s name:s content:s", "generic", "instructions",
-                                                       title(x), text_html(l->arena, said(x)->instructions)));
+                                                       "Instructions", text_html(l->arena, said(x)->instructions)));
     for (int k = 0; k < l->n; k++) {
         if (!webmushra_lengths(x, &l->trials[k], e)) return false;
         json_array_append_new(pages, webmushra_page(x, l, k));
@@ -282,8 +282,17 @@ static bool psychopy_list(struct export *x, const struct export_list *l, struct 
 
 static bool psychopy_files(struct export *x, struct err *e)
 {
-    return !said(x)->instructions ||
-           export_text(x, "instructions.txt", arena_format(x->arena, "%s\n", said(x)->instructions), e);
+    const struct design_trials *w = said(x);
+    if (w->instructions && !export_text(x, "instructions.txt", arena_format(x->arena, "%s\n", w->instructions), e))
+        return false;
+    if (!export_open(x, "answers.csv", e)) return false;
+    fputs("answer,text\n", x->stream);
+    for (int i = 0; i < w->n_answers; i++) {
+        export_cell(x, true, w->answers[i].label);
+        export_cell(x, false, w->answers[i].text);
+        fputc('\n', x->stream);
+    }
+    return export_close(x, e);
 }
 
 /* ------------------------------------------------------------------ BIDS */
@@ -328,7 +337,14 @@ static bool bids_files(struct export *x, struct err *e)
     for (int c = 0; c < COLUMNS; c++)
         for (int s = 0; s < (c >= OF_SOUND && c < OF_SOUND + SOUND_COLUMNS ? x->trials.most : 1); s++) {
             json_t *one = json_value_object("Description:s", columns[c].meaning);
+            json_t *levels = !strcmp(columns[c].name, "response") ? json_object() : NULL;
             if (!strcmp(columns[c].name, "response_time")) json_value_set(one, "Units:s", "s");
+            for (int i = 0; levels && said(x)->task != DESIGN_TASK_RATE && i < said(x)->n_answers; i++)
+                json_object_set_new(levels, said(x)->answers[i].label, json_string(said(x)->answers[i].text));
+            if (levels && json_object_size(levels))
+                json_object_set_new(one, "Levels", levels);
+            else
+                json_decref(levels);
             json_object_set_new(columns_of, column_name(x, c, s, a), one);
         }
     for (int p = 1; p <= x->people; p++)

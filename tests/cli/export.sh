@@ -10,7 +10,7 @@ at = lambda *parts: os.path.join(folder, *parts)
 read = lambda name: open(at(name), encoding="utf-8", newline="").read()
 manifest = {r["stimulus_id"]: r for r in csv.DictReader(open(f"set_{design}/manifest.csv", encoding="utf-8"))}
 files = sorted(os.path.relpath(os.path.join(d, f), folder) for d, _, fs in os.walk(folder) for f in fs)
-sums = dict(reversed(l.split("  ")) for l in read("SHA256SUMS").splitlines())
+sums = dict(reversed(l.split("  ")) for l in read("SHA256SUMS").splitlines()[1:])
 assert sorted(sums) + ["SHA256SUMS"] == sorted(sums) + [f for f in files if f not in sums], files
 assert all(hashlib.sha256(open(at(f), "rb").read()).hexdigest() == h for f, h in sums.items())
 
