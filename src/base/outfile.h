@@ -44,8 +44,8 @@ FILE *outfile_scratch_open(void); /* NULL: errno says why */
  * interrupt_forget. NULL: ERR_CREATE */
 const char *outfile_scratch_make_folder(const char *name, struct arena *a, struct err *e);
 
-/* A folder that has no name until it is complete: `temporary`, beside the target, is filled, then takes its name, in the
-   place of one that is there, which is removed whole. NULL: ERR_CREATE */
+/* A folder that has no name until it is complete: a temporary one beside the target, which is returned, is filled, then
+   takes its name, in the place of one that is there, which is removed whole. NULL: ERR_CREATE */
 const char *outfile_folder_open(const char *target, struct arena *a, struct err *e);
 /* ok false: nothing of it stays, and what is there stays. ERR_CREATE */
 bool outfile_folder_close(const char *target, const char *temporary, bool ok, struct arena *a, struct err *e);

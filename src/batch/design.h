@@ -48,7 +48,7 @@ enum design_length_rule { DESIGN_LENGTH_LONGEST, DESIGN_LENGTH_FIXED, DESIGN_LEN
 enum design_task { DESIGN_TASK_RATE, DESIGN_TASK_CHOOSE, DESIGN_TASK_COMPARE };
 enum design_role { DESIGN_ROLE_TEST, DESIGN_ROLE_REFERENCE, DESIGN_ROLE_ANCHOR, DESIGN_ROLE_TRAINING };
 
-extern const char *const design_tasks[], *const design_roles[]; /* their words; end with NULL */
+extern const char *const design_trials_tasks[], *const design_trials_roles[]; /* their words; end with NULL */
 
 struct design_answer {
     const char *label, *text; /* in tables; for those who listen */

@@ -5,8 +5,8 @@
 #include "base/text.h"
 #include "batch/design_reading.h"
 
-const char *const design_tasks[] = {"rate", "choose", "compare", NULL};
-const char *const design_roles[] = {"test", "reference", "anchor", "training", NULL};
+const char *const design_trials_tasks[] = {"rate", "choose", "compare", NULL};
+const char *const design_trials_roles[] = {"test", "reference", "anchor", "training", NULL};
 
 static const char cure[] = "write for instance: trials: {task: rate, question: How real is it?, within: [condition]}";
 
@@ -149,11 +149,12 @@ void design_trials_read(struct design_reading *r)
         return;
     }
     design_reading_known(r, map, names, " in trials");
-    while (task && task->kind == YAML_SCALAR && design_tasks[k] && strcmp(design_tasks[k], task->text) != 0)
+    while (task && task->kind == YAML_SCALAR && design_trials_tasks[k] &&
+           strcmp(design_trials_tasks[k], task->text) != 0)
         k++;
     if (!task)
         diag_add(r->yaml->diag, map->at, cure, "trials.task is missing: rate, choose or compare");
-    else if (task->kind != YAML_SCALAR || !design_tasks[k])
+    else if (task->kind != YAML_SCALAR || !design_trials_tasks[k])
         design_reading_must(r, task, "trials.task", "rate, choose or compare", cure);
     if (r->yaml->diag->n) return;
     *t = (struct design_trials){.task = (enum design_task)k, .asked = -1};

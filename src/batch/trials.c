@@ -9,7 +9,7 @@
 
 /* ------------------------------------------------------------------ which stimuli are heard together */
 
-/* By all factors but those within, training, replicate. */
+/* By all factors but those within, the first the slowest; training; replicate. */
 static int group_order(const struct design *d, int i, int j)
 {
     const struct design_stimulus *p = &d->stimuli[i], *q = &d->stimuli[j];
@@ -22,7 +22,7 @@ static int group_order(const struct design *d, int i, int j)
 
 struct placed {
     const struct design *design;
-    int stimulus, first; /* first of its group */
+    int stimulus;
 };
 
 static int by_group(const void *pa, const void *pb)
@@ -30,12 +30,6 @@ static int by_group(const void *pa, const void *pb)
     const struct placed *a = pa, *b = pb;
     int order = group_order(a->design, a->stimulus, b->stimulus);
     return order ? order : a->stimulus - b->stimulus;
-}
-
-static int by_first(const void *pa, const void *pb)
-{
-    const struct placed *a = pa, *b = pb;
-    return a->first != b->first ? a->first - b->first : a->stimulus - b->stimulus;
 }
 
 static const char *name_of(const struct trials *t, const struct trial *x, int k)
@@ -124,16 +118,12 @@ static bool make(const struct design *d, struct arena *a, struct trials *t, stru
     int *stimuli = ARENA_TAKE(a, int, d->n_stimuli + 1), session = d->trials->session;
     *t = (struct trials){.design = d};
     for (int i = 0; i < d->n_stimuli; i++)
-        all[i] = (struct placed){d, i, 0};
+        all[i] = (struct placed){d, i};
     qsort(all, (size_t)d->n_stimuli, sizeof *all, by_group);
-    for (int i = 0; i < d->n_stimuli; i++)
-        all[i].first =
-            i > 0 && group_order(d, all[i].stimulus, all[i - 1].stimulus) == 0 ? all[i - 1].first : all[i].stimulus;
-    qsort(all, (size_t)d->n_stimuli, sizeof *all, by_first);
     bool alone = d->trials->task == DESIGN_TASK_CHOOSE; /* so are takes of a recording that share all levels */
     for (int i = 0, n = 0; i < d->n_stimuli; i++) {
         stimuli[n++] = all[i].stimulus;
-        if (!alone && i + 1 < d->n_stimuli && all[i + 1].first == all[i].first) continue;
+        if (!alone && i + 1 < d->n_stimuli && !group_order(d, all[i].stimulus, all[i + 1].stimulus)) continue;
         if (!add_group(t, stimuli, n, a, e)) return false;
         n = 0;
     }

@@ -1,8 +1,8 @@
 /* The trials of a listening experiment, from a design's `trials` (design.h), and the order in which each participant
    has them.
 
-   Stimuli that share the levels of all factors but those within a trial, and the replicate, are heard together: rated in
-   one trial, or compared two by two. Orders are drawn by Philox streams whose names are the stimuli's: a participant
+   Stimuli that share the levels of all factors but those within a trial, and the replicate, are heard together: rated
+   in one trial, or compared two by two. Orders are drawn by Philox streams whose names are the stimuli's: a participant
    more changes nobody's order, and a trial more comes in between the others. */
 #ifndef BATCH_TRIALS_H
 #define BATCH_TRIALS_H
@@ -11,7 +11,7 @@
 enum { TRIALS_SOUNDS = 100 /* in one trial */, TRIALS_MOST = 1000000, TRIALS_PEOPLE = 10000 };
 
 struct trial {
-    int id;             /* from 1, in the order of the design                                  */
+    int id;             /* from 1, by levels, the first factor the slowest                                */
     int session, block; /* levels of those factors; -1: there is none                          */
     bool training;      /* its answer does not count                                           */
     int n, *stimuli;    /* of the design, in the order in which they are heard                 */
@@ -28,7 +28,8 @@ struct trials {
 };
 
 /* ERR_SCENE: a compared sound is alone; a trial has several references, or none where others have one, more than
-   TRIALS_SOUNDS sounds, or several texts; there are more than TRIALS_MOST; all trials are of training. The design has `trials`. */
+   TRIALS_SOUNDS sounds, or several texts; there are more than TRIALS_MOST; all trials are of training. The design has
+   `trials`. */
 bool trials_make(const struct design *d, struct arena *a, struct trials *t, struct err *e);
 
 /* What one participant (from 1) hears in one sitting (from 1). Sessions: by a Latin square in which each comes at each

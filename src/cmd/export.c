@@ -77,17 +77,7 @@ const char *export_number(int i, int n, struct arena *a)
 
 static const char *cell(const struct export *x, int i, const char *column)
 {
-    return x->manifest.cells[x->rows[i] * x->manifest.columns + (size_t)csv_column(&x->manifest, column)];
-}
-
-struct named {
-    const char *name;
-    size_t row;
-};
-
-static int by_name(const void *a, const void *b)
-{
-    return strcmp(((const struct named *)a)->name, ((const struct named *)b)->name);
+    return x->manifest.cells[(size_t)i * x->manifest.columns + (size_t)csv_column(&x->manifest, column)];
 }
 
 /* What readers of tables take for a number, a truth or nothing: "007" would come back as 7. */
@@ -146,16 +136,11 @@ static bool set_read(struct export *x, struct err *e)
         if (csv_column(m, needed[k]) < 0)
             return err_set(e, ERR_SCENE, "%s: has no column %s: it is no manifest as rasp batch writes it", m->file,
                            needed[k]);
-    struct named *all = ARENA_TAKE(x->arena, struct named, m->rows + 1);
-    for (size_t row = 0; row < m->rows; row++)
-        all[row] = (struct named){m->cells[row * m->columns + (size_t)csv_column(m, "stimulus_id")], row};
-    if (m->rows) qsort(all, m->rows, sizeof *all, by_name);
-    x->rows = ARENA_TAKE(x->arena, size_t, d->n_stimuli + 1);
-    for (int i = 0; i < d->n_stimuli; i++) {
-        const struct named key = {d->stimuli[i].name, 0}, *found = bsearch(&key, all, m->rows, sizeof *all, by_name);
-        if (!found)
-            return err_set(e, ERR_SCENE, "%s: has no stimulus %s: is it the set of %s?", m->file, key.name, d->file);
-        x->rows[i] = found->row;
+    for (int i = 0; i < d->n_stimuli; i++) { /* in the order of the design */
+        const char *name = d->stimuli[i].name;
+        if (m->rows != (size_t)d->n_stimuli || strcmp(cell(x, i, "stimulus_id"), name) != 0)
+            return err_set(e, ERR_SCENE, "%s: %zu rows, and not %s in row %d: is it the set of %s, as it is now?",
+                           m->file, m->rows, name, i + 1, d->file);
         if (!stimulus_check(x, i, e)) return false;
     }
     return true;
@@ -163,24 +148,12 @@ static bool set_read(struct export *x, struct err *e)
 
 /* ------------------------------------------------------------------ splits */
 
-struct ranked {
-    long cell;
-    uint64_t rank;
-};
-
-static int by_rank(const void *pa, const void *pb)
-{
-    const struct ranked *a = pa, *b = pb;
-    return a->rank != b->rank ? (a->rank > b->rank) - (a->rank < b->rank) : (a->cell > b->cell) - (a->cell < b->cell);
-}
-
-/* "train=8,test=2": replicates of a cell stay together. */
+/* "train=8,test=2", drawn for each cell: its replicates stay together, and a cell more moves no other. */
 static bool splits_read(struct export *x, const char *given, struct err *e)
 {
     static const char *const words[] = {"train", "validation", "test", NULL};
     const struct design *d = x->design;
     double shares[3] = {0}, sum = 0;
-    long cells = 0;
     for (const char *p = given; *p;) {
         size_t n = strcspn(p, "="), m = p[n] ? strcspn(p + n + 1, ",") : 0;
         int k = 0;
@@ -192,26 +165,18 @@ static bool splits_read(struct export *x, const char *given, struct err *e)
         p += n + 1 + m;
         p += *p == ',';
     }
-    for (int i = 0; i < d->n_stimuli; i++)
-        cells = d->stimuli[i].cell >= cells ? d->stimuli[i].cell + 1 : cells;
-    struct ranked *all = ARENA_TAKE(x->arena, struct ranked, cells + 1);
-    const char **of = ARENA_TAKE(x->arena, const char *, cells + 1);
-    for (int i = d->n_stimuli - 1; i >= 0; i--) { /* by the name of the cell's first stimulus */
-        uint64_t bits[2];
-        noise_bits(noise_make(x->seed, arena_format(x->arena, "rasp export split %s", d->stimuli[i].name)), 0, 0, bits);
-        all[d->stimuli[i].cell] = (struct ranked){d->stimuli[i].cell, bits[0]};
-    }
-    qsort(all, (size_t)cells, sizeof *all, by_rank);
-    for (long c = 0; c < cells; c++) {
-        double at = ((double)c + 0.5) / (double)cells * sum;
+    x->splits = ARENA_TAKE(x->arena, const char *, d->n_stimuli + 1);
+    for (int i = 0; i < d->n_stimuli; i++) {
+        const char *name = "rasp export split"; /* and all that makes the cell, or the recording */
+        for (int f = 0; f < d->n_factors; f++)
+            name = arena_format(x->arena, "%s\n%s", name, design_label(d, i, f));
+        if (d->stimuli[i].recording) name = arena_format(x->arena, "%s\n%s", name, d->stimuli[i].name);
+        double at = sum * noise_uniform(noise_make(x->seed, name), 0, 0);
         int k = 0;
         while (k < 2 && (at > shares[k] || shares[k] == 0))
             at -= shares[k++];
-        of[all[c].cell] = words[k];
+        x->splits[i] = words[k];
     }
-    x->splits = ARENA_TAKE(x->arena, const char *, d->n_stimuli + 1);
-    for (int i = 0; i < d->n_stimuli; i++)
-        x->splits[i] = of[d->stimuli[i].cell];
     return true;
 }
 
@@ -242,8 +207,8 @@ static bool sound_copy(struct export *x, int i, struct err *e)
     return ok;
 }
 
-/* The rows of the manifest whose sounds lie in the folder. Seeds have a letter before them, since 64 bits do not survive
-   where they are read as a number. */
+/* The rows of the manifest whose sounds lie in the folder. Seeds have a letter before them, since 64 bits do not
+   survive where they are read as a number. */
 static bool table_write(struct export *x, const char *folder, struct err *e)
 {
     const struct csv *m = &x->manifest;
@@ -257,7 +222,7 @@ static bool table_write(struct export *x, const char *folder, struct err *e)
         if (strcmp(sounds_folder(x, i, a), folder) != 0) continue;
         fputc('\n', x->stream);
         for (int c = 0; c < (int)m->columns; c++) {
-            const char *text = m->cells[x->rows[i] * m->columns + (size_t)c];
+            const char *text = m->cells[(size_t)i * m->columns + (size_t)c];
             if (c == file) text = arena_format(a, "%s.wav", x->design->stimuli[i].name);
             if (c == seed && isdigit((unsigned char)*text)) text = arena_format(a, "s%s", text);
             export_cell(x, c == 0, text);

@@ -35,10 +35,9 @@ struct export
     const struct design *design;
     const struct export_format *format;
     struct trials trials; /* n 0: the design has none                               */
-    struct csv manifest;
-    size_t *rows;     /* [n_stimuli] of the manifest                            */
-    const char *set;  /* the set's folder                                       */
-    const char *name; /* of the study: letters, digits, _ and -                  */
+    struct csv manifest;  /* a row a stimulus, in the order of the design                        */
+    const char *set;      /* the set's folder                                       */
+    const char *name;     /* of the study: letters, digits, _ and -                  */
     const char *output, *temporary;
     int people;
     uint64_t seed;

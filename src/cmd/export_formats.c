@@ -1,9 +1,9 @@
 /* The formats of `rasp export`, each a row of the table at the end: what it wants, and who writes it.
 
    - webMUSHRA 1.4 (its experimenter.md and pages): a configuration for each list, in the part of YAML that its parser
-     (yaml.js), PyYAML and libyaml read alike: block style, every text in double quotes, UTF-8 as it is. A MUSHRA page has
-     a reference, which webMUSHRA hides among the others by itself; where there is none a Likert page has several sounds,
-     or one.
+     (yaml.js), PyYAML and libyaml read alike: block style, every text in double quotes, UTF-8 as it is. A MUSHRA page
+     has a reference, which webMUSHRA hides among the others by itself; where there is none a Likert page has several
+     sounds, or one.
    - PsychoPy (importConditions): CSV whose columns are names of variables; a text that reads as a number becomes one.
    - jsPsych 8, and a page without library: the same lists, as JavaScript, since a page that is opened from the disk may
      not fetch JSON.
@@ -33,7 +33,7 @@ static const char *label(const struct export *x, int factor, int level)
     return factor < 0 || level < 0 ? "n/a" : x->design->factors[factor].levels[level].label;
 }
 
-static const char *role(const struct export *x, int i) { return design_roles[said(x)->roles[i]]; }
+static const char *role(const struct export *x, int i) { return design_trials_roles[said(x)->roles[i]]; }
 
 /* The right answer; NULL: there is none. */
 static const char *played(const struct export *x, const struct trial *t)
@@ -75,9 +75,7 @@ static void put_yaml(FILE *f, const json_t *value, int at, bool in_list)
         if (!in_list) fputc('\n', f);
         json_object_foreach((json_t *)value, key, one)
         {
-            static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
-            bool quoted = key[strspn(key, strchr(key, '3') || strchr(key, '7') ? "createAnchor3570" : plain)] != '\0';
-            fprintf(f, quoted ? "%*s\"%s\":" : "%*s%s:", first ? 1 : at, "", key);
+            fprintf(f, "%*s\"%s\":", first ? 1 : at, "", key);
             put_yaml(f, one, at + 4, false);
             first = false;
         }
@@ -141,7 +139,7 @@ static bool webmushra_lengths(const struct export *x, const struct trial *t, str
         const char *frames[2];
         for (int k = 0; k < 2; k++)
             frames[k] =
-                m->cells[x->rows[k ? t->reference : t->stimuli[i]] * m->columns + (size_t)csv_column(m, "frames")];
+                m->cells[(size_t)(k ? t->reference : t->stimuli[i]) * m->columns + (size_t)csv_column(m, "frames")];
         if (strcmp(frames[0], frames[1]) != 0)
             return err_set(e, ERR_SCENE,
                            "%s: %s has %s samples, its reference %s: webMUSHRA wants sounds of one length on a page: "
@@ -386,7 +384,7 @@ static bool script_list(struct export *x, const struct export_list *l, struct er
     }
     json_t *study =
         json_value_object("title:s instructions:s task:s question:s answers:o participant:s session:s trials:o",
-                          title(x), w->instructions, design_tasks[w->task], w->question, answers,
+                          title(x), w->instructions, design_trials_tasks[w->task], w->question, answers,
                           arena_format(a, "%.*s", (int)strcspn(l->name, "_"), l->name),
                           l->n ? label(x, w->session, l->trials[0].session) : "n/a", trials);
     bool ok = export_open(x, arena_format(a, "lists/%s.js", l->name), e);

@@ -129,6 +129,11 @@ ln -s set_rate set_likert
 export_as likert webmushra
 export_as compare audiofolder --splits train=4,validation=1,test=1
 export_as rate audiofolder
+echo "-- takes of a cell stay together"
+(cat choose.yaml && echo 'replicates: 9') > takes.yaml
+rasp batch -q takes.yaml -o set_takes 2> /dev/null
+export_as takes audiofolder --splits test=1,train=1
+ls takes.audiofolder/*/*.wav | sed 's/_r[0-9].wav//' | sort | uniq -c
 echo "-- a participant more changes nobody's order; another seed does"
 rasp export compare.yaml set_compare --for page -o more -p 9 > more.txt
 diff -r compare.page/lists/p1_s1.js more/lists/p1_s1.js && diff compare.page/lists/p2_s2.js more/lists/p2_s2.js

@@ -55,6 +55,8 @@ def prepare():
         f.writelines(f"{p},{c},{k},{'xy'[p % 3 == 0]}\n" for p in range(60) for c in "ab" for k in "xy")
     for shard in "12":
         run("rasp", "batch", "-q", "shorts.yaml", "-o", "shards", "--shard", f"{shard}/2", cwd=IN)
+    shutil.copytree(f"{IN}/shards", f"{IN}/ready")
+    run("rasp", "batch", "-q", "shorts.yaml", "-o", "ready", cwd=IN)
     header = f"{{'descr': '<f8', 'fortran_order': False, 'shape': (4000, 4000), }}".ljust(117) + "\n"
     with open(f"{IN}/map.npy", "wb") as f:
         f.write(b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode())
@@ -79,6 +81,7 @@ COMMANDS = {
     "batch, one at a time": (["batch", "../in/design.yaml", "-o", "set", "-j", "1"], None),
     "batch, opening": (["batch", "../in/balls.yaml", "-o", "set", "-j", "2"], None),
     "batch, joining shards": (["batch", "../in/shorts.yaml", "-o", "set", "--no-render"], None),
+    "export": (["export", "../in/shorts.yaml", "../in/ready", "--for", "audiofolder", "-o", "data"], ["data/SHA256SUMS"] + ["data/train/" + f for f in ("metadata.csv", "metadata.json", "1Hz.wav", "2Hz.wav", "3Hz.wav", "4Hz.wav", "5Hz.wav", "6Hz.wav")]),
     "golden check": (["golden", "check", "../in/plate.yaml", "--kept", "kept", "-j", "2"], []),
     "golden update": (["golden", "update", "../in/plate.yaml", "--kept", "kept", "-j", "2"], None),
     "surface synth": (["surface", "synth", "--size", "3cmx2cm", "--pitch", "5um", ROOT + "/surfaces/sandpaper.yaml", "out.gsf"], ["out.gsf"]),
