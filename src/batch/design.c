@@ -367,19 +367,15 @@ bool design_scene(const struct design *d, int i, struct arena *a, struct scene *
     return scene_read(base, &(struct scene_overrides){.layer = &layer}, a, s, messages, e);
 }
 
-bool design_reading_at(const struct diag_place *at, struct err *e)
+bool design_scene_recording(const struct design *d, int i, struct err *e)
 {
+    const struct diag_place *at = &yaml_get(d->texts->cells[d->stimuli[i].cell].entry, "file")->at;
     char name[sizeof e->text], number[32];
     text_show(at->source->name, name, sizeof name);
     int file = (int)strlen(name), rest = snprintf(number, sizeof number, ":%d:%d: ", at->line, at->column);
     err_at(e, "%s:%d:%d", at->source->name, at->line, at->column);
     e->place = (struct err_place){file, file + rest, at->line, at->column, at->width};
     return false;
-}
-
-bool design_scene_recording(const struct design *d, int i, struct err *e)
-{
-    return design_reading_at(&yaml_get(d->texts->cells[d->stimuli[i].cell].entry, "file")->at, e);
 }
 
 void design_scene_places(const struct design *d, struct scene *s, struct arena *a)

@@ -105,9 +105,6 @@ bool design_scene(const struct design *d, int i, struct arena *a, struct scene *
 /* Puts the place at which the design names recording i before an error that is about it; returns false. */
 bool design_scene_recording(const struct design *d, int i, struct err *e);
 
-/* The same of its trials. */
-bool design_trials_at(const struct design *d, struct err *e);
-
 /* Where the design's level and length stand, where it gives them, for a scene that they are laid over: errors are
    reported with those places. */
 void design_scene_places(const struct design *d, struct scene *s, struct arena *a);

@@ -27,7 +27,6 @@ struct design_texts {             /* what design_scene and design_text need     
     const struct design_cell *cells;
     struct diag_place seed;          /* where the seed is said, or the design is named     */
     struct diag_place level, length; /* the same                                          */
-    struct diag_place trials;
 };
 
 struct design_reading {
@@ -61,9 +60,6 @@ const char *design_reading_joined(const struct design_reading *r, const char *co
 int design_reading_factor(const struct design_reading *r, const struct yaml_node *key);
 /* The factor's level of that label, or with that text; -1: there is none, which has been reported. */
 int design_reading_level(const struct design_reading *r, int factor, const struct yaml_node *label, bool recording);
-
-/* Puts the place before an error that is about it; false. */
-bool design_reading_at(const struct diag_place *at, struct err *e);
 
 /* "wood, 2 Hz" */
 const char *design_reading_labels(const struct design *d, const int *level, struct arena *a);

@@ -1,9 +1,10 @@
 /* `trials` of a design: what listeners do with the stimuli, once all else of it is known. The trials themselves are
-   made of it by trials.c; nothing that is rendered depends on it. */
+   made of it by trials.c, here to see that it can be done; nothing that is rendered depends on it. */
 #include <string.h>
 
 #include "base/text.h"
 #include "batch/design_reading.h"
+#include "batch/trials.h"
 
 const char *const design_trials_tasks[] = {"rate", "choose", "compare", NULL};
 const char *const design_trials_roles[] = {"test", "reference", "anchor", "training", NULL};
@@ -142,6 +143,8 @@ void design_trials_read(struct design_reading *r)
     const struct yaml_node *map = design_reading_value(r, "trials"), *task = map ? yaml_get(map, "task") : NULL;
     struct design_trials *t = ARENA_TAKE(r->arena, struct design_trials, 1);
     const struct reading_trials x = {r, map, t};
+    struct trials all;
+    struct err e = {0};
     int k = 0;
     if (!map) return;
     if (map->kind != YAML_MAP) {
@@ -171,8 +174,7 @@ void design_trials_read(struct design_reading *r)
     if ((t->session >= 0 && t->within[t->session]) || (t->block >= 0 && t->within[t->block]))
         diag_add(r->yaml->diag, map->at, "leave it out of within",
                  "a factor of sessions or blocks cannot differ within a trial");
-    r->texts->trials = map->key->at;
     r->design->trials = t;
+    if (r->yaml->diag->n == 0 && !trials_make(r->design, r->arena, &all, &e))
+        diag_add(r->yaml->diag, map->key->at, NULL, "%s", e.text);
 }
-
-bool design_trials_at(const struct design *d, struct err *e) { return design_reading_at(&d->texts->trials, e); }

@@ -112,7 +112,7 @@ static bool all_check(const struct trials *t, struct err *e)
                    name_of(t, without, 0), name_of(t, with, 0));
 }
 
-static bool make(const struct design *d, struct arena *a, struct trials *t, struct err *e)
+bool trials_make(const struct design *d, struct arena *a, struct trials *t, struct err *e)
 {
     struct placed *all = ARENA_TAKE(a, struct placed, d->n_stimuli + 1);
     int *stimuli = ARENA_TAKE(a, int, d->n_stimuli + 1), session = d->trials->session;
@@ -135,11 +135,6 @@ static bool make(const struct design *d, struct arena *a, struct trials *t, stru
         if (counts) t->sessions[t->n_sessions++] = l;
     }
     return all_check(t, e);
-}
-
-bool trials_make(const struct design *d, struct arena *a, struct trials *t, struct err *e)
-{
-    return make(d, a, t, e) || design_trials_at(d, e);
 }
 
 int trials_right(const struct trials *t, const struct trial *x)

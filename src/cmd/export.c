@@ -240,6 +240,7 @@ static bool table_write(struct export *x, const char *folder, struct err *e)
         json_object_set(j, called, one);
         json_object_del(j, m->names[file]);
     }
+    if (!ok) json_decref(j);
     ok = ok && export_json(x, arena_format(a, "%s/%s.json", folder, stem), j, e);
     arena_close(a);
     return ok;

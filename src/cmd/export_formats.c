@@ -151,20 +151,20 @@ static bool webmushra_lengths(const struct export *x, const struct trial *t, str
 
 static bool webmushra_list(struct export *x, const struct export_list *l, struct err *e)
 {
-    json_t *pages = json_array();
     if (said(x)->task == DESIGN_TASK_COMPARE)
         return err_set(
-                   e, ERR_SCENE,
-                   "trials.task: webMUSHRA has no page on which one of two sounds is chosen; --for jspsych, page and "
-                   "psychopy do"),
-               design_trials_at(x->design, e);
+            e, ERR_SCENE,
+            "%s: trials.task: webMUSHRA has no page on which one of two sounds is chosen; --for jspsych, page "
+            "and psychopy do",
+            x->design->file);
+    for (int k = 0; k < l->n; k++)
+        if (!webmushra_lengths(x, &l->trials[k], e)) return false;
+    json_t *pages = json_array();
     if (said(x)->instructions)
         json_array_append_new(pages, json_value_object("type:s id:s name:s content:s", "generic", "instructions",
                                                        "Instructions", text_html(l->arena, said(x)->instructions)));
-    for (int k = 0; k < l->n; k++) {
-        if (!webmushra_lengths(x, &l->trials[k], e)) return false;
+    for (int k = 0; k < l->n; k++)
         json_array_append_new(pages, webmushra_page(x, l, k));
-    }
     json_array_append_new(pages,
                           json_value_object("type:s name:s content:s popupContent:s showResults:b writeResults:b",
                                             "finish", "Thank you", "", "Your answers were sent.", false, true));
@@ -322,14 +322,13 @@ static bool bids_files(struct export *x, struct err *e)
     struct arena *a = x->arena;
     const char *about = "An experiment in listening, to be carried out. The sounds and what they were made from are in "
                         "stimuli/.";
-    json_t *columns_of = json_object();
     const char *people = "participant_id\n";
     if (!export_json(x, "dataset_description.json",
                      json_value_object("Name:s BIDSVersion:s DatasetType:s", title(x), "1.9.0", "raw"), e) ||
         !export_text(x, "README", arena_format(a, "%s\n\n%s\n", title(x), about), e) ||
-        !export_text(x, ".bidsignore", "SHA256SUMS\n", e))
-        return json_decref(columns_of), false;
-    if (!x->trials.n) return json_decref(columns_of), true;
+        !export_text(x, ".bidsignore", "SHA256SUMS\n", e) || !x->trials.n)
+        return !e->kind;
+    json_t *columns_of = json_object();
     json_value_set(columns_of, "TaskName:s TaskDescription:? Instructions:?", task_name(x), said(x)->question,
                    said(x)->instructions);
     for (int c = 0; c < COLUMNS; c++)

@@ -8,6 +8,7 @@
     "<style>\n"                                                                                                        \
     "body { font: 18px/1.5 sans-serif; text-align: center; max-width: 50em; margin: 2em auto; padding: 0 1em }\n"      \
     "button { font: inherit; margin: .3em; padding: .4em 1.2em }\n"                                                    \
+    "audio { vertical-align: middle }\n"                                                                               \
     "input[type=range] { width: 24em; max-width: 100% }\n"                                                             \
     ".scale { display: flex; justify-content: space-between; max-width: 26em; margin: auto; font-size: .8em }\n"       \
     "</style>\n"
