@@ -73,6 +73,11 @@ const char *export_number(int i, int n, struct arena *a)
     return arena_format(a, "%0*d", snprintf(NULL, 0, "%d", n), i);
 }
 
+const char *export_person(const struct export *x, int i, struct arena *a)
+{
+    return export_number(i, x->people < 10 ? 10 : x->people, a);
+}
+
 /* ------------------------------------------------------------------ the set */
 
 static const char *cell(const struct export *x, int i, const char *column)
@@ -270,7 +275,7 @@ static bool lists_write(struct export *x, struct err *e)
     for (int p = 1; x->format->list && p <= x->people; p++)
         for (int s = 1; s <= sittings; s++) {
             struct export_list l = {.participant = p, .sitting = s, .arena = arena_open()};
-            l.name = arena_format(l.arena, "p%s", export_number(p, x->people, l.arena));
+            l.name = arena_format(l.arena, "p%s", export_person(x, p, l.arena));
             if (sittings > 1) l.name = arena_format(l.arena, "%s_s%s", l.name, export_number(s, sittings, l.arena));
             l.trials = trials_list(&x->trials, x->seed, p, s, l.arena, &l.n);
             bool ok = x->format->list(x, &l, e);

@@ -60,8 +60,9 @@ const char *export_sound(const struct export *x, int i, struct arena *a);
 /* A cell of a table, quoted as it needs; the first of a row has no separator before it. */
 void export_cell(struct export *x, bool first, const char *text);
 
-/* Participants and sittings as names have them: "03" of 41. */
+/* As names have it: "03" of 41; of participants two digits at least. */
 const char *export_number(int i, int n, struct arena *a);
+const char *export_person(const struct export *x, int i, struct arena *a);
 
 /* export_formats.c; ends with name NULL */
 extern const struct export_format export_formats_table[];

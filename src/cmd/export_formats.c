@@ -308,7 +308,7 @@ static const char *task_name(const struct export *x)
 static bool bids_list(struct export *x, const struct export_list *l, struct err *e)
 {
     struct arena *a = l->arena;
-    const char *sub = arena_format(a, "sub-%s", export_number(l->participant, x->people, a)), *folder = sub;
+    const char *sub = arena_format(a, "sub-%s", export_person(x, l->participant, a)), *folder = sub;
     if (x->trials.n_sessions > 1) {
         const char *session = export_number(l->sitting, x->trials.n_sessions, a);
         folder = arena_format(a, "%s/ses-%s", sub, session);
@@ -345,7 +345,7 @@ static bool bids_files(struct export *x, struct err *e)
             json_object_set_new(columns_of, column_name(x, c, s, a), one);
         }
     for (int p = 1; p <= x->people; p++)
-        people = arena_format(a, "%ssub-%s\n", people, export_number(p, x->people, a));
+        people = arena_format(a, "%ssub-%s\n", people, export_person(x, p, a));
     return export_json(x, arena_format(a, "task-%s_beh.json", task_name(x)), columns_of, e) &&
            export_text(x, "participants.tsv", people, e);
 }

@@ -9,7 +9,7 @@ command -v node > /dev/null && command -v npm > /dev/null || { echo "no node, or
 answers() { timeout 120 node "$ROOT/tests/lib/browser.js" $browser "$1" "index.html?list=$2" | sed 's/,[0-9]*$//'; }
 sed '/^trials/s/, within.*/, answers: [not at all, quite, exactly]}/' rate.yaml > single.yaml
 ln -s set_rate set_single
-lists=(rate:p1 single:p1 choose:p1 compare:p1_s2)
+lists=(rate:p01 single:p01 choose:p01 compare:p01_s2)
 for of in "${lists[@]}"; do
     design=${of%:*}
     echo "-- $design, a page"
@@ -34,12 +34,12 @@ for of in "${lists[@]}"; do
 done
 echo "-- webMUSHRA's YAML"
 rasp export rate.yaml set_rate --for webmushra -o rate.mushra > /dev/null
-NODE_PATH=$modules node -e 'console.log(JSON.stringify(require("yamljs").load("rate.mushra/configs/rate_p1.yaml")))' > read.json
-python3 -c 'import json, yaml; a, b = json.load(open("read.json")), yaml.safe_load(open("rate.mushra/configs/rate_p1.yaml")); print(a == b, a["testname"], len(a["pages"]))'
+NODE_PATH=$modules node -e 'console.log(JSON.stringify(require("yamljs").load("rate.mushra/configs/rate_p01.yaml")))' > read.json
+python3 -c 'import json, yaml; a, b = json.load(open("read.json")), yaml.safe_load(open("rate.mushra/configs/rate_p01.yaml")); print(a == b, a["testname"], len(a["pages"]))'
 if [ -n "${WEBMUSHRA:-}" ]; then
     # It loads the configuration, then every sound that the configuration names.
     cp -r "$WEBMUSHRA" mushra && cp -r rate.mushra/configs mushra/
     script='<script>addEventListener("load", () => setTimeout(() => fetch("/done", {method: "POST", body: document.title + "\n"}), 8000));</script>'
-    timeout 120 node "$ROOT/tests/lib/browser.js" $browser mushra 'index.html?config=rate_p1.yaml' "$script" > mushra.txt
+    timeout 120 node "$ROOT/tests/lib/browser.js" $browser mushra 'index.html?config=rate_p01.yaml' "$script" > mushra.txt
     diff mushra.txt <(echo 'Rating: "A & B" – π')
 fi

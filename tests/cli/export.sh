@@ -136,7 +136,7 @@ export_as takes audiofolder --splits test=1,train=1
 ls takes.audiofolder/*/*.wav | sed 's/_r[0-9].wav//' | sort | uniq -c
 echo "-- a participant more changes nobody's order; another seed does"
 rasp export compare.yaml set_compare --for page -o more -p 9 > more.txt
-diff -r compare.page/lists/p1_s1.js more/lists/p1_s1.js && diff compare.page/lists/p2_s2.js more/lists/p2_s2.js
+diff -r compare.page/lists/p01_s1.js more/lists/p01_s1.js && diff compare.page/lists/p02_s2.js more/lists/p02_s2.js
 rasp export compare.yaml set_compare --for page -o other --seed 18446744073709551615 > more.txt
-cmp -s compare.page/lists/p1_s1.js other/lists/p1_s1.js || echo "another seed, another order"
+cmp -s compare.page/lists/p01_s1.js other/lists/p01_s1.js || echo "another seed, another order"
 rm -r again more other
