@@ -33,7 +33,7 @@ let child;
 const end = code => {
   failed.forEach(f => console.log('failed: ' + f));
   child.kill();
-  child.on('exit', () => { fs.rmSync(profile, {recursive: true, force: true}); process.exit(code); });
+  child.on('exit', () => { fs.rmSync(profile, {recursive: true, force: true, maxRetries: 50, retryDelay: 100}); process.exit(code); });
 };
 const server = http.createServer((request, response) => {
   const name = decodeURIComponent(new URL(request.url, 'http://x').pathname);
