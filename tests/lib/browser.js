@@ -1,7 +1,7 @@
 // Serves a folder on the loopback, opens a page of it in headless Chromium, and answers as a listener would: presses Start, moves sliders, waits until
-// sounds are over, presses the first button that can be pressed. Prints the table of answers that the page gives, then the titles of failed requests.
+// sounds are over, presses the first button that can be pressed. Prints the table of answers that the page gives, then what could not be fetched.
 //     node browser.js CHROMIUM FOLDER 'index.html?list=p1' [SCRIPT]     SCRIPT: JavaScript to put behind the page's own
-const http = require('http'), fs = require('fs'), path = require('path'), os = require('os'), {spawn} = require('child_process');
+const http = require('http'), fs = require('fs'), path = require('path'), {spawn} = require('child_process');
 const [chromium, folder, page, own] = process.argv.slice(2);
 const types = {'.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wav': 'audio/wav', '.yaml': 'text/yaml'};
 const listener = `
@@ -28,12 +28,12 @@ addEventListener('load', () => {
 });
 </script>`;
 const failed = [];
-const profile = fs.mkdtempSync(path.join(os.tmpdir(), 'browser-'));
+const profile = fs.mkdtempSync(path.join(process.cwd(), 'browser-'));
 let child;
 const end = code => {
   failed.forEach(f => console.log('failed: ' + f));
-  child.kill();
-  child.on('exit', () => { fs.rmSync(profile, {recursive: true, force: true, maxRetries: 50, retryDelay: 100}); process.exit(code); });
+  child.on('exit', () => process.exit(code));
+  process.kill(-child.pid, 'SIGKILL'); // with all of its own
 };
 const server = http.createServer((request, response) => {
   const name = decodeURIComponent(new URL(request.url, 'http://x').pathname);
@@ -60,6 +60,6 @@ const server = http.createServer((request, response) => {
 }).listen(0, '127.0.0.1', () => {
   child = spawn(chromium, ['--headless=new', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage', '--mute-audio', '--no-first-run',
     '--autoplay-policy=no-user-gesture-required', '--user-data-dir=' + profile,
-    `http://127.0.0.1:${server.address().port}/${page}`], {stdio: 'ignore'});
+    `http://127.0.0.1:${server.address().port}/${page}`], {stdio: 'ignore', detached: true});
   setTimeout(() => { console.log('no answers in time'); end(1); }, 90000);
 });
