@@ -65,7 +65,7 @@ static bool budget_used(const struct budgeting *m, int knob) { return m->used & 
    A ramp of gains is piloted up to the sound, over the whole motion, two values side by side: what it misses lies at
    kinks, and grows with what rings. For a preset it is piloted over the fastest stretch only.
 
-   A coupled ball is piloted in its beginning only. Its error grows with time, as its place drifts, up to linearly:
+   A coupled ball is piloted in its beginning only, its ramps in the force, too. Its error grows with time, as its place drifts, up to linearly:
    measured over 10 times what is piloted, by 16 dB. So much is added, in proportion to the time (error_pilot.h:
    drift). For a preset only contact_steps is chosen of a scene with such a ball, from the preset's own on, and where it
    bounces nothing is. */
@@ -189,6 +189,8 @@ static bool compare_ramps(const struct budgeting *m, int contact, const double r
     long first = stretch ? m->pilot[contact].fastest / RAMPS * RAMPS : 0,
          frames = ok ? b->moving + (long)(0.5 * fmin(b->ring, LONGEST) * b->rate) - first : 0;
     if (stretch && frames > PILOT_STRETCH) frames = PILOT_STRETCH;
+    if (own.contact.model == CONTACT_ROLL_COUPLED && b->moving > m->pilot[contact].some)
+        frames = m->pilot[contact].some; /* its beginning */
     long room = frames * (ok ? b->channels : 0);
     for (int k = 0; first > 0 && k < 2; k++)
         if (open[k]) run_skip(&r[k], first, FADE);
@@ -230,10 +232,10 @@ static bool knob_distance(struct budgeting *m, int knob, const double value[2], 
 {
     struct accuracy set = turned(m, knob, value[0]), finer = turned(m, knob, value[1]);
     distance[0] = distance[1] = 0;
-    if (knob == KNOB_gain_ramp && !coupled(m)) {
+    if (knob == KNOB_gain_ramp) {
         if (!ramps_distance(m, value, going, distance, e)) return false;
         distance[1] = distance[0];
-        return true;
+        if (!coupled(m)) return true;
     }
     for (int i = 0; i < m->chosen->n_contacts; i++) {
         struct error_pilot *p = &m->pilot[i];
