@@ -30,9 +30,9 @@ cmp file.wav verified.wav
 cmp file.scene.yaml piped.scene.yaml
 # shellcheck disable=SC2002
 {
-    cat sub/a.yaml | tell rasp plan /dev/stdin | head -n 1
+    cat sub/a.yaml | tell rasp plan /dev/stdin | sed -n 1p
     cat sub/a.yaml | tell rasp explain /dev/stdin | grep response:
-    cat sub/a.yaml | tell rasp accuracy /dev/stdin --errors=-40 --runs 1 | head -n 1
+    cat sub/a.yaml | tell rasp accuracy /dev/stdin --errors=-40 --runs 1 | sed -n 1p
     cat set.yaml | tell rasp batch /dev/stdin -o set -q
     cat sub/bar.yaml | tell rasp modes object /dev/stdin -o bar.csv
     cat sub/recipe.yaml | tell rasp surface synth /dev/stdin x.gsf --size 1mm --pitch 5um

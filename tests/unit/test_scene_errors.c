@@ -14,7 +14,7 @@ static const struct bad bads[] = {
     {"trajectory: x\n", "5:1", "unknown key 'trajectory'", "keys here: rasp, title"},
     {"rate: 3 Hz\n", "5:1", "unknown key 'rate'",
      "'rate' belongs elsewhere: motion.rate or contact.impacts.modulation.rate or contact.given.rate or "
-     "output.diagnostics.rate"},
+     "contact.modulation.rate"},
     {"lufs: -23\n", "5:1", "unknown key 'lufs'", "output.level.lufs"},
     {"oversampling: 3\n", "5:1", "unknown key 'oversampling'", "accuracy.oversampling"},
     {"output: {ramps: 1 s}\n", "5:10", "unknown key 'ramps' in output", "did you mean 'ramp'?"},
