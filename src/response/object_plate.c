@@ -334,16 +334,16 @@ struct table {
 static void block_row(const struct block *k, int count, double (*fx)[JACOBI_MOST], const double *fy, int modes,
                       double *phi)
 {
-    double at_y[JACOBI_MOST][CHUNK], weight[JACOBI_MOST], sum[CHUNK];
+    double at_y[JACOBI_MOST * CHUNK], weight[JACOBI_MOST], sum[CHUNK];
     for (int r = 0, t = 0; r < k->rows; t += k->row[r++][1]) {
         for (int i = 0; i < k->row[r][1]; i++)
             weight[i] = fy[k->term[t + i][1]];
-        object_sum(k->row[r][1], k->width, k->c + (size_t)t * k->width, weight, at_y[0] + r * k->width);
+        object_sum(k->row[r][1], k->width, k->c + (size_t)t * k->width, weight, at_y + r * k->width);
     }
     for (int p = 0; p < count; p++) {
         for (int r = 0; r < k->rows; r++)
             weight[r] = fx[p][k->row[r][0]];
-        object_sum(k->rows, k->width, at_y[0], weight, sum);
+        object_sum(k->rows, k->width, at_y, weight, sum);
         for (int i = 0; i < k->modes; i++)
             phi[(size_t)p * modes + k->to[i]] = sum[i];
     }
