@@ -273,6 +273,10 @@ static bool run_chaos_pilot(const struct budgeting *m, bool failed, struct err *
 
 /* ------------------------------------------------------------------ sharing */
 
+/* The ramp after this one. What ramps leave repeats with them, and of its harmonics every k-th of a ramp is as strong as
+   the first of one k times as short: of two ramps of which one is a multiple of the other a mode may hear the same. */
+static double ramp_after(double value) { return value > 1 ? fmax(floor(0.4 * value), 1) : 0; }
+
 /* The coarsest value whose error is within the share, from the first on by doublings; false without an error: none. A
    knob that the scene says has the value that it says. */
 static bool climb(struct budgeting *m, int knob, double share, bool *had, struct err *e)
@@ -285,7 +289,7 @@ static bool climb(struct budgeting *m, int knob, double share, bool *had, struct
     double ahead[2] = {0, 0}; /* of the next value */
     *f = (struct found){.least = HUGE_VAL, .end = end};
     for (int step = 0;; step++) {
-        double next = down ? floor(value / 2) : 2 * value, hand = step ? HAND : HAND_FIRST, d;
+        double next = down ? ramp_after(value) : 2 * value, hand = step ? HAND : HAND_FIRST, d;
         bool last = down ? next < end : next > end, looks = !fixed && !down && 2 * next <= end;
         if (fixed) {
             double pair[2] = {value, last ? end : next};
