@@ -65,10 +65,10 @@ static bool budget_used(const struct budgeting *m, int knob) { return m->used & 
    A ramp of gains is piloted up to the sound, over the whole motion, two values side by side: what it misses lies at
    kinks, and grows with what rings. For a preset it is piloted over the fastest stretch only.
 
-   A coupled ball is piloted in its beginning only, its ramps in the force, too. Its error grows with time, as its place drifts, up to linearly:
-   measured over 10 times what is piloted, by 16 dB. So much is added, in proportion to the time (error_pilot.h:
-   drift). For a preset only contact_steps is chosen of a scene with such a ball, from the preset's own on, and where it
-   bounces nothing is. */
+   A coupled ball is piloted in its beginning only, its ramps in the force, too. Its error grows with time, as its place
+   drifts, up to linearly: measured over 10 times what is piloted, by 16 dB. So much is added, in proportion to the time
+   (error_pilot.h: drift). For a preset only contact_steps is chosen of a scene with such a ball, from the preset's own
+   on, and where it bounces nothing is. */
 
 #define HAND 4.0         /* energy of an error over that of a difference that it is taken to have */
 #define HAND_FIRST 10.0  /* the same, of the first value */
@@ -273,8 +273,8 @@ static bool run_chaos_pilot(const struct budgeting *m, bool failed, struct err *
 
 /* ------------------------------------------------------------------ sharing */
 
-/* The ramp after this one. What ramps leave repeats with them, and of its harmonics every k-th of a ramp is as strong as
-   the first of one k times as short: of two ramps of which one is a multiple of the other a mode may hear the same. */
+/* The ramp after this one. What ramps leave repeats with them, and the k-th harmonic of a ramp is as strong as the
+   first of one k times as short: of two ramps of which one is a multiple of the other a mode may hear the same. */
 static double ramp_after(double value) { return value > 1 ? fmax(floor(0.4 * value), 1) : 0; }
 
 /* The coarsest value whose error is within the share, from the first on by doublings; false without an error: none. A
