@@ -75,6 +75,9 @@ static bool add(struct trials *t, const int *stimuli, int n, struct arena *a, st
                            name_of(t, &x, k));
         if (is) x.reference = stimuli[k];
     }
+    if (x.reference >= 0 && n == 1)
+        return err_set(e, ERR_SCENE, "trials.reference: the trial of %s has nothing beside its reference",
+                       name_of(t, &x, 0));
     if (n > TRIALS_SOUNDS)
         return err_set(e, ERR_SCENE, "trials.within: the trial of %s has %d sounds, more than %d", name_of(t, &x, 0), n,
                        TRIALS_SOUNDS);

@@ -170,6 +170,7 @@ static bool splits_read(struct export *x, const char *given, struct err *e)
         p += n + 1 + m;
         p += *p == ',';
     }
+    if (!(sum > 0)) return err_set(e, ERR_USAGE, "--splits must not be empty: train=8,validation=1,test=1");
     x->splits = ARENA_TAKE(x->arena, const char *, d->n_stimuli + 1);
     for (int i = 0; i < d->n_stimuli; i++) {
         const char *name = "rasp export split"; /* and all that makes the cell, or the recording */

@@ -120,7 +120,12 @@ static bool judge_all(struct judge *j, const struct heard *s, const struct heard
     for (int i = 0; i < s->n; i++) {
         int skip = -1, left = 0, played = judge_place(m->class, m->classes, s->class[i]), best = 0;
         for (int k = 0; k < t->n; k++)
-            if (cmd_same_file(s->file[i], t->file[k])) skip = k;
+            if (cmd_same_file(s->file[i], t->file[k])) {
+                if (skip >= 0)
+                    return err_set(e, ERR_USAGE, "%s: is a template twice: name each set of templates once",
+                                   s->file[i]);
+                skip = k;
+            }
         if (played < 0)
             return err_set(e, ERR_SCENE, "%s: no template is a '%s', which %s is", m->file, s->class[i], s -> file[i]);
         for (int k = 0; k < t->n; k++)

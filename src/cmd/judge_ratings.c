@@ -210,7 +210,8 @@ static bool tukey_of(const struct judge *j, const struct ratings *t, unsigned *m
     int given;
     const char **names = args_values(&j->call->args, "tukey", &given);
     *n = 0;
-    for (int i = 0; i < given && i < 16; i++) {
+    if (given > 16) return err_set(e, ERR_USAGE, "--tukey was given %d times, and may be 16 times", given);
+    for (int i = 0; i < given; i++) {
         unsigned m = 0;
         char *word = arena_text(j->arena, names[i]);
         for (char *next; word; word = next) {
