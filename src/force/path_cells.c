@@ -243,7 +243,7 @@ static void cut_straight(struct path_cells *w, double u, double end, double alph
     int heading = end > u ? 1 : -1;
     if (!(heading * (u - w->gap[0]) >= 0 && heading * (w->gap[1] - u) > 0))
         w->gap[0] = u, w->gap[1] = knot_next(w, u, heading);
-    for (double stop; u != end; u = stop) {
+    for (double stop; heading * (end - u) > 0; u = stop) {
         stop = heading * (w->gap[1] - end) < 0 ? w->gap[1] : end;
         if (heading * (stop - u) > w->longest && u + heading * w->longest != u) stop = u + heading * w->longest;
         if (p->n + 2 > LIMITER_CELLS || p->points + 3 > LIMITER_POINTS) cells_flush(w);

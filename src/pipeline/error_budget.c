@@ -189,7 +189,7 @@ static bool compare_ramps(const struct budgeting *m, int contact, const double r
     long first = stretch ? m->pilot[contact].fastest / RAMPS * RAMPS : 0,
          frames = ok ? b->moving + (long)(0.5 * fmin(b->ring, LONGEST) * b->rate) - first : 0;
     if (stretch && frames > PILOT_STRETCH) frames = PILOT_STRETCH;
-    if (own.contact.model == CONTACT_ROLL_COUPLED && b->moving > m->pilot[contact].some)
+    if (ok && own.contact.model == CONTACT_ROLL_COUPLED && b->moving > m->pilot[contact].some)
         frames = m->pilot[contact].some; /* its beginning */
     long room = frames * (ok ? b->channels : 0);
     for (int k = 0; first > 0 && k < 2; k++)
