@@ -1,6 +1,6 @@
 /* See machine_listener.h. The papers have no such listener: this one is ours. Frames do not overlap; a frame's level is
    that of its mean square, floor 40 dB below the loudest; its centroid that of its power spectrum under Hann's window,
-   and below the floor, where it is not heard, the mean. Both are smoothed over five frames, so that what noise does by
+   and below the floor, where it is inaudible, the mean. Both are smoothed over five frames, so that what noise does by
    itself counts less. Each track less its mean, over its deviation, is what is compared: a sound's level and colour as
    such do not count. To the deviation is added, in squares, 1 dB and a quarter of an octave: what hardly changes is not
    blown up to noise. Of sounds of different length the shorter goes on at the floor. */
@@ -39,18 +39,18 @@ static double frame_of(const struct wav *w, size_t first, int count, struct fft 
     return square;
 }
 
-/* x[n], NAN where nothing is heard, smoothed by weights 1 2 3 2 1 into y; its mean and deviation. */
-static void normalise(const double *x, int n, double hardly_heard, double *y, double *mean, double *deviation)
+/* x[n], NAN where nothing is audible, smoothed by weights 1 2 3 2 1 into y; its mean and deviation. */
+static void normalise(const double *x, int n, double least_change, double *y, double *mean, double *deviation)
 {
     double sum = 0, square = 0;
     *mean = 0;
-    int heard = 0;
+    int audible = 0;
     for (int i = 0; i < n; i++)
         if (!isnan(x[i])) {
             *mean += x[i];
-            heard++;
+            audible++;
         }
-    *mean /= heard;
+    *mean /= audible;
     for (int i = 0; i < n; i++) {
         double weights = 0;
         y[i] = 0;
@@ -65,7 +65,7 @@ static void normalise(const double *x, int n, double hardly_heard, double *y, do
     *mean = sum / n;
     for (int i = 0; i < n; i++)
         square += (y[i] - *mean) * (y[i] - *mean);
-    *deviation = sqrt(square / n + hardly_heard * hardly_heard);
+    *deviation = sqrt(square / n + least_change * least_change);
 }
 
 bool machine_listener_hear(const char *path, const struct wav *w, struct arena *a, struct machine_listener_sound *s,
@@ -84,12 +84,12 @@ bool machine_listener_hear(const char *path, const struct wav *w, struct arena *
     fft_close(f);
     for (int i = n - 1; i >= 0; i--) {
         level[i] = level[i] > 0 ? fmax(LOWEST, 10 * real_log10(level[i] / loudest)) : LOWEST;
-        bool heard = level[i] > LOWEST && centroid[i] > 0;
-        centroid[i] = heard ? real_log(centroid[i]) / real_log(2) : (double)NAN;
-        if (heard) first = i;
-        if (heard && last < 0) last = i;
+        bool audible = level[i] > LOWEST && centroid[i] > 0;
+        centroid[i] = audible ? real_log(centroid[i]) / real_log(2) : (double)NAN;
+        if (audible) first = i;
+        if (audible && last < 0) last = i;
     }
-    if (last < 0) return err_set(e, ERR_SCENE, "%s: is silent, or shorter than 25 ms: nothing is heard of it", path);
+    if (last < 0) return err_set(e, ERR_SCENE, "%s: is silent, or shorter than 25 ms: nothing of it is audible", path);
     *s = (struct machine_listener_sound){.n = last + 1 - first};
     for (int t = 0; t < 2; t++) {
         double *y = ARENA_TAKE(a, double, s->n);
@@ -99,7 +99,7 @@ bool machine_listener_hear(const char *path, const struct wav *w, struct arena *
     return true;
 }
 
-static double heard(const struct machine_listener_sound *s, int t, int i)
+static double feature(const struct machine_listener_sound *s, int t, int i)
 {
     double x = i < s->n ? s->track[t][i] : t ? s->mean[t] : LOWEST;
     return (x - s->mean[t]) / s->deviation[t];
@@ -111,7 +111,7 @@ double machine_listener_distance(const struct machine_listener_sound *a, const s
     double sum = 0;
     for (int i = 0; i < n; i++)
         for (int t = 0; t < 2; t++) {
-            double off = heard(a, t, i) - heard(b, t, i);
+            double off = feature(a, t, i) - feature(b, t, i);
             sum += off * off / (2 * n);
         }
     return sum;

@@ -8,7 +8,7 @@
 struct machine_listener_sound {
     int n;                        /* frames of 25 ms from the first to the last that is above the floor; 0: silent */
     const double *track[2];       /* [n] level, dB re the loudest frame; log2 of the centroid in Hz; smoothed */
-    double mean[2], deviation[2]; /* of these, with what is not heard of a change added to the second               */
+    double mean[2], deviation[2]; /* of these, with what of a change is not audible added to the second               */
     int class;                    /* as the caller numbers them */
 };
 

@@ -62,7 +62,7 @@ static bool paper_open(struct judge *j, struct err *e)
     return err_set(e, ERR_USAGE, "--item: %s has no item '%s'", file, j->item);
 }
 
-/* Each row of the item beside the figure of that name; a row that has none is told. */
+/* Each row of the item beside the figure of that name; a row that has none is reported. */
 static void paper_report(struct judge *j)
 {
     struct report *r = &j->report;
@@ -164,7 +164,7 @@ static const struct args_option options[] = {
     {"templates", 't', "SET", true,
      "listen: sounds whose class is known, a folder of rasp batch or a table with file_name"},
     {"where", 0, "COLUMN=VALUE", true, "listen: only these of the templates"},
-    {"factor", 0, "COLUMN", false, "listen: what is to be told apart (default motion)"},
+    {"factor", 0, "COLUMN", false, "listen: the classes (default motion)"},
     {"spread", 0, "X", false, "listen: how far apart takes of one class are; default: as the templates' are"},
     {"output", 'o', "FILE.csv", false, "choices, listen: writes the matrices, too"},
     {"force", 'f', NULL, false, "replaces that file if it exists"},

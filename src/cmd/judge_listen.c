@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "cmd/judge.h"
 
-struct heard { /* sounds of one or several sets */
+struct sounds { /* sounds of one or several sets */
     int n;
     const char **file, **class, **condition;
     struct machine_listener_sound *sound;
@@ -49,7 +49,7 @@ static bool hear(struct judge *j, const char *path, struct machine_listener_soun
 }
 
 /* Adds a set's sounds; those of --where alone if `some`. */
-static bool add(struct judge *j, const char *set, bool some, struct heard *h, struct err *e)
+static bool add(struct judge *j, const char *set, bool some, struct sounds *h, struct err *e)
 {
     struct csv t;
     struct judge_factor class, condition;
@@ -64,7 +64,7 @@ static bool add(struct judge *j, const char *set, bool some, struct heard *h, st
                        name < 0 ? "file_name"
                        : factor ? factor
                                 : "motion",
-                       name < 0 ? "" : ": --factor says which one names what is to be told apart");
+                       name < 0 ? "" : ": --factor says which one names the classes");
     if (e->kind || !judge_table_factor(&t, played, j->arena, &class, e) ||
         !judge_table_factor(&t, of, j->arena, &condition, e))
         return false;
@@ -100,7 +100,7 @@ static const char **distinct(const char *const *words, int n, int *count, struct
 }
 
 /* How far apart takes of one class are, by which the listener errs: of templates, or --spread. */
-static bool spread_of(const struct judge *j, const struct heard *t, double *spread, struct err *e)
+static bool spread_of(const struct judge *j, const struct sounds *t, double *spread, struct err *e)
 {
     *spread = NAN;
     if (!args_number(&j->call->args, "spread", (const double[]){1e-6, 100}, spread, e)) return false;
@@ -112,7 +112,7 @@ static bool spread_of(const struct judge *j, const struct heard *t, double *spre
                    isnan(*spread) ? "a class has one sound only" : "all takes of each class are the same");
 }
 
-static bool judge_all(struct judge *j, const struct heard *s, const struct heard *t, double spread,
+static bool judge_all(struct judge *j, const struct sounds *s, const struct sounds *t, double spread,
                       struct judge_choices *m, struct err *e)
 {
     int own = 0;
@@ -153,7 +153,7 @@ static bool judge_all(struct judge *j, const struct heard *s, const struct heard
 
 bool judge_listen_run(struct judge *j, struct err *e)
 {
-    struct heard s = {0}, t = {0};
+    struct sounds s = {0}, t = {0};
     struct judge_choices m = {.file = j->call->args.operands[0]};
     double spread;
     int n;

@@ -1,5 +1,5 @@
 /* Tables that `rasp judge` reads: their columns by role, words as levels, confusion matrices from answers or as they
-   are. A fault is told by file, line and column. */
+   are. A fault is reported by file, line and column. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

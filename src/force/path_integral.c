@@ -287,7 +287,7 @@ void path_integral_rest(struct path_integral *s, int n)
     slope_fill(s, n);
 }
 
-/* ------------------------------------------------------------------ what is told of it */
+/* ------------------------------------------------------------------ what diagnostics have of it */
 
 double path_integral_ground(const struct path_integral *s, const struct board *b, long k)
 {

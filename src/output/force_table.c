@@ -141,8 +141,8 @@ static const struct {
                {RESIDUAL, ROLL_RESIDUAL}};
 enum { SAMPLED = sizeof sampled / sizeof sampled[0] };
 
-/* What takes more time than the render may have to spare is told only where it is named. */
-static bool column_told(const struct contact *c, int k)
+/* What takes more time than the render may have to spare is written only where it is named. */
+static bool column_by_name(const struct contact *c, int k)
 {
     return k != GROUND && k != TRAJECTORY && !*params_column_lacks(c, k);
 }
@@ -216,7 +216,7 @@ static bool column_asked(const struct contact *c, const struct scene *s, int fir
 {
     const char **names = s->output.diagnostics.columns;
     for (int k = first; k <= last; k++) {
-        if (!names && column_told(c, k)) return true;
+        if (!names && column_by_name(c, k)) return true;
         for (int i = 0; names && names[i]; i++)
             if (params_column_find(names[i]) == k) return true;
     }
@@ -262,7 +262,7 @@ static bool columns_choose(struct force_table *t, const struct stage_run *r, str
     const char **names = r->scene->output.diagnostics.columns;
     const struct params *whose;
     while (t->n < MOST && (t->of[t->n] = params_column(t->n, &whose))) {
-        t->wanted[t->n] = !names && column_told(r->contact, t->n);
+        t->wanted[t->n] = !names && column_by_name(r->contact, t->n);
         for (int i = 0; i < r->board->n_stages; i++)
             if (r->board->stages[i].stage->params == whose) t->by[t->n] = &r->board->stages[i];
         t->n++;

@@ -55,7 +55,8 @@ static bool budget_used(const struct budgeting *m, int knob) { return m->used & 
    that falls by 6 dB a doubling, as at a kink, is twice the difference: so 4 d is what it is taken to be, and K is
    accepted where that is within the knob's share. The first value has no history that shows whether K and 2K agree by
    accident: there it is 10 times the greater of d and, of steps, the next value's. Of the last value, which has no
-   finer one, the error is at most the difference from the one before it, if it falls by 6 dB or more: 2 d.
+   finer one, the error is at most the difference from the one before it, if it falls by 6 dB or more: 2 d. Of ramps the
+   next value is not 2K but ramp_after, whose difference is nearer to the error.
 
    That of each knob has all others at `draft`, those that the scene says as it says them. A coupled ball's steps are
    contact_steps in a contact or `oversampling` in a sample, whichever are more. So its oversampling is piloted with
@@ -274,11 +275,12 @@ static bool run_chaos_pilot(const struct budgeting *m, bool failed, struct err *
 /* ------------------------------------------------------------------ sharing */
 
 /* The ramp after this one. What ramps leave repeats with them, and the k-th harmonic of a ramp is as strong as the
-   first of one k times as short: of two ramps of which one is a multiple of the other a mode may hear the same. */
+   first of one k times as short: of two ramps of which one is a multiple of the other a mode may hear the same. Of
+   the sequence 256, 102, 40, 16, 6, 2, 1 the last three are; presets, which halve, compare such ramps throughout. */
 static double ramp_after(double value) { return value > 1 ? fmax(floor(0.4 * value), 1) : 0; }
 
-/* The coarsest value whose error is within the share, from the first on by doublings; false without an error: none. A
-   knob that the scene says has the value that it says. */
+/* The coarsest value whose error is within the share, from the first on by doublings, of ramps by ramp_after; false
+   without an error: none. A knob that the scene says has the value that it says. */
 static bool climb(struct budgeting *m, int knob, double share, bool *had, struct err *e)
 {
     const struct key_knob *k = &keys_knobs[knob];
