@@ -46,7 +46,7 @@ enum design_level_rule { DESIGN_LEVEL_COMMON, DESIGN_LEVEL_EACH, DESIGN_LEVEL_SC
 enum design_length_rule { DESIGN_LENGTH_LONGEST, DESIGN_LENGTH_FIXED, DESIGN_LENGTH_OWN };
 
 enum design_task { DESIGN_TASK_RATE, DESIGN_TASK_CHOOSE, DESIGN_TASK_COMPARE };
-enum design_role { DESIGN_ROLE_TEST, DESIGN_ROLE_REFERENCE, DESIGN_ROLE_ANCHOR, DESIGN_ROLE_TRAINING };
+enum design_role { DESIGN_ROLE_TEST, DESIGN_ROLE_REFERENCE, DESIGN_ROLE_ANCHOR };
 
 extern const char *const design_trials_tasks[], *const design_trials_roles[]; /* their words; end with NULL */
 
@@ -63,7 +63,8 @@ struct design_trials {                   /* what listeners do with the stimuli (
     int n_answers;
     int session, block;      /* factors whose levels are heard in different sessions, blocks; -1: none           */
     int training;            /* trials that are drawn to begin each session with                                 */
-    enum design_role *roles; /* [n_stimuli] */
+    enum design_role *roles; /* [n_stimuli] what each is for                                                     */
+    bool *for_training;      /* [n_stimuli] it is in trials of training alone                                    */
 };
 
 struct design {

@@ -7,7 +7,7 @@
 #include "batch/trials.h"
 
 const char *const design_trials_tasks[] = {"rate", "choose", "compare", NULL};
-const char *const design_trials_roles[] = {"test", "reference", "anchor", "training", NULL};
+const char *const design_trials_roles[] = {"test", "reference", "anchor", NULL};
 
 static const char cure[] = "write for instance: trials: {task: rate, question: How real is it?, within: [condition]}";
 
@@ -112,14 +112,15 @@ static void answers_read(const struct reading_trials *x)
                  "trials.answers must be two answers at least");
 }
 
-/* Which stimuli an entry of the list picks has that role. */
+/* Stimuli that an entry of the list picks have that role; DESIGN_ROLE_TEST: they are for training. */
 static void role_read(const struct reading_trials *x, enum design_role role, const char *key)
 {
     const struct design *d = x->r->design;
     const struct yaml_node *list = value(x, key);
     const char *label = arena_format(x->r->arena, "trials.%s", key);
+    bool training = role == DESIGN_ROLE_TEST;
     int n;
-    if (list && list->kind == YAML_SCALAR && role == DESIGN_ROLE_TRAINING) {
+    if (list && list->kind == YAML_SCALAR && training) {
         if (!text_int(list->text, 0, 1000, &x->t->training))
             design_reading_must(x->r, list, label, "a number of trials from 0 to 1000, or a list of maps of levels",
                                 "write for instance: training: 3");
@@ -127,11 +128,16 @@ static void role_read(const struct reading_trials *x, enum design_role role, con
     }
     struct design_match *all = design_rows_matches(x->r, list, label, &n);
     for (int i = 0; i < d->n_stimuli && x->r->yaml->diag->n == 0; i++)
-        if (n > 0 && design_rows_match(d, d->stimuli[i].level, all, n)) x->t->roles[i] = role;
+        if (n > 0 && design_rows_match(d, d->stimuli[i].level, all, n)) {
+            if (training)
+                x->t->for_training[i] = true;
+            else
+                x->t->roles[i] = role;
+        }
     for (int i = 0; i < n && x->r->yaml->diag->n == 0; i++)
         if (!all[i].matched)
             diag_add(x->r->yaml->diag, all[i].entry->at, "remove it, or mend it", "%s: no stimulus is so", label);
-    if (n > 0 && role != DESIGN_ROLE_TRAINING && (x->t->task != DESIGN_TASK_RATE || !value(x, "within")))
+    if (n > 0 && !training && (x->t->task != DESIGN_TASK_RATE || !value(x, "within")))
         diag_add(x->r->yaml->diag, list->at, "leave it out",
                  "%s: only a trial in which several sounds are rated (task: rate, within) has such", label);
 }
@@ -166,11 +172,12 @@ void design_trials_read(struct design_reading *r)
     t->session = factor_of(&x, value(&x, "session"), "trials.session");
     t->block = factor_of(&x, value(&x, "blocks"), "trials.blocks");
     t->roles = ARENA_TAKE(r->arena, enum design_role, r->design->n_stimuli + 1);
+    t->for_training = ARENA_TAKE(r->arena, bool, r->design->n_stimuli + 1);
     within_read(&x);
     answers_read(&x);
     role_read(&x, DESIGN_ROLE_ANCHOR, "anchors");
     role_read(&x, DESIGN_ROLE_REFERENCE, "reference");
-    role_read(&x, DESIGN_ROLE_TRAINING, "training");
+    role_read(&x, DESIGN_ROLE_TEST, "training");
     if ((t->session >= 0 && t->within[t->session]) || (t->block >= 0 && t->within[t->block]))
         diag_add(r->yaml->diag, map->at, "leave it out of within",
                  "a factor of sessions or blocks cannot differ within a trial");

@@ -16,8 +16,8 @@ static int group_order(const struct design *d, int i, int j)
     const struct design_trials *t = d->trials;
     for (int f = 0; f < d->n_factors; f++)
         if (!t->within[f] && p->level[f] != q->level[f]) return p->level[f] - q->level[f];
-    bool a = t->roles[i] == DESIGN_ROLE_TRAINING, b = t->roles[j] == DESIGN_ROLE_TRAINING;
-    return a != b ? a - b : p->replicate - q->replicate;
+    int training = t->for_training[i] - t->for_training[j];
+    return training ? training : p->replicate - q->replicate;
 }
 
 struct placed {
@@ -64,7 +64,7 @@ static bool add(struct trials *t, const int *stimuli, int n, struct arena *a, st
     struct trial x = {.id = t->n + 1,
                       .session = w->session < 0 ? -1 : level[w->session],
                       .block = w->block < 0 ? -1 : level[w->block],
-                      .training = w->roles[stimuli[0]] == DESIGN_ROLE_TRAINING,
+                      .training = w->for_training[stimuli[0]],
                       .n = n,
                       .stimuli = ARENA_TAKE(a, int, n)};
     x.reference = -1;

@@ -33,7 +33,11 @@ static const char *label(const struct export *x, int factor, int level)
     return factor < 0 || level < 0 ? "n/a" : x->design->factors[factor].levels[level].label;
 }
 
-static const char *role(const struct export *x, int i) { return design_trials_roles[said(x)->roles[i]]; }
+static const char *role(const struct export *x, int i)
+{
+    const struct design_trials *w = said(x);
+    return w->for_training[i] && w->roles[i] == DESIGN_ROLE_TEST ? "training" : design_trials_roles[w->roles[i]];
+}
 
 /* The right answer; NULL: there is none. */
 static const char *played(const struct export *x, const struct trial *t)

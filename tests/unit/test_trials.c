@@ -94,6 +94,11 @@ START_TEST(together_is_what_differs_within)
     ck_assert_str_eq(all_names(&t, t.all, t.n), "p_a p_b p_c *q_a q_b *q_c");
     ck_assert_int_eq(trials_right(&t, &t.all[4]), 1);
     ck_assert_ptr_null(t.all[0].text);
+    t = trials_of(
+        made(FACTORS "trials: {task: rate, within: kind, reference: [{kind: c}], training: [{place: p}]}\n"));
+    ck_assert_str_eq(all_names(&t, t.all, t.n), "*p_a+p_b+p_c q_a+q_b+q_c");
+    ck_assert_str_eq(t.design->stimuli[t.all[0].reference].name, "p_c");
+    ck_assert_str_eq(t.design->stimuli[t.all[1].reference].name, "q_c");
     folder_remove();
 }
 END_TEST
