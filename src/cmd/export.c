@@ -238,10 +238,10 @@ static bool table_write(struct export *x, const char *folder, struct err *e)
     json_t *j = ok ? json_load_file(arena_format(a, "%s/manifest.json", x->set), 0, NULL) : NULL, *one;
     if (ok && !json_is_object(j))
         ok = err_set(e, ERR_INPUT, "%s/manifest.json: is not there, or no side-car of the manifest", x->set);
-    if (ok && (one = json_object_get(j, "seed")))
-        json_object_set_new(
-            one, "Description",
-            json_sprintf("the letter s, and the %s", json_string_value(json_object_get(one, "Description"))));
+    if (ok && (one = json_object_get(j, "seed"))) {
+        const char *what = json_string_value(json_object_get(one, "Description"));
+        json_object_set_new(one, "Description", json_sprintf("the letter s, and the %s", what ? what : "seed"));
+    }
     if (ok && (one = json_object_get(j, m->names[file])) && strcmp(called, m->names[file]) != 0) {
         json_object_set(j, called, one);
         json_object_del(j, m->names[file]);
@@ -309,7 +309,6 @@ static bool may_replace(const struct export *x, struct err *e)
     struct err none = {0};
     if (lstat(x->output, &st) != 0) return true;
     if (!S_ISDIR(st.st_mode)) return err_set(e, ERR_CREATE, "%s: is there already, and no folder", x->output);
-    if (rmdir(x->output) == 0) return true; /* it was empty */
     const char *sums = bytes_read(arena_format(x->arena, "%s/%s", x->output, sums_name), x->arena, &b, &none)
                            ? arena_format(x->arena, "%.*s", (int)b.n, b.at)
                            : "";

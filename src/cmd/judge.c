@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/text.h"
 
 int judge_place(const char *const *words, int n, const char *word)
 {
@@ -91,8 +92,23 @@ static void paper_report(struct judge *j)
 
 /* ------------------------------------------------------------------ running */
 
+/* --column ROLE=NAME has a role that the action knows. */
+static bool roles_check(const struct judge *j, const char *const *roles, struct err *e)
+{
+    const char **given = args_values(&j->call->args, "column", &(int){0}), *all = "";
+    for (int k = 0; roles[k]; k++)
+        all = arena_format(j->arena, "%s%s%s", all, k ? ", " : "", roles[k]);
+    for (; given && *given && !e->kind; given++) {
+        const char *role = arena_format(j->arena, "%.*s", (int)strcspn(*given, "="), *given);
+        if (!strchr(*given, '=') || !text_is_one(role, roles))
+            err_set(e, ERR_USAGE, "--column %s: write ROLE=NAME, where ROLE is one of: %s", *given, all);
+    }
+    return !e->kind;
+}
+
 /* What is printed waits until nothing can fail any more. */
-static int act(struct cmd_call *c, bool (*run)(struct judge *j, struct err *e), struct err *e)
+static int act(struct cmd_call *c, bool (*run)(struct judge *j, struct err *e), const char *const *roles,
+               struct err *e)
 {
     struct judge j = {.call = c, .arena = c->arena};
     char *text = NULL;
@@ -100,7 +116,7 @@ static int act(struct cmd_call *c, bool (*run)(struct judge *j, struct err *e), 
     FILE *out = open_memstream(&text, &n);
     if (!out) memory_out("the report");
     j.report = report_open(out, args_given(&c->args, "json"));
-    if (paper_open(&j, e) && run(&j, e)) {
+    if (roles_check(&j, roles, e) && paper_open(&j, e) && run(&j, e)) {
         paper_report(&j);
         report_close(&j.report, 0, e);
     } else if (j.report.json)
@@ -111,13 +127,17 @@ static int act(struct cmd_call *c, bool (*run)(struct judge *j, struct err *e), 
     return (int)e->kind;
 }
 
-#define ACT(name, run)                                                                                                 \
-    static int name(struct cmd_call *c, struct err *e) { return act(c, run, e); }
-ACT(similarity, judge_choices_similarity)
-ACT(choices, judge_choices_run)
-ACT(ratings, judge_ratings_run)
-ACT(pairs, judge_ratings_pairs)
-ACT(listen, judge_listen_run)
+/* An action, and the roles that columns have in it. */
+#define ACT(name, run, ...)                                                                                            \
+    static int name(struct cmd_call *c, struct err *e)                                                                 \
+    {                                                                                                                  \
+        return act(c, run, (const char *const[]){__VA_ARGS__, NULL}, e);                                               \
+    }
+ACT(similarity, judge_choices_similarity, "participant", "condition", "played", "chosen")
+ACT(choices, judge_choices_run, "participant", "condition", "played", "chosen")
+ACT(ratings, judge_ratings_run, "participant", "rating")
+ACT(pairs, judge_ratings_pairs, "participant", "a", "b", "answer", "set", "condition")
+ACT(listen, judge_listen_run, "condition")
 
 static const struct action actions[] = {
     {"choices",

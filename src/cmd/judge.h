@@ -32,7 +32,7 @@ int judge_place(const char *const *words, int n, const char *word);
 
 /* ------------------------------------------------------------------ judge_table.c */
 
-enum { JUDGE_LEVELS = 10000 };
+enum { JUDGE_LEVELS = 10000, JUDGE_CLASSES = 100, JUDGE_COMPARED = 100 /* means, by Tukey's method */ };
 
 struct judge_factor { /* a column whose cells are words */
     const char *name;
@@ -60,6 +60,9 @@ struct judge_choices { /* confusion matrices */
 /* A table of answers (participant, condition, played, chosen) or of matrices (condition, played, a column a class);
    --classes, --groups. ERR_INPUT, ERR_SCENE, ERR_USAGE */
 bool judge_table_choices(struct judge *j, const char *file, struct judge_choices *m, struct err *e);
+
+/* Takes memory for the cells of so many conditions and classes. ERR_SCENE: not 2 to JUDGE_CLASSES classes. */
+bool judge_table_open(struct judge *j, struct judge_choices *m, struct err *e);
 
 /* Of the condition, a matrix of shares, in the arena. */
 const double *judge_table_shares(const struct judge_choices *m, int condition, struct arena *a);

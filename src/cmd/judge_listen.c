@@ -164,10 +164,9 @@ bool judge_listen_run(struct judge *j, struct err *e)
     if (!add(j, m.file, false, &s, e)) return false;
     m.class = distinct(t.class, t.n, &m.classes, j->arena);
     m.condition = distinct(s.condition, s.n, &m.conditions, j->arena);
-    if (m.classes < 2) return err_set(e, ERR_SCENE, "--templates: one class only: there is nothing to confuse");
+    if (!judge_table_open(j, &m, e)) return false;
     for (int i = 0; i < t.n; i++)
         t.sound[i].class = judge_place(m.class, m.classes, t.class[i]);
-    m.cell = ARENA_TAKE(j->arena, double, m.conditions *m.classes *m.classes);
     if (!spread_of(j, &t, &spread, e) || !judge_all(j, &s, &t, spread, &m, e)) return false;
     for (int i = 0; i < m.conditions * m.classes; i++) {
         double sum = 0;

@@ -109,13 +109,27 @@ static void report_effect(struct judge *j, const struct anova_effect *f, const c
     judge_figure(j, f->df_error, "df_error(%s)", name);
 }
 
+/* So many comparisons take seconds: of n means n (n - 1)/2 integrals. */
+static bool compared_check(struct judge *j, const struct ratings *t, unsigned mask, const char *file, struct err *e)
+{
+    int means = 1;
+    for (int k = 0; k < t->design.factors; k++)
+        means *= mask >> k & 1 ? t->design.levels[k] : 1;
+    return means <= JUDGE_COMPARED ||
+           err_set(e, ERR_SCENE, "%s: %s has %d means: Tukey's comparisons are of %d at most", file,
+                   effect_name(t, mask, j->arena), means, JUDGE_COMPARED);
+}
+
 /* tukey [n]: masks. */
-static void report_anova(struct judge *j, struct ratings *t, const unsigned *tukey, int n)
+static bool report_anova(struct judge *j, struct ratings *t, const unsigned *tukey, int n, const char *file,
+                         struct err *e)
 {
     const struct anova_design *d = &t->design;
     unsigned effects = 1u << d->factors;
     struct report *r = &j->report;
     int width = (int)strlen(effect_name(t, effects - 1, j->arena));
+    for (int k = 0; k < n; k++)
+        if (!compared_check(j, t, tukey[k], file, e)) return false;
     anova_within(d, t->effect);
     judge_figure(j, d->people, "listeners");
     report_set(r, "listeners:i cells:i means:[", d->people, d->cells);
@@ -131,6 +145,7 @@ static void report_anova(struct judge *j, struct ratings *t, const unsigned *tuk
     for (int k = 0; k < n; k++)
         report_tukey(j, t, tukey[k]);
     report_end(r);
+    return true;
 }
 
 /* ------------------------------------------------------------------ ratings */
@@ -241,8 +256,7 @@ bool judge_ratings_run(struct judge *j, struct err *e)
     t->design.people = person.n;
     if (!design_check(t, v.file, e) || !tukey_of(j, t, tukey, &n, e) || !cells_take(j, t, &v, &person, rating, e))
         return false;
-    report_anova(j, t, tukey, n);
-    return true;
+    return report_anova(j, t, tukey, n, v.file, e);
 }
 
 /* ------------------------------------------------------------------ pairs: 002 VI-C. The printed weights are lost in
@@ -346,7 +360,7 @@ bool judge_ratings_pairs(struct judge *j, struct err *e)
         report_text(&j->report, "%s%s: scores of %d listeners, means of %d set%s (1 more, 1/2 alike, 1 of itself)\n",
                     k ? "\n" : "", t->factor[0].name, q.person.n, q.set.n, q.set.n == 1 ? "" : "s");
         report_set(&j->report, ":{ condition:s sets:i", t->factor[0].name, q.set.n);
-        report_anova(j, t, (const unsigned[]){1}, 1);
+        if (!report_anova(j, t, (const unsigned[]){1}, 1, v.file, e)) return false;
         report_end(&j->report);
     }
     report_end(&j->report);

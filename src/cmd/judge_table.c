@@ -105,19 +105,26 @@ static bool group(struct judge *j, struct classes *c, struct judge_choices *m, s
     }
     for (int i = 0; i < c->n; i++)
         c->as[i] = -2 - c->as[i];
-    if (!e->kind && (m->classes < 2 || m->classes > 100))
-        err_set(e, ERR_SCENE, "%s: %d class%s: 2 to 100 can be confused", m->file, m->classes,
-                m->classes > 1 ? "es" : "");
     return !e->kind;
+}
+
+bool judge_table_open(struct judge *j, struct judge_choices *m, struct err *e)
+{
+    if (m->classes < 2 || m->classes > JUDGE_CLASSES)
+        return err_set(e, ERR_SCENE, "%s: %d class%s: 2 to %d can be confused", m->file, m->classes,
+                       m->classes > 1 ? "es" : "", JUDGE_CLASSES);
+    m->cell = ARENA_TAKE(j->arena, double, (size_t)m->conditions *(size_t)(m->classes * m->classes));
+    return true;
 }
 
 static bool class_of(const struct csv *t, size_t row, int column, const struct classes *c, struct arena *a, int *k,
                      struct err *e)
 {
     char room[CSV_ROOM];
-    const char *word = csv_text(t, row, column, room), **names = ARENA_TAKE(a, const char *, c->n + 1);
+    const char *word = csv_text(t, row, column, room);
     *k = judge_place(c->word, c->n, word);
     if (*k >= 0) return true;
+    const char **names = ARENA_TAKE(a, const char *, c->n + 1);
     memcpy(names, c->word, (size_t)c->n * sizeof *names);
     const char *meant = text_nearest(word, names);
     return err_set(e, ERR_SCENE, "%s:%d: column '%s': '%s' is no class (%s; --classes names them)%s%s%s", t->file,
@@ -153,7 +160,7 @@ static bool answers_take(struct judge *j, const struct csv *t, int chosen, struc
     m->counted = true;
     m->person = person.levels;
     m->people = person.n;
-    m->cell = ARENA_TAKE(j->arena, double, m->conditions * m->classes * m->classes);
+    if (!judge_table_open(j, m, e)) return false;
     m->right = ARENA_TAKE(j->arena, double, m->people * m->conditions + 1);
     m->asked = ARENA_TAKE(j->arena, double, m->people * m->conditions + 1);
     for (size_t i = 0; i < t->rows; i++) {
@@ -202,7 +209,7 @@ static bool kind_of(const struct csv *t, const struct judge_factor *condition, c
                                "row; shares sum to 1, percent to 100, within 2 %%",
                                t->file, t->lines[i], condition->levels[condition->of_row[i]], sum);
         }
-        if (kind < 0) kind = most < 1.5 ? 1 : whole ? 0 : 2;
+        if (kind < 0) kind = whole ? 0 : most < 1.5 ? 1 : 2;
     }
     *counted = kind == 0;
     return true;
@@ -224,7 +231,7 @@ static bool matrices_take(struct judge *j, const struct csv *t, struct judge_cho
     if (!kind_of(t, &condition, columns, c.n, &m->counted, e) || !group(j, &c, m, e)) return false;
     m->condition = condition.levels;
     m->conditions = condition.n;
-    m->cell = ARENA_TAKE(j->arena, double, m->conditions * m->classes * m->classes);
+    if (!judge_table_open(j, m, e)) return false;
     bool *seen = ARENA_TAKE(j->arena, bool, m->conditions *c.n);
     for (size_t i = 0; i < t->rows; i++) {
         int p;

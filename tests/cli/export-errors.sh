@@ -45,6 +45,7 @@ sed -i 's/,ok,/,failed,/' set_truth/manifest.csv
 tell truth.yaml set_truth --for bids -o out
 printf x >> set_compare/weight_s2.wav
 tell compare.yaml set_compare --for page -o out
+mkdir out && tell compare.yaml set_compare --for page -o out && rmdir out # an empty folder stays
 echo "--- nothing is left of any" >&2
 ls -A | sort | comm -13 before - | grep -v '\.yaml$\|^set_\|^before$' || true
 echo "--- what is there" >&2
@@ -60,3 +61,6 @@ tell choose.yaml set_choose --for page -o out
 mv kept/index.html away && ln -s ../away kept/index.html
 tell choose.yaml set_choose --for page -o kept
 ls out
+# a column that the manifest's side-car does not describe
+sed -i '/"Description": "seed of/d; s/"Noise seed",/"Noise seed"/' set_rate/manifest.json
+rasp export rate.yaml set_rate --for page -o bare && grep -A 3 '"seed"' bare/sounds/stimuli.json

@@ -40,6 +40,11 @@ for fault in '7d' '7{p}' '7s/,[^,]*$/,A>C/' '7s/,[0-9],[0-9],/,4,4,/'; do
     broken pairs.csv "$fault"
     try rasp judge pairs broken.csv
 done
+{ echo participant,track,rating && awk 'BEGIN { for (i = 0; i < 404; i++) print i % 4 "," int(i / 4) "," i * i % 7 }'; } > broken.csv
+try rasp judge ratings broken.csv
+try rasp judge ratings ratings.csv --column raitng=rating
+try rasp judge choices answers.csv --column chosen
+try rasp judge listen . --templates . --column answer=chosen
 try rasp judge listen .
 try rasp judge listen answers.csv --templates answers.csv
 try rasp judge

@@ -24,6 +24,9 @@ grep -v bursts_3 sounds/manifest.csv > sounds/two.csv
 try rasp judge listen sounds --templates sounds/two.csv
 try rasp judge listen sounds --templates sounds --where condition=loud
 try rasp judge listen sounds --templates sounds --where condition
+try rasp judge listen sounds --templates sounds --where motion=bursts_1
+{ echo file_name,motion && seq -f 'clear_1_1.wav,%g' 101; } > sounds/many.csv
+try rasp judge listen sounds/many.csv --templates sounds/many.csv
 try rasp judge listen sounds --templates sounds --factor path
 sed 's/clear_2_1.wav/none.wav/' sounds/manifest.csv > sounds/gone.csv
 try rasp judge listen sounds/gone.csv --templates sounds

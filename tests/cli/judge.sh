@@ -8,6 +8,8 @@ try rasp judge choices answers.csv --classes glass,metal,wood --groups metal+gla
 try rasp judge similarity matrices.csv --reference synthesised
 try rasp judge similarity matrices.csv matrices.csv --reference recorded
 rasp judge choices matrices.csv --json --reference recorded --confidence 0.9 | sed -E 's/([0-9]\.[0-9]{9})[0-9]+/\1/' # libm's last digits differ
+# one answer of each, all right: whole numbers are answers
+printf 'played,a,b\na,1,0\nb,0,1\n' > few.csv && try rasp judge choices few.csv
 try rasp judge ratings ratings.csv --tukey mu:kappa --tukey resonator:kappa:mu "${paper[@]}" 002_III > /dev/null
 grep -v '^  resonator=.* - resonator' printed
 try rasp judge ratings ratings.csv --factors kappa -c rating=rating
