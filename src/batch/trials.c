@@ -7,7 +7,7 @@
 
 #include "num/noise.h"
 
-/* ------------------------------------------------------------------ which stimuli are heard together */
+/* ------------------------------------------------------------------ which stimuli are presented together */
 
 /* By all factors but those within, the first the slowest; training; replicate. */
 static int group_order(const struct design *d, int i, int j)
@@ -20,16 +20,10 @@ static int group_order(const struct design *d, int i, int j)
     return training ? training : p->replicate - q->replicate;
 }
 
-struct placed {
-    const struct design *design;
-    int stimulus;
-};
-
-static int by_group(const void *pa, const void *pb)
+static int by_group(const void *pi, const void *pj, void *design)
 {
-    const struct placed *a = pa, *b = pb;
-    int order = group_order(a->design, a->stimulus, b->stimulus);
-    return order ? order : a->stimulus - b->stimulus;
+    int i = *(const int *)pi, j = *(const int *)pj, order = group_order(design, i, j);
+    return order ? order : i - j;
 }
 
 static const char *name_of(const struct trials *t, const struct trial *x, int k)
@@ -93,20 +87,26 @@ static bool add(struct trials *t, const int *stimuli, int n, struct arena *a, st
 static bool add_group(struct trials *t, const int *stimuli, int n, struct arena *a, struct err *e)
 {
     const struct design *d = t->design;
-    bool compare = d->trials->task == DESIGN_TASK_COMPARE;
-    if (n == 1 && compare)
-        return err_set(e, ERR_SCENE, "trials.within: %s has no other sound to be compared with",
-                       d->stimuli[stimuli[0]].name);
-    if (!compare) return add(t, stimuli, n, a, e);
+    if (d->trials->task != DESIGN_TASK_COMPARE) return add(t, stimuli, n, a, e);
     for (int i = 0; i < n; i++)
         for (int j = i + 1; j < n; j++)
             if (!add(t, (const int[2]){stimuli[i], stimuli[j]}, 2, a, e)) return false;
-    return true;
+    return n > 1 || err_set(e, ERR_SCENE, "trials.within: %s has no other sound to be compared with",
+                            d->stimuli[stimuli[0]].name);
 }
 
-static bool all_check(const struct trials *t, struct err *e)
+/* The sessions that have a trial that counts; references are in all trials, or in none. */
+static bool all_check(struct trials *t, struct arena *a, struct err *e)
 {
     const struct trial *with = NULL, *without = NULL;
+    int session = t->design->trials->session, last = session < 0 ? -1 : t->design->factors[session].n_levels - 1;
+    t->sessions = ARENA_TAKE(a, int, last + 2);
+    for (int l = session < 0 ? -1 : 0; l <= last; l++) {
+        bool counts = false;
+        for (int i = 0; i < t->n && !counts; i++)
+            counts = t->all[i].session == l && !t->all[i].training;
+        if (counts) t->sessions[t->n_sessions++] = l;
+    }
     for (int i = 0; i < t->n; i++)
         *(t->all[i].reference < 0 ? &without : &with) = &t->all[i];
     if (t->n_sessions == 0) return err_set(e, ERR_SCENE, "trials.training: no trial is left that counts");
@@ -117,27 +117,18 @@ static bool all_check(const struct trials *t, struct err *e)
 
 bool trials_make(const struct design *d, struct arena *a, struct trials *t, struct err *e)
 {
-    struct placed *all = ARENA_TAKE(a, struct placed, d->n_stimuli + 1);
-    int *stimuli = ARENA_TAKE(a, int, d->n_stimuli + 1), session = d->trials->session;
+    int *order = ARENA_TAKE(a, int, d->n_stimuli + 1);
+    bool alone = d->trials->task == DESIGN_TASK_CHOOSE; /* so are takes of a recording that share all levels */
     *t = (struct trials){.design = d};
     for (int i = 0; i < d->n_stimuli; i++)
-        all[i] = (struct placed){d, i};
-    qsort(all, (size_t)d->n_stimuli, sizeof *all, by_group);
-    bool alone = d->trials->task == DESIGN_TASK_CHOOSE; /* so are takes of a recording that share all levels */
-    for (int i = 0, n = 0; i < d->n_stimuli; i++) {
-        stimuli[n++] = all[i].stimulus;
-        if (!alone && i + 1 < d->n_stimuli && !group_order(d, all[i].stimulus, all[i + 1].stimulus)) continue;
-        if (!add_group(t, stimuli, n, a, e)) return false;
-        n = 0;
+        order[i] = i;
+    qsort_r(order, (size_t)d->n_stimuli, sizeof *order, by_group, (void *)d);
+    for (int i = 0, n; i < d->n_stimuli; i += n) {
+        for (n = 1; !alone && i + n < d->n_stimuli && !group_order(d, order[i], order[i + n]);)
+            n++;
+        if (!add_group(t, &order[i], n, a, e)) return false;
     }
-    t->sessions = ARENA_TAKE(a, int, session < 0 ? 1 : d->factors[session].n_levels + 1);
-    for (int l = session < 0 ? -1 : 0; l < (session < 0 ? 0 : d->factors[session].n_levels); l++) {
-        bool counts = false;
-        for (int i = 0; i < t->n; i++)
-            counts = counts || (t->all[i].session == l && !t->all[i].training);
-        if (counts) t->sessions[t->n_sessions++] = l;
-    }
-    return all_check(t, e);
+    return all_check(t, a, e);
 }
 
 int trials_right(const struct trials *t, const struct trial *x)
@@ -159,18 +150,13 @@ static int session_at(int n, int participant, int sitting)
     return ((k % 2 ? n - (k + 1) / 2 : k / 2) + row) % n;
 }
 
-struct drawn {
-    struct trial trial;
-    uint64_t block, rank;
-};
-
 static int by_rank(const void *pa, const void *pb)
 {
-    const struct drawn *a = pa, *b = pb;
-    if (a->trial.training != b->trial.training) return b->trial.training - a->trial.training;
-    if (a->block != b->block) return a->block < b->block ? -1 : 1;
-    if (a->rank != b->rank) return a->rank < b->rank ? -1 : 1;
-    return a->trial.id - b->trial.id;
+    const struct trial *a = pa, *b = pb;
+    if (a->training != b->training) return b->training - a->training;
+    for (int k = 0; k < 2; k++)
+        if (a->rank[k] != b->rank[k]) return a->rank[k] < b->rank[k] ? -1 : 1;
+    return a->id - b->id;
 }
 
 struct draw {
@@ -209,34 +195,31 @@ struct trial *trials_list(const struct trials *t, uint64_t seed, int participant
 {
     const struct design_trials *w = t->design->trials;
     const struct draw from = {seed, participant, sitting};
-    int session = t->sessions[session_at(t->n_sessions, participant - 1, sitting - 1)];
-    struct drawn *all = ARENA_TAKE(a, struct drawn, t->n + w->training + 1);
+    int session = t->sessions[session_at(t->n_sessions, participant - 1, sitting - 1)], all = 0, first = 0;
     struct trial *list = ARENA_TAKE(a, struct trial, t->n + w->training + 1);
-    *n = 0;
     for (int i = 0; i < t->n; i++) {
-        const struct trial *x = &t->all[i];
-        if (x->session >= 0 && x->session != session) continue;
+        if (t->all[i].session >= 0 && t->all[i].session != session) continue;
+        struct trial *x = &list[all++];
+        *x = t->all[i];
         const char *name = name_of(t, x, 0);
         for (int k = 1; k < x->n; k++)
             name = arena_format(a, "%s %s", name, name_of(t, x, k));
-        struct drawn *to = &all[(*n)++];
-        *to = (struct drawn){.trial = *x, .rank = draw(&from, "trial", name, a)};
         if (x->block >= 0 && !x->training)
-            to->block = draw(&from, "block", t->design->factors[w->block].levels[x->block].label, a);
-        sounds_draw(t, &to->trial, name, &from, a);
+            x->rank[0] = draw(&from, "block", t->design->factors[w->block].levels[x->block].label, a);
+        x->rank[1] = draw(&from, "trial", name, a);
+        sounds_draw(t, x, name, &from, a);
+        first += x->training;
     }
-    qsort(all, (size_t)*n, sizeof *all, by_rank);
-    int fixed = 0, first = 0;
-    while (first < *n && all[first].trial.training)
-        first++;
-    /* Drawn for training: the last ones of as many equal stretches, of all blocks so. */
-    for (int m = *n - first; fixed < w->training && fixed < m; fixed++) {
-        int of = w->training < m ? w->training : m;
-        list[first + fixed] = all[first + (int)((long)(fixed + 1) * m / of) - 1].trial;
-        list[first + fixed].training = true;
+    qsort(list, (size_t)all, sizeof *list, by_rank);
+    /* Drawn for training, behind the first: the last trials of as many equal stretches, of all blocks so. */
+    int rest = all - first, drawn = w->training < rest ? w->training : rest;
+    memmove(list + first + drawn, list + first, (size_t)rest * sizeof *list);
+    for (int k = 0; k < drawn; k++) {
+        list[first + k] = list[first + drawn + (int)((long)(k + 1) * rest / drawn) - 1];
+        list[first + k].training = true;
     }
-    for (int i = 0; i < *n; i++)
-        list[i < first ? i : i + fixed] = all[i].trial;
-    *n += fixed;
+    *n = all + drawn;
+    for (int i = first + drawn; i < *n; i++)
+        list[i].part = i == first + drawn ? 1 : list[i - 1].part + (list[i].block != list[i - 1].block);
     return list;
 }

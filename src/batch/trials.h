@@ -1,8 +1,8 @@
 /* The trials of a listening experiment, from a design's `trials` (design.h), and the order in which each participant
    has them.
 
-   Stimuli that share the levels of all factors but those within a trial, and the replicate, are heard together: rated
-   in one trial, or compared two by two. Orders are drawn by Philox streams whose names are the stimuli's: a participant
+   Stimuli that share the levels of all factors but those within a trial, and the replicate, are presented together:
+   rated in one trial, or compared two by two. Orders are drawn by Philox streams whose names are the stimuli's: a participant
    more changes nobody's order, and a trial more comes in between the others. */
 #ifndef BATCH_TRIALS_H
 #define BATCH_TRIALS_H
@@ -14,9 +14,11 @@ struct trial {
     int id;             /* from 1, by levels, the first factor the slowest                                */
     int session, block; /* levels of those factors; -1: there is none                          */
     bool training;      /* its answer does not count                                           */
-    int n, *stimuli;    /* of the design, in the order in which they are heard                 */
+    int n, *stimuli;    /* of the design, in the order in which they are presented             */
     int reference;      /* the one of them that the others are rated by; -1: none              */
     const char *text;   /* of the design, for this trial; NULL: none                           */
+    int part;           /* in a list: number of the block, from 1; 0: training before the first */
+    uint64_t rank[2];   /* drawn for a list: of the block, of the trial                        */
 };
 
 struct trials {
@@ -32,7 +34,7 @@ struct trials {
    `trials`. */
 bool trials_make(const struct design *d, struct arena *a, struct trials *t, struct err *e);
 
-/* What one participant (from 1) hears in one sitting (from 1). Sessions: by a Latin square in which each comes at each
+/* The trials of one participant (from 1) in one sitting (from 1). Sessions: by a Latin square in which each comes at each
    place, and behind each other, equally often over participants (Williams 1949). Training first; then blocks and
    trials, shuffled. */
 struct trial *trials_list(const struct trials *t, uint64_t seed, int participant, int sitting, struct arena *a, int *n);

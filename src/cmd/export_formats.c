@@ -46,15 +46,6 @@ static const char *played(const struct export *x, const struct trial *t)
     return right < 0 ? NULL : said(x)->answers[right].label;
 }
 
-/* Numbers of blocks: a new one where the next is of another level, and behind training. */
-static int block_of(const struct export_list *l, int k)
-{
-    int block = 0;
-    for (int i = 0; i <= k; i++)
-        if (!l->trials[i].training && (!block || l->trials[i].block != l->trials[i - 1].block)) block++;
-    return block;
-}
-
 /* ------------------------------------------------------------------ webMUSHRA */
 
 /* JSON in block style; at: columns of the indentation; in: behind a key or a dash. */
@@ -222,7 +213,7 @@ static const char *trial_cell(const struct export *x, const struct export_list *
     case 2:
         return label(x, said(x)->session, t->session);
     case 3:
-        return arena_format(a, "%d", block_of(l, k));
+        return arena_format(a, "%d", l->trials[k].part);
     case 4:
         return t->training ? "1" : "0";
     case 5:
@@ -381,9 +372,9 @@ static bool script_list(struct export *x, const struct export_list *l, struct er
         json_t *sounds = json_array();
         for (int i = 0; i < t->n; i++)
             json_array_append_new(sounds, script_sound(x, t->stimuli[i], a));
-        json_array_append_new(
-            trials, json_value_object("trial:i trial_id:s block:i training:i text:s played:s sounds:o", k + 1,
-                                      id_of(x, t, a), block_of(l, k), t->training, t->text, played(x, t), sounds));
+        json_array_append_new(trials,
+                              json_value_object("trial:i trial_id:s block:i training:i text:s played:s sounds:o", k + 1,
+                                                id_of(x, t, a), t->part, t->training, t->text, played(x, t), sounds));
     }
     json_t *study =
         json_value_object("title:s instructions:s task:s question:s answers:o participant:s session:s trials:o",
