@@ -68,19 +68,14 @@ void export_cell(struct export *x, bool first, const char *text)
         tables_text(x->stream, text);
 }
 
-const char *export_number(int i, int n, struct arena *a)
-{
-    return arena_format(a, "%0*d", snprintf(NULL, 0, "%d", n), i);
-}
-
 const char *export_person(const struct export *x, int i, struct arena *a)
 {
-    return export_number(i, x->people < 10 ? 10 : x->people, a);
+    return arena_format(a, "%0*d", snprintf(NULL, 0, "%d", x->people < 10 ? 10 : x->people), i);
 }
 
 /* ------------------------------------------------------------------ the set */
 
-static const char *cell(const struct export *x, int i, const char *column)
+const char *export_manifest(const struct export *x, int i, const char *column)
 {
     return x->manifest.cells[(size_t)i * x->manifest.columns + (size_t)csv_column(&x->manifest, column)];
 }
@@ -97,11 +92,11 @@ static bool is_lost(const char *word)
 static bool stimulus_check(struct export *x, int i, struct err *e)
 {
     const struct design *d = x->design;
-    const char *name = d->stimuli[i].name, *status = cell(x, i, "status");
+    const char *name = d->stimuli[i].name, *status = export_manifest(x, i, "status");
     if (strcmp(status, "ok") != 0)
         return err_set(e, ERR_SCENE, "%s: %s %s: render the set first, by rasp batch", x->set, name,
                        strcmp(status, "failed") ? "is not there yet" : "has failed");
-    if (!text_ends(cell(x, i, "file_name"), ".wav"))
+    if (!text_ends(export_manifest(x, i, "file_name"), ".wav"))
         return err_set(e, ERR_SCENE, "%s: %s makes no sound that could be heard", x->set, name);
     if (is_lost(name))
         return err_set(e, ERR_SCENE,
@@ -111,7 +106,8 @@ static bool stimulus_check(struct export *x, int i, struct err *e)
     for (int f = 0; f < d->n_factors; f++) {
         const char *value = design_value(d, i, f);
         double number;
-        if (csv_column(&x->manifest, d->factors[f].column) < 0 || strcmp(cell(x, i, d->factors[f].column), value) != 0)
+        if (csv_column(&x->manifest, d->factors[f].column) < 0 ||
+            strcmp(export_manifest(x, i, d->factors[f].column), value) != 0)
             return err_set(e, ERR_SCENE,
                            "%s: %s is not the %s of %s: is it the set of another design, or of an "
                            "earlier state of it?",
@@ -122,7 +118,7 @@ static bool stimulus_check(struct export *x, int i, struct err *e)
                            "it otherwise",
                            d->file, value, d->factors[f].name);
     }
-    if (x->format->browser && !strcmp(cell(x, i, "encoding"), "float64"))
+    if (x->format->browser && !strcmp(export_manifest(x, i, "encoding"), "float64"))
         return err_set(e, ERR_SCENE,
                        "%s: %s is float64, which browsers do not play: set: {output.encoding: pcm24} in "
                        "the design",
@@ -143,7 +139,7 @@ static bool set_read(struct export *x, struct err *e)
                            needed[k]);
     for (int i = 0; i < d->n_stimuli; i++) { /* in the order of the design */
         const char *name = d->stimuli[i].name;
-        if (m->rows != (size_t)d->n_stimuli || strcmp(cell(x, i, "stimulus_id"), name) != 0)
+        if (m->rows != (size_t)d->n_stimuli || strcmp(export_manifest(x, i, "stimulus_id"), name) != 0)
             return err_set(e, ERR_SCENE, "%s: %zu rows, and not %s in row %d: is it the set of %s, as it is now?",
                            m->file, m->rows, name, i + 1, d->file);
         if (!stimulus_check(x, i, e)) return false;
@@ -153,24 +149,24 @@ static bool set_read(struct export *x, struct err *e)
 
 /* ------------------------------------------------------------------ splits */
 
+enum { SPLITS = 3 };
+static const char *const split_names[SPLITS] = {"train", "validation", "test"};
+
 /* "train=8,test=2", drawn for each cell: its replicates stay together, and a cell more moves no other. */
 static bool splits_read(struct export *x, const char *given, struct err *e)
 {
-    static const char *const words[] = {"train", "validation", "test", NULL};
     const struct design *d = x->design;
-    double shares[3] = {0}, sum = 0;
-    for (const char *p = given; *p;) {
-        size_t n = strcspn(p, "="), m = p[n] ? strcspn(p + n + 1, ",") : 0;
+    double shares[SPLITS] = {0}, sum = 0;
+    if (!*given) return err_set(e, ERR_USAGE, "--splits must not be empty: train=8,validation=1,test=1");
+    for (char *rest = arena_text(x->arena, given), *word; (word = strsep(&rest, ","));) {
+        const char *name = strsep(&word, "=");
         int k = 0;
-        while (words[k] && (strlen(words[k]) != n || strncmp(words[k], p, n) != 0))
+        while (k < SPLITS && strcmp(split_names[k], name) != 0)
             k++;
-        if (!words[k] || !m || shares[k] > 0 || !text_scaled(p + n + 1, m, 0, &shares[k]) || !(shares[k] > 0))
+        if (k == SPLITS || !word || shares[k] > 0 || !text_double(word, &shares[k]) || !(shares[k] > 0))
             return err_set(e, ERR_USAGE, "--splits: '%s' is not of the form train=8,validation=1,test=1", given);
         sum += shares[k];
-        p += n + 1 + m;
-        p += *p == ',';
     }
-    if (!(sum > 0)) return err_set(e, ERR_USAGE, "--splits must not be empty: train=8,validation=1,test=1");
     x->splits = ARENA_TAKE(x->arena, const char *, d->n_stimuli + 1);
     for (int i = 0; i < d->n_stimuli; i++) {
         const char *name = "rasp export split"; /* and all that makes the cell, or the recording */
@@ -179,9 +175,9 @@ static bool splits_read(struct export *x, const char *given, struct err *e)
         if (d->stimuli[i].recording) name = arena_format(x->arena, "%s\n%s", name, d->stimuli[i].name);
         double at = sum * noise_uniform(noise_make(x->seed, name), 0, 0);
         int k = 0;
-        while (k < 2 && (at > shares[k] || shares[k] == 0))
+        while (k < SPLITS - 1 && (at > shares[k] || shares[k] == 0))
             at -= shares[k++];
-        x->splits[i] = words[k];
+        x->splits[i] = split_names[k];
     }
     return true;
 }
@@ -201,86 +197,93 @@ const char *export_sound(const struct export *x, int i, struct arena *a)
 static bool sound_copy(struct export *x, int i, struct err *e)
 {
     struct arena *a = arena_open();
-    const char *from = arena_format(a, "%s/%s", x->set, cell(x, i, "file_name"));
+    const char *from = arena_format(a, "%s/%s", x->set, export_manifest(x, i, "file_name"));
     struct bytes b;
     char hex[HASH_TEXT];
     bool ok = bytes_read(from, a, &b, e);
     if (ok) hash_bytes(b.at, b.n, hex);
-    if (ok && strcmp(hex, cell(x, i, "file_sha256")) != 0)
+    if (ok && strcmp(hex, export_manifest(x, i, "file_sha256")) != 0)
         ok = err_set(e, ERR_INPUT, "%s: was changed since the set was rendered: run rasp batch again", from);
     ok = ok && export_open(x, export_sound(x, i, a), e) && (fwrite(b.at, 1, b.n, x->stream), export_close(x, e));
     arena_close(a);
     return ok;
 }
 
-/* The rows of the manifest whose sounds lie in the folder. Seeds have a letter before them, since 64 bits do not
-   survive where they are read as a number. */
+/* The rows of the manifest whose sounds lie in the folder, and its side-car. Seeds have a letter before them, since 64
+   bits do not survive where they are read as a number. */
 static bool table_write(struct export *x, const char *folder, struct err *e)
 {
     const struct csv *m = &x->manifest;
-    struct arena *a = arena_open();
-    int file = csv_column(m, "file_name"), seed = csv_column(m, "seed");
-    const char *stem = relpath_stem(x->format->table, a), *called = x->format->tabs ? "stim_file" : m->names[file];
-    bool ok = export_open(x, arena_format(a, "%s/%s", folder, x->format->table), e);
-    for (size_t c = 0; ok && c < m->columns; c++)
-        export_cell(x, c == 0, (int)c == file ? called : m->names[c]);
-    for (int i = 0; ok && i < x->design->n_stimuli; i++) {
-        if (strcmp(sounds_folder(x, i, a), folder) != 0) continue;
-        fputc('\n', x->stream);
-        for (int c = 0; c < (int)m->columns; c++) {
-            const char *text = m->cells[(size_t)i * m->columns + (size_t)c];
-            if (c == file) text = arena_format(a, "%s.wav", x->design->stimuli[i].name);
-            if (c == seed && isdigit((unsigned char)*text)) text = arena_format(a, "s%s", text);
+    struct arena *a = x->arena;
+    const char *called = x->format->tabs ? "stim_file" : "file_name";
+    if (!export_open(x, arena_format(a, "%s/%s", folder, x->format->table), e)) return false;
+    for (int i = -1; i < x->design->n_stimuli; i++) { /* -1: the names of the columns */
+        if (i >= 0 && x->splits && x->splits[i] != folder) continue;
+        for (size_t c = 0; c < m->columns; c++) {
+            const char *text = i < 0 ? m->names[c] : m->cells[(size_t)i * m->columns + c];
+            if (!strcmp(m->names[c], "file_name"))
+                text = i < 0 ? called : arena_format(a, "%s.wav", x->design->stimuli[i].name);
+            if (!strcmp(m->names[c], "seed") && isdigit((unsigned char)*text)) text = arena_format(a, "s%s", text);
             export_cell(x, c == 0, text);
         }
+        fputc('\n', x->stream);
     }
-    ok = ok && (fputc('\n', x->stream), export_close(x, e));
-    json_t *j = ok ? json_load_file(arena_format(a, "%s/manifest.json", x->set), 0, NULL) : NULL, *one;
-    if (ok && !json_is_object(j))
-        ok = err_set(e, ERR_INPUT, "%s/manifest.json: is not there, or no side-car of the manifest", x->set);
-    if (ok && (one = json_object_get(j, "seed"))) {
-        const char *what = json_string_value(json_object_get(one, "Description"));
-        json_object_set_new(one, "Description", json_sprintf("the letter s, and the %s", what ? what : "seed"));
+    if (!export_close(x, e)) return false;
+    json_auto_t *side = json_load_file(arena_format(a, "%s/manifest.json", x->set), 0, NULL);
+    if (!json_is_object(side))
+        return err_set(e, ERR_INPUT, "%s/manifest.json: is not there, or no side-car of the manifest", x->set);
+    json_t *seed = json_object_get(side, "seed"), *file = json_object_get(side, "file_name");
+    const char *what = json_string_value(json_object_get(seed, "Description"));
+    json_object_set_new(seed, "Description", json_sprintf("the letter s, and the %s", what ? what : "seed"));
+    if (x->format->tabs && file) {
+        json_object_set(side, called, file);
+        json_object_del(side, "file_name");
     }
-    if (ok && (one = json_object_get(j, m->names[file])) && strcmp(called, m->names[file]) != 0) {
-        json_object_set(j, called, one);
-        json_object_del(j, m->names[file]);
-    }
-    if (!ok) json_decref(j);
-    ok = ok && export_json(x, arena_format(a, "%s/%s.json", folder, stem), j, e);
-    arena_close(a);
-    return ok;
+    return export_json(x, arena_format(a, "%s/%s.json", folder, relpath_stem(x->format->table, a)), json_incref(side),
+                       e);
+}
+
+static bool interrupted(struct err *e)
+{
+    return interrupt_seen() && !err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written");
 }
 
 static bool sounds_write(struct export *x, struct err *e)
 {
-    for (int i = 0; i < x->design->n_stimuli; i++) {
-        if (interrupt_seen()) return err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written");
-        if (!sound_copy(x, i, e)) return false;
-    }
-    for (int i = 0; i < x->design->n_stimuli; i++) {
-        const char *folder = sounds_folder(x, i, x->arena);
-        bool first = true;
-        for (int k = 0; first && k < i && x->splits; k++)
-            first = strcmp(x->splits[k], folder) != 0;
-        if (first && (i == 0 || x->splits) && !table_write(x, folder, e)) return false;
+    for (int i = 0; i < x->design->n_stimuli; i++)
+        if (interrupted(e) || !sound_copy(x, i, e)) return false;
+    if (!x->splits) return table_write(x, sounds_folder(x, 0, x->arena), e);
+    for (int k = 0; k < SPLITS; k++) {
+        bool used = false;
+        for (int i = 0; i < x->design->n_stimuli && !used; i++)
+            used = x->splits[i] == split_names[k];
+        if (used && !table_write(x, split_names[k], e)) return false;
     }
     return true;
 }
 
 /* ------------------------------------------------------------------ the folder */
 
-static bool lists_write(struct export *x, struct err *e)
+static bool list_write(struct export *x, int participant, int sitting, struct arena *a, struct err *e)
 {
     int sittings = x->trials.n_sessions;
+    struct export_list l = {.person = export_person(x, participant, a), .arena = a};
+    if (sittings > 1) l.sitting = arena_format(a, "%0*d", snprintf(NULL, 0, "%d", sittings), sitting);
+    l.name = arena_format(a, "p%s%s%s", l.person, l.sitting ? "_s" : "", l.sitting ? l.sitting : "");
+    l.trials = trials_list(&x->trials, x->seed, participant, sitting, a, &l.n);
+    json_auto_t *trials = json_array();
+    for (int k = 0; k < l.n && !interrupted(e) && !e->kind; k++)
+        json_array_append_new(trials, x->format->trial(x, &l, k, e));
+    return !e->kind && x->format->list(x, &l, trials, e);
+}
+
+static bool lists_write(struct export *x, struct err *e)
+{
     for (int p = 1; x->format->list && p <= x->people; p++)
-        for (int s = 1; s <= sittings; s++) {
-            struct export_list l = {.participant = p, .sitting = s, .arena = arena_open()};
-            l.name = arena_format(l.arena, "p%s", export_person(x, p, l.arena));
-            if (sittings > 1) l.name = arena_format(l.arena, "%s_s%s", l.name, export_number(s, sittings, l.arena));
-            l.trials = trials_list(&x->trials, x->seed, p, s, l.arena, &l.n);
-            bool ok = x->format->list(x, &l, e);
-            arena_close(l.arena);
+        for (int s = 1; s <= x->trials.n_sessions; s++) {
+            struct arena *a = arena_open();
+            bool ok = list_write(x, p, s, a, e);
+            arena_close(a);
             if (!ok) return false;
         }
     return true;
@@ -313,8 +316,7 @@ static bool may_replace(const struct export *x, struct err *e)
                            ? arena_format(x->arena, "%.*s", (int)b.n, b.at)
                            : "";
     if (strncmp(sums, mark, strlen(mark)) != 0) sums = "";
-    char *const roots[] = {arena_text(x->arena, x->output), NULL};
-    FTS *walk = fts_open(roots, FTS_PHYSICAL | FTS_NOCHDIR, NULL);
+    FTS *walk = fts_open((char *const[]){arena_text(x->arena, x->output), NULL}, FTS_PHYSICAL | FTS_NOCHDIR, NULL);
     const char *strange = walk ? NULL : ".";
     for (FTSENT *f; walk && !strange && (f = fts_read(walk));) {
         const char *name = f->fts_path + strlen(x->output);
@@ -344,7 +346,7 @@ static bool folder_write(struct export *x, struct err *e)
 
 /* ------------------------------------------------------------------ command */
 
-static bool format_read(struct export *x, const struct cmd_call *c, struct err *e)
+static bool format_read(struct export *x, const struct args *g, struct err *e)
 {
     const char *words[16] = {NULL}, *list = "";
     int k = -1;
@@ -352,69 +354,67 @@ static bool format_read(struct export *x, const struct cmd_call *c, struct err *
         words[i] = export_formats_table[i].name;
         list = arena_format(x->arena, "%s%s%s", list, i ? ", " : "", words[i]);
     }
-    if (!args_given(&c->args, "for")) return err_set(e, ERR_USAGE, "--for: say for what the set is: %s", list);
-    if (!args_word(&c->args, "for", words, &k, e)) return false;
+    if (!args_given(g, "for")) return err_set(e, ERR_USAGE, "--for: say for what the set is: %s", list);
+    if (!args_word(g, "for", words, &k, e)) return false;
     x->format = &export_formats_table[k];
     return true;
 }
 
-static bool read_ask(struct export *x, struct cmd_call *c, struct err *e)
+static bool options_read(struct export *x, const struct args *g, struct err *e)
 {
-    const char *output = args_value(&c->args, "output"), *name = args_value(&c->args, "name");
+    const char *output = args_value(g, "output");
+    char *made = arena_text(x->arena, relpath_stem(g->operands[0], x->arena));
     long people = 1;
-    if (!format_read(x, c, e)) return false;
+    if (!format_read(x, g, e)) return false;
     if (!output || !*output) return err_set(e, ERR_USAGE, "--output: a folder is needed, as in -o study");
-    x->set = batch_folder(x->arena, c->args.operands[1]);
+    x->set = batch_folder(x->arena, g->operands[1]);
     x->output = batch_folder(x->arena, output);
-    if (!name) { /* of what cannot be in it: _ */
-        char *made = arena_text(x->arena, relpath_stem(c->args.operands[0], x->arena));
-        for (char *p = made; *p; p++)
-            *p = isalnum((unsigned char)*p) ? *p : '_';
-        name = made;
-    }
-    if (!*name || name[strspn(name, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-")])
-        return err_set(e, ERR_USAGE, "--name: '%s' is not of letters, digits, _ and - alone", name);
-    x->name = name;
-    if (!args_whole(&c->args, "participants", (const long[2]){1, TRIALS_PEOPLE}, &people, e)) return false;
+    for (char *p = made; *p; p++) /* of what cannot be in a name: _ */
+        *p = isalnum((unsigned char)*p) ? *p : '_';
+    x->name = args_given(g, "name") ? args_value(g, "name") : made;
+    if (!*x->name || x->name[strspn(x->name, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-")])
+        return err_set(e, ERR_USAGE, "--name: '%s' is not of letters, digits, _ and - alone", x->name);
+    if (!args_whole(g, "participants", (const long[2]){1, TRIALS_PEOPLE}, &people, e)) return false;
     x->people = (int)people;
     return true;
+}
+
+/* What the format takes of the design, and of the options that depend on the two. */
+static bool trials_read(struct export *x, const struct args *g, struct err *e)
+{
+    const struct design *d = x->design;
+    const struct export_format *f = x->format;
+    const char *seed = args_value(g, "seed"), *splits = args_value(g, "splits");
+    x->seed = d->seed;
+    if (seed && !text_u64(seed, &x->seed))
+        return err_set(e, ERR_USAGE, "--seed: '%s' is not a whole number from 0 to 18446744073709551615", seed);
+    if (splits && !f->splits) return err_set(e, ERR_USAGE, "--splits: %s has none", f->name);
+    if (f->list && !d->trials && !f->bare)
+        return err_set(e, ERR_SCENE,
+                       "%s: has no trials: say what listeners do, as in trials: {task: choose, question: Which "
+                       "material is it?, answers: material}; rasp explain trials",
+                       g->operands[0]);
+    return (!f->list || !d->trials || trials_make(d, x->arena, &x->trials, e)) && set_read(x, e) &&
+           (!f->splits || splits_read(x, splits ? splits : "train=1", e));
 }
 
 static int export_run(struct cmd_call *c, struct err *e)
 {
     struct export x = {.arena = c->arena};
     struct batch_report r = {.messages = ""};
-    const char *file = c->args.operands[0], *seed = args_value(&c->args, "seed");
-    if (!read_ask(&x, c, e)) return (int)e->kind;
+    const char *file = c->args.operands[0];
+    if (!options_read(&x, &c->args, e)) return (int)e->kind;
     message_group(c);
     if (!design_read(file, x.arena, &r.design, &r.messages, e)) {
         batch_message_unread(c, file, &r, e);
         return (int)e->kind;
     }
     x.design = &r.design;
-    x.seed = r.design.seed;
-    if (seed && !text_u64(seed, &x.seed))
-        return err_set(e, ERR_USAGE, "--seed: '%s' is not a whole number from 0 to 18446744073709551615", seed),
-               (int)e->kind;
-    if (args_given(&c->args, "splits") && !x.format->splits)
-        err_set(e, ERR_USAGE, "--splits: %s has none", x.format->name);
-    else if (x.format->list && !r.design.trials && !x.format->bare)
-        err_set(e, ERR_SCENE,
-                "%s: has no trials: say what listeners do, as in trials: {task: choose, question: Which "
-                "material is it?, answers: material}; rasp explain trials",
-                file);
-    if (e->kind || (r.design.trials && x.format->list && !trials_make(&r.design, x.arena, &x.trials, e)) ||
-        !set_read(&x, e) ||
-        (x.format->splits &&
-         !splits_read(&x, args_given(&c->args, "splits") ? args_value(&c->args, "splits") : "train=1", e)) ||
-        !folder_write(&x, e))
-        return (int)e->kind;
-    if (x.trials.n)
-        printf("%s: for %s: %d sounds, %d trials, %d participant%s\n", x.output, x.format->name, r.design.n_stimuli,
-               x.trials.n, x.people, x.people == 1 ? "" : "s");
-    else
-        printf("%s: for %s: %d sounds\n", x.output, x.format->name, r.design.n_stimuli);
-    return (int)e->kind;
+    if (!trials_read(&x, &c->args, e) || !folder_write(&x, e)) return (int)e->kind;
+    printf("%s: for %s: %d sounds", x.output, x.format->name, r.design.n_stimuli);
+    if (x.trials.n) printf(", %d trials, %d participant%s", x.trials.n, x.people, x.people == 1 ? "" : "s");
+    printf("\n");
+    return ERR_NONE;
 }
 
 static const struct args_option export_options[] = {

@@ -25,12 +25,13 @@ static const char *title(const struct export *x) { return x->design->title ? x->
 
 static const char *id_of(const struct export *x, const struct trial *t, struct arena *a)
 {
-    return arena_format(a, "trial_%s", export_number(t->id, x->trials.n, a));
+    return arena_format(a, "trial_%0*d", snprintf(NULL, 0, "%d", x->trials.n), t->id);
 }
 
-static const char *label(const struct export *x, int factor, int level)
+static const char *session_of(const struct export *x, const struct trial *t)
 {
-    return factor < 0 || level < 0 ? "n/a" : x->design->factors[factor].levels[level].label;
+    int f = said(x)->session;
+    return f < 0 || t->session < 0 ? "n/a" : x->design->factors[f].levels[t->session].label;
 }
 
 static const char *role(const struct export *x, int i)
@@ -48,37 +49,34 @@ static const char *played(const struct export *x, const struct trial *t)
 
 /* ------------------------------------------------------------------ webMUSHRA */
 
-/* JSON in block style; at: columns of the indentation; in: behind a key or a dash. */
+/* JSON in block style; at: columns of the indentation; in_list: behind a dash. */
 static void put_yaml(FILE *f, const json_t *value, int at, bool in_list)
 {
     const char *key;
     json_t *one;
-    size_t i, first = in_list;
+    size_t i;
     if (json_is_string(value)) {
         fputs(" \"", f);
         for (const char *p = json_string_value(value); *p; p++) {
             if (*p == '"' || *p == '\\') fputc('\\', f);
             fputc((unsigned char)*p < ' ' ? ' ' : *p, f);
         }
-        fputs("\"\n", f);
-    } else if (json_is_boolean(value) || json_is_integer(value)) {
-        if (json_is_boolean(value))
-            fprintf(f, " %s\n", json_is_true(value) ? "true" : "false");
-        else
-            fprintf(f, " %d\n", (int)json_integer_value(value));
-    } else {
-        if (!in_list) fputc('\n', f);
-        json_object_foreach((json_t *)value, key, one)
-        {
-            fprintf(f, "%*s\"%s\":", first ? 1 : at, "", key);
-            put_yaml(f, one, at + 4, false);
-            first = false;
-        }
-        json_array_foreach(value, i, one)
-        {
-            fprintf(f, "%*s-", at, "");
-            put_yaml(f, one, at + 2, true);
-        }
+        fputc('"', f);
+    } else if (!json_is_object(value) && !json_is_array(value)) {
+        fputc(' ', f);
+        json_dumpf(value, f, JSON_ENCODE_ANY);
+    }
+    if (!in_list || json_is_string(value)) fputc('\n', f);
+    json_object_foreach((json_t *)value, key, one)
+    {
+        fprintf(f, "%*s\"%s\":", in_list ? 1 : at, "", key);
+        put_yaml(f, one, at + 4, false);
+        in_list = false;
+    }
+    json_array_foreach(value, i, one)
+    {
+        fprintf(f, "%*s-", at, "");
+        put_yaml(f, one, at + 2, true);
     }
 }
 
@@ -90,202 +88,161 @@ static const char *content(const struct export *x, const struct trial *t, struct
     return t->text ? arena_format(a, "%s<p>%s</p>", html, text_html(a, t->text)) : html;
 }
 
-static json_t *webmushra_page(const struct export *x, const struct export_list *l, int k)
+static json_t *webmushra_trial(struct export *x, const struct export_list *l, int k, struct err *e)
 {
     const struct design_trials *w = said(x);
     const struct trial *t = &l->trials[k];
     struct arena *a = l->arena;
-    bool several = t->n > 1;
-    const char *id = arena_format(a, "%s%s", t->training ? "training_" : "", id_of(x, t, a));
-    json_t *stimuli = json_object(), *page = json_object();
-    json_value_set(page, "type:s id:s name:s content:s",
-                   t->reference >= 0 ? "mushra"
-                   : several         ? "likert_multi_stimulus"
-                                     : "likert_single_stimulus",
-                   id, arena_format(a, "%s %d / %d", t->training ? "Training" : "Trial", k + 1, l->n),
-                   content(x, t, a));
-    for (int i = 0; i < t->n; i++)
-        if (t->stimuli[i] != t->reference)
-            json_object_set_new(stimuli, x->design->stimuli[t->stimuli[i]].name,
-                                json_string(export_sound(x, t->stimuli[i], a)));
-    if (t->reference >= 0) {
-        json_value_set(page,
-                       "showWaveform:b enableLooping:b strict:b reference:s createAnchor35:b createAnchor70:b "
-                       "randomize:b showConditionNames:b switchBack:b stimuli:o",
-                       false, true, false, export_sound(x, t->reference, a), false, false, true, false, true, stimuli);
-        return page;
+    bool several = t->n > 1, mushra = t->reference >= 0;
+    json_auto_t *stimuli = json_object(), *response = json_array();
+    json_t *page = json_value_object("type:s id:s name:s content:s",
+                                     mushra    ? "mushra"
+                                     : several ? "likert_multi_stimulus"
+                                               : "likert_single_stimulus",
+                                     arena_format(a, "%s%s", t->training ? "training_" : "", id_of(x, t, a)),
+                                     arena_format(a, "%s %d / %d", t->training ? "Training" : "Trial", k + 1, l->n),
+                                     content(x, t, a));
+    for (int i = 0; i < t->n; i++) {
+        int sound = t->stimuli[i];
+        const char *name = x->design->stimuli[sound].name, *frames = export_manifest(x, sound, "frames"),
+                   *wanted = mushra ? export_manifest(x, t->reference, "frames") : frames;
+        if (strcmp(frames, wanted) != 0)
+            err_set(e, ERR_SCENE,
+                    "%s: %s has %s samples, its reference %s: webMUSHRA wants sounds of one length on a page: "
+                    "length: longest, in the design",
+                    x->set, name, frames, wanted);
+        if (sound != t->reference) json_object_set_new(stimuli, name, json_string(export_sound(x, sound, a)));
     }
-    json_t *response = json_array();
     for (int i = 0; i < w->n_answers; i++) {
         const char *value = w->task == DESIGN_TASK_RATE ? arena_format(a, "%d", (200 * i / (w->n_answers - 1) + 1) / 2)
                                                         : w->answers[i].label;
         json_array_append_new(response, json_value_object("value:s label:s", value, text_html(a, w->answers[i].text)));
     }
-    json_value_set(page, "mustRate:b mustPlayback:s stimuli:o response:o", true, several ? "processUpdate" : "ended",
-                   stimuli, response);
+    if (mushra)
+        json_value_set(page,
+                       "showWaveform:b enableLooping:b strict:b reference:s createAnchor35:b createAnchor70:b "
+                       "randomize:b showConditionNames:b switchBack:b stimuli:o",
+                       false, true, false, export_sound(x, t->reference, a), false, false, true, false, true,
+                       json_incref(stimuli));
+    else
+        json_value_set(page, "mustRate:b mustPlayback:s stimuli:o response:o", true,
+                       several ? "processUpdate" : "ended", json_incref(stimuli), json_incref(response));
     return page;
 }
 
-/* Sounds beside a reference have its length. */
-static bool webmushra_lengths(const struct export *x, const struct trial *t, struct err *e)
+static bool webmushra_files(struct export *x, struct err *e)
 {
-    const struct csv *m = &x->manifest;
-    for (int i = 0; t->reference >= 0 && i < t->n; i++) {
-        const char *frames[2];
-        for (int k = 0; k < 2; k++)
-            frames[k] =
-                m->cells[(size_t)(k ? t->reference : t->stimuli[i]) * m->columns + (size_t)csv_column(m, "frames")];
-        if (strcmp(frames[0], frames[1]) != 0)
-            return err_set(e, ERR_SCENE,
-                           "%s: %s has %s samples, its reference %s: webMUSHRA wants sounds of one length on a page: "
-                           "length: longest, in the design",
-                           x->set, x->design->stimuli[t->stimuli[i]].name, frames[0], frames[1]);
-    }
-    return true;
+    return said(x)->task != DESIGN_TASK_COMPARE ||
+           err_set(e, ERR_SCENE,
+                   "%s: trials.task: webMUSHRA has no page on which one of two sounds is chosen; --for jspsych, page "
+                   "and psychopy do",
+                   x->design->file);
 }
 
-static bool webmushra_list(struct export *x, const struct export_list *l, struct err *e)
+static bool webmushra_list(struct export *x, const struct export_list *l, json_t *trials, struct err *e)
 {
-    if (said(x)->task == DESIGN_TASK_COMPARE)
-        return err_set(
-            e, ERR_SCENE,
-            "%s: trials.task: webMUSHRA has no page on which one of two sounds is chosen; --for jspsych, page "
-            "and psychopy do",
-            x->design->file);
-    for (int k = 0; k < l->n; k++)
-        if (!webmushra_lengths(x, &l->trials[k], e)) return false;
     json_t *pages = json_array();
     if (said(x)->instructions)
         json_array_append_new(pages, json_value_object("type:s id:s name:s content:s", "generic", "instructions",
                                                        "Instructions", text_html(l->arena, said(x)->instructions)));
-    for (int k = 0; k < l->n; k++)
-        json_array_append_new(pages, webmushra_page(x, l, k));
+    json_array_extend(pages, trials);
     json_array_append_new(pages,
                           json_value_object("type:s name:s content:s popupContent:s showResults:b writeResults:b",
                                             "finish", "Thank you", "", "Your answers were sent.", false, true));
-    json_t *all = json_value_object("testname:s testId:s bufferSize:i stopOnErrors:b showButtonPreviousPage:b "
-                                    "remoteService:s language:s pages:o",
-                                    title(x), arena_format(l->arena, "%s_%s", x->name, l->name), 2048, true, false,
-                                    "service/write.php", "en", pages);
-    bool ok = export_open(x, arena_format(l->arena, "configs/%s_%s.yaml", x->name, l->name), e);
-    if (ok) {
-        fputs("# for webMUSHRA: to be opened with ?config= and this file's name", x->stream);
-        put_yaml(x->stream, all, 0, false);
-    }
-    json_decref(all);
-    return ok && export_close(x, e);
+    json_auto_t *all = json_value_object("testname:s testId:s bufferSize:i stopOnErrors:b showButtonPreviousPage:b "
+                                         "remoteService:s language:s pages:o",
+                                         title(x), arena_format(l->arena, "%s_%s", x->name, l->name), 2048, true, false,
+                                         "service/write.php", "en", pages);
+    if (!export_open(x, arena_format(l->arena, "configs/%s_%s.yaml", x->name, l->name), e)) return false;
+    fputs("# for webMUSHRA: to be opened with ?config= and this file's name", x->stream);
+    put_yaml(x->stream, all, 0, false);
+    return export_close(x, e);
 }
 
 /* ------------------------------------------------------------------ tables of trials: PsychoPy and BIDS */
 
-static const struct column {
-    const char *name, *meaning; /* %d in the name: one for each sound                          */
-    bool bids;                  /* to be filled in there                                       */
+/* What columns mean; those of sounds have a number behind their name. */
+static const struct {
+    const char *name, *meaning;
 } columns[] = {
-    {"trial", "place of the trial in the list, from 1", false},
-    {"trial_id", "which trial of the design it is, the same for all participants", false},
-    {"session", "label of the session's factor", false},
-    {"block", "number of the block, from 1; 0: training", false},
-    {"training", "1: the answer does not count", false},
-    {"question", "what the listener is asked", false},
-    {"text", "what the listener reads of the sounds", false},
-    {"played", "the right answer", false},
-    {"%s_%d", "a sound, in the order in which they are heard", false},
-    {"stimulus_%d", "which stimulus it is, stimulus_id of the table of sounds", false},
-    {"role_%d", "what it is for: test, reference, anchor or training", false},
-    {"response", "the answer; of several sounds, numbers with blanks between", true},
-    {"response_time", "how long it took, in seconds", true},
+    {"trial", "place of the trial in the list, from 1"},
+    {"trial_id", "which trial of the design it is, the same for all participants"},
+    {"session", "label of the session's factor"},
+    {"block", "number of the block, from 1; 0: training"},
+    {"training", "1: the answer does not count"},
+    {"question", "what the listener is asked"},
+    {"text", "what the listener reads of the sounds"},
+    {"played", "the right answer"},
+    {"stim_file", "a sound, in the order in which they are heard"},
+    {"stimulus", "which stimulus it is, stimulus_id of the table of sounds"},
+    {"role", "what it is for: test, reference, anchor or training"},
+    {"response", "the answer; of several sounds, numbers with blanks between"},
+    {"response_time", "how long it took, in seconds"},
 };
 
-enum { COLUMNS = sizeof columns / sizeof *columns, OF_SOUND = 8, SOUND_COLUMNS = 3 };
+/* Of stimulus i: its WAV, its name, its role. */
+static const char *sound_cell(const struct export *x, int i, int which, struct arena *a)
+{
+    const char *name = x->design->stimuli[i].name;
+    if (which == 0) return x->format->tabs ? arena_format(a, "%s.wav", name) : export_sound(x, i, a);
+    return which == 1 ? name : role(x, i);
+}
 
-/* Text of a cell of trial k; sound: from 0, of columns that each sound has. */
-static const char *trial_cell(const struct export *x, const struct export_list *l, int k, int column, int sound)
+/* A row of the table, whose columns are its keys; in BIDS the last two are to be filled in. */
+static json_t *row_trial(struct export *x, const struct export_list *l, int k, struct err *e)
 {
     const struct trial *t = &l->trials[k];
-    struct arena *a = l->arena;
-    int i = sound < t->n ? t->stimuli[sound] : -1;
-    switch (column) {
-    case 0:
-        return arena_format(a, "%d", k + 1);
-    case 1:
-        return id_of(x, t, a);
-    case 2:
-        return label(x, said(x)->session, t->session);
-    case 3:
-        return arena_format(a, "%d", l->trials[k].part);
-    case 4:
-        return t->training ? "1" : "0";
-    case 5:
-        return said(x)->question;
-    case 6:
-        return t->text;
-    case 7:
-        return played(x, t);
-    case OF_SOUND:
-        return i < 0             ? NULL
-               : x->format->tabs ? arena_format(a, "%s.wav", x->design->stimuli[i].name)
-                                 : export_sound(x, i, a);
-    case OF_SOUND + 1:
-        return i < 0 ? NULL : x->design->stimuli[i].name;
-    case OF_SOUND + 2:
-        return i < 0 ? NULL : role(x, i);
-    default:
-        return NULL;
-    }
+    bool bids = x->format->tabs;
+    const char *const read[] = {said(x)->question, t->text, played(x, t)};
+    const char *const of_sound[] = {bids ? "stim_file" : "file", "stimulus", "role"};
+    json_t *row =
+        json_value_object("trial:i trial_id:s session:s block:i training:i question:s text:s played:s", k + 1,
+                          id_of(x, t, l->arena), session_of(x, t), t->part, t->training, read[0], read[1], read[2]);
+    for (int c = 0; c < 3; c++)
+        for (int s = 0; s < x->trials.most; s++)
+            json_object_set_new(row, arena_format(l->arena, "%s_%d", of_sound[c], s + 1),
+                                json_value_text(s < t->n ? sound_cell(x, t->stimuli[s], c, l->arena) : NULL));
+    if (bids) json_value_set(row, "response:0 response_time:0");
+    for (int i = 0; i < 3 && !bids; i++)
+        if (read[i] && *read[i] == '[' && text_ends(read[i], "]"))
+            err_set(e, ERR_SCENE, "%s: '%s' stands in brackets, which PsychoPy would compute: leave them out",
+                    x->design->file, read[i]);
+    return row;
 }
 
-static const char *column_name(const struct export *x, int column, int sound, struct arena *a)
+static bool rows_write(struct export *x, const char *name, const json_t *rows, struct arena *a, struct err *e)
 {
-    const char *file = x->format->tabs ? "stim_file" : "file";
-    if (column == OF_SOUND) return arena_format(a, "%s_%d", file, sound + 1);
-    return column < OF_SOUND || column >= OF_SOUND + SOUND_COLUMNS
-               ? columns[column].name
-               : arena_format(a, column == OF_SOUND + 1 ? "stimulus_%d" : "role_%d", sound + 1);
-}
-
-static bool list_table(struct export *x, const struct export_list *l, const char *name, struct err *e)
-{
+    const char *key;
+    json_t *cell;
     if (!export_open(x, name, e)) return false;
-    for (int k = -1; k < l->n; k++) { /* -1: the head */
-        for (int c = 0; c < COLUMNS; c++) {
-            bool sounds = c >= OF_SOUND && c < OF_SOUND + SOUND_COLUMNS;
-            for (int s = 0; s < (sounds ? x->trials.most : 1) && (!columns[c].bids || x->format->tabs); s++) {
-                const char *text = k < 0 ? column_name(x, c, s, l->arena) : trial_cell(x, l, k, c, s);
-                export_cell(x, c == 0, text ? text : "n/a");
-            }
+    for (size_t i = 0; i <= json_array_size(rows); i++) { /* 0: the head */
+        bool first = true;
+        json_object_foreach(json_array_get(rows, i ? i - 1 : 0), key, cell)
+        {
+            const char *text = json_is_null(cell) ? "n/a" : json_string_value(cell);
+            if (json_is_integer(cell)) text = arena_format(a, "%d", (int)json_integer_value(cell));
+            export_cell(x, first, i ? text : key);
+            first = false;
         }
         fputc('\n', x->stream);
     }
     return export_close(x, e);
 }
 
-static bool psychopy_list(struct export *x, const struct export_list *l, struct err *e)
+static bool psychopy_list(struct export *x, const struct export_list *l, json_t *trials, struct err *e)
 {
-    for (int k = 0; k < l->n; k++)
-        for (int c = 5; c < 8; c++) {
-            const char *text = trial_cell(x, l, k, c, 0);
-            if (text && *text == '[' && text[strlen(text) - 1] == ']')
-                return err_set(e, ERR_SCENE,
-                               "%s: '%s' stands in brackets, which PsychoPy would compute: leave them out",
-                               x->design->file, text);
-        }
-    return list_table(x, l, arena_format(l->arena, "conditions_%s.csv", l->name), e);
+    return rows_write(x, arena_format(l->arena, "conditions_%s.csv", l->name), trials, l->arena, e);
 }
 
 static bool psychopy_files(struct export *x, struct err *e)
 {
     const struct design_trials *w = said(x);
-    if (w->instructions && !export_text(x, "instructions.txt", arena_format(x->arena, "%s\n", w->instructions), e))
-        return false;
-    if (!export_open(x, "answers.csv", e)) return false;
-    fputs("answer,text\n", x->stream);
-    for (int i = 0; i < w->n_answers; i++) {
-        export_cell(x, true, w->answers[i].label);
-        export_cell(x, false, w->answers[i].text);
-        fputc('\n', x->stream);
-    }
-    return export_close(x, e);
+    json_auto_t *answers = json_array();
+    for (int i = 0; i < w->n_answers; i++)
+        json_array_append_new(answers, json_value_object("answer:s text:s", w->answers[i].label, w->answers[i].text));
+    return (!w->instructions ||
+            export_text(x, "instructions.txt", arena_format(x->arena, "%s\n", w->instructions), e)) &&
+           rows_write(x, "answers.csv", answers, x->arena, e);
 }
 
 /* ------------------------------------------------------------------ BIDS */
@@ -300,16 +257,38 @@ static const char *task_name(const struct export *x)
     return *name ? name : "task";
 }
 
-static bool bids_list(struct export *x, const struct export_list *l, struct err *e)
+static bool bids_list(struct export *x, const struct export_list *l, json_t *trials, struct err *e)
 {
-    struct arena *a = l->arena;
-    const char *sub = arena_format(a, "sub-%s", export_person(x, l->participant, a)), *folder = sub;
-    if (x->trials.n_sessions > 1) {
-        const char *session = export_number(l->sitting, x->trials.n_sessions, a);
-        folder = arena_format(a, "%s/ses-%s", sub, session);
-        sub = arena_format(a, "%s_ses-%s", sub, session);
+    const char *ses = l->sitting ? "ses-" : "", *sitting = l->sitting ? l->sitting : "";
+    const char *name =
+        arena_format(l->arena, "sub-%s%s%s%s/beh/sub-%s%s%s%s_task-%s_beh.tsv", l->person, l->sitting ? "/" : "", ses,
+                     sitting, l->person, l->sitting ? "_" : "", ses, sitting, task_name(x));
+    return rows_write(x, name, trials, l->arena, e);
+}
+
+/* The side-car of the tables of trials. */
+static json_t *bids_columns(struct export *x, struct err *e)
+{
+    const struct design_trials *w = said(x);
+    const char *key;
+    json_t *cell, *all = json_value_object("TaskName:s", task_name(x));
+    json_value_set(all, "TaskDescription:? Instructions:?", w->question, w->instructions);
+    json_auto_t *row = row_trial(x, &(struct export_list){.trials = x->trials.all, .arena = x->arena}, 0, e);
+    json_object_foreach(row, key, cell)
+    {
+        size_t c = 0, bare = strcspn(key, "0123456789");
+        size_t n = key[bare] ? bare - 1 : bare;
+        while (strncmp(columns[c].name, key, n) != 0 || columns[c].name[n])
+            c++;
+        json_t *one = json_value_object("Description:s", columns[c].meaning), *levels = json_object();
+        if (!strcmp(key, "response_time")) json_value_set(one, "Units:s", "s");
+        for (int i = 0; !strcmp(key, "response") && w->task != DESIGN_TASK_RATE && i < w->n_answers; i++)
+            json_object_set_new(levels, w->answers[i].label, json_string(w->answers[i].text));
+        if (json_object_size(levels)) json_object_set(one, "Levels", levels);
+        json_decref(levels);
+        json_object_set_new(all, key, one);
     }
-    return list_table(x, l, arena_format(a, "%s/beh/%s_task-%s_beh.tsv", folder, sub, task_name(x)), e);
+    return all;
 }
 
 static bool bids_files(struct export *x, struct err *e)
@@ -318,31 +297,14 @@ static bool bids_files(struct export *x, struct err *e)
     const char *about = "An experiment in listening, to be carried out. The sounds and what they were made from are in "
                         "stimuli/.";
     const char *people = "participant_id\n";
-    if (!export_json(x, "dataset_description.json",
-                     json_value_object("Name:s BIDSVersion:s DatasetType:s", title(x), "1.9.0", "raw"), e) ||
-        !export_text(x, "README", arena_format(a, "%s\n\n%s\n", title(x), about), e) ||
-        !export_text(x, ".bidsignore", "SHA256SUMS\n", e) || !x->trials.n)
-        return !e->kind;
-    json_t *columns_of = json_object();
-    json_value_set(columns_of, "TaskName:s TaskDescription:? Instructions:?", task_name(x), said(x)->question,
-                   said(x)->instructions);
-    for (int c = 0; c < COLUMNS; c++)
-        for (int s = 0; s < (c >= OF_SOUND && c < OF_SOUND + SOUND_COLUMNS ? x->trials.most : 1); s++) {
-            json_t *one = json_value_object("Description:s", columns[c].meaning);
-            json_t *levels = !strcmp(columns[c].name, "response") ? json_object() : NULL;
-            if (!strcmp(columns[c].name, "response_time")) json_value_set(one, "Units:s", "s");
-            for (int i = 0; levels && said(x)->task != DESIGN_TASK_RATE && i < said(x)->n_answers; i++)
-                json_object_set_new(levels, said(x)->answers[i].label, json_string(said(x)->answers[i].text));
-            if (levels && json_object_size(levels))
-                json_object_set_new(one, "Levels", levels);
-            else
-                json_decref(levels);
-            json_object_set_new(columns_of, column_name(x, c, s, a), one);
-        }
     for (int p = 1; p <= x->people; p++)
         people = arena_format(a, "%ssub-%s\n", people, export_person(x, p, a));
-    return export_json(x, arena_format(a, "task-%s_beh.json", task_name(x)), columns_of, e) &&
-           export_text(x, "participants.tsv", people, e);
+    return export_json(x, "dataset_description.json",
+                       json_value_object("Name:s BIDSVersion:s DatasetType:s", title(x), "1.9.0", "raw"), e) &&
+           export_text(x, "README", arena_format(a, "%s\n\n%s\n", title(x), about), e) &&
+           export_text(x, ".bidsignore", "SHA256SUMS\n", e) &&
+           (!x->trials.n || (export_json(x, arena_format(a, "task-%s_beh.json", task_name(x)), bids_columns(x, e), e) &&
+                             export_text(x, "participants.tsv", people, e)));
 }
 
 /* ------------------------------------------------------------------ jsPsych, and a page without library */
@@ -360,35 +322,33 @@ static json_t *script_sound(const struct export *x, int i, struct arena *a)
                              role(x, i), level, levels);
 }
 
-static bool script_list(struct export *x, const struct export_list *l, struct err *e)
+static json_t *script_trial(struct export *x, const struct export_list *l, int k, struct err *e)
+{
+    const struct trial *t = &l->trials[k];
+    json_t *sounds = json_array();
+    (void)e;
+    for (int i = 0; i < t->n; i++)
+        json_array_append_new(sounds, script_sound(x, t->stimuli[i], l->arena));
+    return json_value_object("trial:i trial_id:s block:i training:i text:s played:s sounds:o", k + 1,
+                             id_of(x, t, l->arena), t->part, t->training, t->text, played(x, t), sounds);
+}
+
+static bool script_list(struct export *x, const struct export_list *l, json_t *trials, struct err *e)
 {
     const struct design_trials *w = said(x);
     struct arena *a = l->arena;
-    json_t *trials = json_array(), *answers = json_array();
+    json_t *answers = json_array();
     for (int i = 0; i < w->n_answers; i++)
         json_array_append_new(answers, json_value_object("label:s text:s", w->answers[i].label, w->answers[i].text));
-    for (int k = 0; k < l->n; k++) {
-        const struct trial *t = &l->trials[k];
-        json_t *sounds = json_array();
-        for (int i = 0; i < t->n; i++)
-            json_array_append_new(sounds, script_sound(x, t->stimuli[i], a));
-        json_array_append_new(trials,
-                              json_value_object("trial:i trial_id:s block:i training:i text:s played:s sounds:o", k + 1,
-                                                id_of(x, t, a), t->part, t->training, t->text, played(x, t), sounds));
-    }
-    json_t *study =
+    json_auto_t *study =
         json_value_object("title:s instructions:s task:s question:s answers:o participant:s session:s trials:o",
                           title(x), w->instructions, design_trials_tasks[w->task], w->question, answers,
-                          arena_format(a, "%.*s", (int)strcspn(l->name, "_"), l->name),
-                          l->n ? label(x, w->session, l->trials[0].session) : "n/a", trials);
-    bool ok = export_open(x, arena_format(a, "lists/%s.js", l->name), e);
-    if (ok) {
-        fputs("study = ", x->stream);
-        json_dumpf(study, x->stream, JSON_INDENT(1) | JSON_ENSURE_ASCII);
-        fputs(";\n", x->stream);
-    }
-    json_decref(study);
-    return ok && export_close(x, e);
+                          arena_format(a, "p%s", l->person), session_of(x, l->trials), json_incref(trials));
+    if (!export_open(x, arena_format(a, "lists/%s.js", l->name), e)) return false;
+    fputs("study = ", x->stream);
+    json_dumpf(study, x->stream, JSON_INDENT(1) | JSON_ENSURE_ASCII);
+    fputs(";\n", x->stream);
+    return export_close(x, e);
 }
 
 static bool page_files(struct export *x, struct err *e)
@@ -408,11 +368,14 @@ static bool jspsych_files(struct export *x, struct err *e)
 }
 
 const struct export_format export_formats_table[] = {
-    {"webmushra", "configs/resources/audio/%s", "stimuli.csv", .browser = true, .list = webmushra_list},
-    {"psychopy", "sounds", "stimuli.csv", .files = psychopy_files, .list = psychopy_list},
-    {"jspsych", "sounds", "stimuli.csv", .browser = true, .files = jspsych_files, .list = script_list},
-    {"page", "sounds", "stimuli.csv", .browser = true, .files = page_files, .list = script_list},
-    {"bids", "stimuli", "stimuli.tsv", .tabs = true, .bare = true, .files = bids_files, .list = bids_list},
+    {"webmushra", "configs/resources/audio/%s", "stimuli.csv", .browser = true, .files = webmushra_files,
+     .trial = webmushra_trial, .list = webmushra_list},
+    {"psychopy", "sounds", "stimuli.csv", .files = psychopy_files, .trial = row_trial, .list = psychopy_list},
+    {"jspsych", "sounds", "stimuli.csv", .browser = true, .files = jspsych_files, .trial = script_trial,
+     .list = script_list},
+    {"page", "sounds", "stimuli.csv", .browser = true, .files = page_files, .trial = script_trial, .list = script_list},
+    {"bids", "stimuli", "stimuli.tsv", .tabs = true, .bare = true, .files = bids_files, .trial = row_trial,
+     .list = bids_list},
     {"audiofolder", "%s", "metadata.csv", .splits = true},
     {.name = NULL},
 };
