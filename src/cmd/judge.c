@@ -18,17 +18,34 @@ int judge_place(const char *const *words, int n, const char *word)
     return i < n ? i : -1;
 }
 
+int judge_add(struct arena *a, const char ***words, int *n, const char *word)
+{
+    int at = judge_place(*words, *n, word);
+    if (at >= 0) return at;
+    *words = arena_more(a, *words, *n, sizeof **words);
+    (*words)[*n] = word;
+    return (*n)++;
+}
+
+const char **judge_split(struct arena *a, const char *text, char between, int *n)
+{
+    const char **words = NULL, separator[] = {between, '\0'};
+    *n = 0;
+    for (char *rest = arena_text(a, text), *word; (word = strsep(&rest, separator)); ++*n) {
+        words = arena_more(a, words, *n, sizeof *words);
+        words[*n] = word;
+    }
+    return words;
+}
+
 const char **judge_words(const struct cmd_call *c, const char *name, int *n, struct err *e)
 {
-    const char *given = args_value(&c->args, name), **words = NULL;
-    *n = 0;
-    for (char *word = given ? arena_text(c->arena, given) : NULL, *next; word; word = next) {
-        if ((next = strchr(word, ','))) *next++ = '\0';
-        if (!*word || judge_place(words, *n, word) >= 0)
-            err_set(e, ERR_USAGE, "--%s: '%s': %s", name, given, *word ? "a word comes twice" : "a word is missing");
-        words = arena_more(c->arena, words, *n, sizeof *words);
-        words[(*n)++] = word;
-    }
+    const char *given = args_value(&c->args, name), **words = given ? judge_split(c->arena, given, ',', n) : NULL;
+    if (!given) *n = 0;
+    for (int i = 0; i < *n; i++)
+        if (!*words[i] || judge_place(words, i, words[i]) >= 0)
+            err_set(e, ERR_USAGE, "--%s: '%s': %s", name, given,
+                    *words[i] ? "a word comes twice" : "a word is missing");
     return words;
 }
 
@@ -46,7 +63,13 @@ void judge_figure(struct judge *j, double value, const char *format, ...)
     j->figures[j->n_figures++] = (struct judge_figure){arena_text(j->arena, key), value};
 }
 
-static const char *const columns[] = {"item", "condition", "value", "deviation", "source"};
+enum { ITEM, CONDITION, VALUE, DEVIATION, SOURCE, COLUMNS };
+static const char *const columns[COLUMNS] = {"item", "condition", "value", "deviation", "source"};
+
+static const char *paper_cell(const struct judge *j, size_t row, int column)
+{
+    return j->paper.cells[row * j->paper.columns + (size_t)csv_column(&j->paper, columns[column])];
+}
 
 static bool paper_open(struct judge *j, struct err *e)
 {
@@ -55,11 +78,11 @@ static bool paper_open(struct judge *j, struct err *e)
     if (!file != !j->item) return err_set(e, ERR_USAGE, "--paper FILE and --item ITEM go together");
     if (!file) return true;
     if (!csv_read(file, j->arena, &j->paper, e)) return false;
-    for (int k = 0; k < 5; k++)
+    for (int k = 0; k < COLUMNS; k++)
         if (csv_column(&j->paper, columns[k]) < 0)
             return err_set(e, ERR_SCENE, "%s: there is no column '%s'", file, columns[k]);
     for (size_t i = 0; i < j->paper.rows; i++)
-        if (!strcmp(j->paper.cells[i * j->paper.columns + (size_t)csv_column(&j->paper, "item")], j->item)) return true;
+        if (!strcmp(paper_cell(j, i, ITEM), j->item)) return true;
     return err_set(e, ERR_USAGE, "--item: %s has no item '%s'", file, j->item);
 }
 
@@ -71,21 +94,15 @@ static void paper_report(struct judge *j)
     report_text(r, "\n%s: the paper's numbers and ours\n", j->item);
     report_set(r, "item:s paper:[", j->item);
     for (size_t i = 0; i < j->paper.rows; i++) {
-        const char *cell[5];
-        for (int k = 0; k < 5; k++)
-            cell[k] = j->paper.cells[i * j->paper.columns + (size_t)csv_column(&j->paper, columns[k])];
-        if (strcmp(cell[0], j->item) != 0) continue;
+        const char *figure = paper_cell(j, i, CONDITION), *value = paper_cell(j, i, VALUE),
+                   *deviation = paper_cell(j, i, DEVIATION), *source = paper_cell(j, i, SOURCE), *text = "none";
         double ours = NAN;
-        bool found = false;
+        if (strcmp(paper_cell(j, i, ITEM), j->item) != 0) continue;
         for (int k = 0; k < j->n_figures; k++)
-            if (!strcmp(j->figures[k].key, cell[1])) {
-                ours = j->figures[k].value;
-                found = true;
-            }
-        report_text(r, "  %-40s paper %-18s ours %-9s %s\n", cell[1],
-                    arena_format(j->arena, "%s%s%s", cell[2], *cell[3] ? " +- " : "", cell[3]),
-                    found ? arena_format(j->arena, "%.4g", ours) : "none", cell[4]);
-        report_set(r, ":{ figure:s paper:s deviation:e ours:n source:s }", cell[1], cell[2], cell[3], ours, cell[4]);
+            if (!strcmp(j->figures[k].key, figure)) text = arena_format(j->arena, "%.4g", ours = j->figures[k].value);
+        report_text(r, "  %-40s paper %-18s ours %-9s %s\n", figure,
+                    arena_format(j->arena, "%s%s%s", value, *deviation ? " +- " : "", deviation), text, source);
+        report_set(r, ":{ figure:s paper:s deviation:e ours:n source:s }", figure, value, deviation, ours, source);
     }
     report_end(r);
 }
@@ -107,8 +124,7 @@ static bool roles_check(const struct judge *j, const char *const *roles, struct 
 }
 
 /* What is printed waits until nothing can fail any more. */
-static int act(struct cmd_call *c, bool (*run)(struct judge *j, struct err *e), const char *const *roles,
-               struct err *e)
+static int act(struct cmd_call *c, bool (*run)(struct judge *j, struct err *e), const char *const *roles, struct err *e)
 {
     struct judge j = {.call = c, .arena = c->arena};
     char *text = NULL;

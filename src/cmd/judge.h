@@ -24,11 +24,17 @@ struct judge {
 /* A figure by the name that it has in the papers' table: "F(size)". */
 void judge_figure(struct judge *j, double value, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
+/* The words of a text, with a character between. */
+const char **judge_split(struct arena *a, const char *text, char between, int *n);
+
 /* --NAME as words with commas between; *n 0: not given. ERR_USAGE: one is empty, or comes twice. */
 const char **judge_words(const struct cmd_call *c, const char *name, int *n, struct err *e);
 
 /* The place of a word among n; -1: none. */
 int judge_place(const char *const *words, int n, const char *word);
+
+/* The same, where a word that is not among them is put at the end. */
+int judge_add(struct arena *a, const char ***words, int *n, const char *word);
 
 /* ------------------------------------------------------------------ judge_table.c */
 
@@ -36,6 +42,7 @@ enum { JUDGE_LEVELS = 10000, JUDGE_CLASSES = 100, JUDGE_COMPARED = 100 /* means,
 
 struct judge_factor { /* a column whose cells are words */
     const char *name;
+    int column;          /* -1: it is not there */
     const char **levels; /* numbers by size, else in the order in which they come */
     int n, *of_row;      /* of_row [rows]: which level it is */
 };
@@ -45,6 +52,10 @@ int judge_table_column(const struct judge *j, const struct csv *t, const char *r
 
 /* ERR_SCENE: an empty cell, more than JUDGE_LEVELS levels. column < 0: one level, "all". */
 bool judge_table_factor(const struct csv *t, int column, struct arena *a, struct judge_factor *f, struct err *e);
+
+/* The factor of a role's column. */
+bool judge_table_role(const struct judge *j, const struct csv *t, const char *role, bool must, struct judge_factor *f,
+                      struct err *e);
 
 struct judge_choices { /* confusion matrices */
     const char *file;
@@ -63,6 +74,12 @@ bool judge_table_choices(struct judge *j, const char *file, struct judge_choices
 
 /* Takes memory for the cells of so many conditions and classes. ERR_SCENE: not 2 to JUDGE_CLASSES classes. */
 bool judge_table_open(struct judge *j, struct judge_choices *m, struct err *e);
+
+/* ERR_SCENE: a class was never played in a condition. */
+bool judge_table_whole(const struct judge_choices *m, struct err *e);
+
+/* The cells of what was played in a condition. */
+double *judge_table_row(const struct judge_choices *m, int condition, int played);
 
 /* Of the condition, a matrix of shares, in the arena. */
 const double *judge_table_shares(const struct judge_choices *m, int condition, struct arena *a);

@@ -22,11 +22,6 @@ static bool options_of(const struct judge *j, const struct judge_choices *m, str
            args_whole(g, "seed", (const long[]){0, 1L << 53}, &o->seed, e);
 }
 
-static const double *matrix_of(const struct judge_choices *m, int condition)
-{
-    return m->cell + condition * m->classes * m->classes;
-}
-
 static int widest(const struct judge_choices *m)
 {
     int width = 7;
@@ -39,18 +34,18 @@ static int widest(const struct judge_choices *m)
 
 static void report_row_of(struct judge *j, const struct judge_choices *m, int c, int p, const double *share, double z)
 {
-    const double *cell = matrix_of(m, c) + p * m->classes;
-    double n = 0, (*hold)[2] = arena_take(j->arena, (size_t)m->classes, sizeof *hold);
-    double *low = ARENA_TAKE(j->arena, double, m->classes), *high = ARENA_TAKE(j->arena, double, m->classes);
+    const double *cell = judge_table_row(m, c, p);
+    double n = 0, *low = ARENA_TAKE(j->arena, double, m->classes), *high = ARENA_TAKE(j->arena, double, m->classes);
     struct report *r = &j->report;
     int width = widest(m);
     for (int k = 0; k < m->classes; k++)
         n += cell[k];
     report_text(r, "  %-*s", width, m->class[p]);
     for (int k = 0; k < m->classes; k++) {
-        if (m->counted) choices_wilson(cell[k], n, z, hold[k]);
-        low[k] = hold[k][0];
-        high[k] = hold[k][1];
+        double hold[2] = {0};
+        if (m->counted) choices_wilson(cell[k], n, z, hold);
+        low[k] = hold[0];
+        high[k] = hold[1];
         report_text(r, " %*.1f", width, 100 * share[k]);
         judge_figure(j, 100 * share[k], "%s/%s/%s", m->condition[c], m->class[p], m -> class[k]);
     }
@@ -65,14 +60,15 @@ static void report_row_of(struct judge *j, const struct judge_choices *m, int c,
 
 static void report_matrix(struct judge *j, const struct judge_choices *m, int c, const struct asked *o)
 {
-    const double *share = judge_table_shares(m, c, j->arena), *cell = matrix_of(m, c);
-    double z = choices_deviations(o->confidence, o->all), mean = 0, right = 0, all = 0, hold[2];
+    const double *share = judge_table_shares(m, c, j->arena), *cell = judge_table_row(m, c, 0);
+    double mean = 0, right = 0, all = 0, hold[2];
     struct report *r = &j->report;
-    for (int p = 0; p < m->classes; p++) {
-        mean += share[p * m->classes + p] / m->classes;
-        right += cell[p * m->classes + p];
-        for (int k = 0; k < m->classes; k++)
-            all += cell[p * m->classes + k];
+    int n = m->classes, width = widest(m);
+    for (int i = 0; i < n * n; i++) {
+        all += cell[i];
+        if (i % (n + 1)) continue; /* not on the diagonal */
+        mean += share[i] / n;
+        right += cell[i];
     }
     report_set(r, ":{ condition:s right_mean_of_rows:n", m->condition[c], mean);
     report_text(r, "\n%s: right %.1f %% in the mean of rows", m->condition[c], 100 * mean);
@@ -83,13 +79,13 @@ static void report_matrix(struct judge *j, const struct judge_choices *m, int c,
                     100 * hold[1]);
         report_set(r, "answers:n right:n right_low:n right_high:n", all, right / all, hold[0], hold[1]);
     }
-    report_text(r, "\n  %-*s", widest(m), "");
-    for (int k = 0; k < m->classes; k++)
-        report_text(r, " %*s", widest(m), m->class[k]);
+    report_text(r, "\n  %-*s", width, "");
+    for (int k = 0; k < n; k++)
+        report_text(r, " %*s", width, m->class[k]);
     report_text(r, m->counted ? " answers   right\n" : "\n");
     report_list(r, "rows");
-    for (int p = 0; p < m->classes; p++)
-        report_row_of(j, m, c, p, share + p * m->classes, z);
+    for (int p = 0; p < n; p++)
+        report_row_of(j, m, c, p, share + p * n, choices_deviations(o->confidence, o->all));
     report_set(r, "] }");
 }
 
@@ -142,8 +138,7 @@ static bool report_pair(struct judge *j, const struct judge_choices *m, int c, i
     }
     report_list(r, "chi_squared");
     for (int k = 0; k < m->classes && m->counted; k++) {
-        double x = choices_chi_squared(matrix_of(m, c) + k * m->classes, matrix_of(m, reference) + k * m->classes,
-                                       m->classes, &df, &p);
+        double x = choices_chi_squared(judge_table_row(m, c, k), judge_table_row(m, reference, k), m->classes, &df, &p);
         report_row(r, arena_format(j->arena, "  %s", m->class[k]), "chi-squared %.4g, %d degrees of freedom, p %.4g", x,
                    df, p);
         report_set(r, ":{ played:s x:n df:i p:n }", m->class[k], x, df, p);

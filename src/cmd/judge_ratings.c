@@ -8,6 +8,7 @@
 #include "cmd/judge.h"
 
 struct ratings {
+    const char *file;
     struct anova_design design;
     struct judge_factor factor[ANOVA_FACTORS];
     struct anova_effect effect[1 << ANOVA_FACTORS];
@@ -35,65 +36,69 @@ static const char *cell_name(const struct ratings *t, unsigned mask, int cell, s
     return name;
 }
 
-/* Is it the first cell of its levels of the mask? */
-static bool leads(const struct anova_design *d, unsigned mask, int cell)
-{
-    for (int k = 0, below = d->cells; k < d->factors; k++) {
-        below /= d->levels[k];
-        if (!(mask >> k & 1) && cell / below % d->levels[k]) return false;
-    }
-    return true;
-}
-
 /* ------------------------------------------------------------------ the report */
 
-/* Characters of the longest cell's name. */
-static int widest(const struct ratings *t, unsigned mask, struct arena *a)
+struct means { /* of the combinations of a mask's levels */
+    int n, width;
+    const char **name;
+    double *mean, *sem;
+};
+
+static struct means means_of(const struct ratings *t, unsigned mask, struct arena *a)
 {
-    int width = 0;
-    for (int c = 0; c < t->design.cells; c++)
-        width = (int)fmax(width, (double)strlen(cell_name(t, mask, c, a)));
-    return width;
+    const struct anova_design *d = &t->design;
+    struct means m = {.name = ARENA_TAKE(a, const char *, d->cells),
+                      .mean = ARENA_TAKE(a, double, d->cells),
+                      .sem = ARENA_TAKE(a, double, d->cells)};
+    anova_means(d, mask, a, m.mean, m.sem);
+    for (int c = 0; c < d->cells; c++) {
+        bool first = true; /* of the cells that have these levels */
+        for (int k = 0, below = d->cells; k < d->factors; k++) {
+            below /= d->levels[k];
+            first = first && (mask >> k & 1 || c / below % d->levels[k] == 0);
+        }
+        if (!first) continue;
+        m.name[m.n] = cell_name(t, mask, c, a);
+        m.mean[m.n] = m.mean[c];
+        m.sem[m.n] = m.sem[c];
+        m.width = (int)fmax(m.width, (double)strlen(m.name[m.n++]));
+    }
+    return m;
 }
 
 static void report_means(struct judge *j, const struct ratings *t, unsigned mask)
 {
-    const struct anova_design *d = &t->design;
-    double *mean = ARENA_TAKE(j->arena, double, d->cells), *sem = ARENA_TAKE(j->arena, double, d->cells);
-    double t95 = gsl_cdf_tdist_Pinv(0.975, d->people - 1);
-    int width = widest(t, mask, j->arena);
-    anova_means(d, mask, j->arena, mean, sem);
-    for (int c = 0; c < d->cells; c++) {
-        if (!leads(d, mask, c)) continue;
-        const char *name = cell_name(t, mask, c, j->arena);
-        report_text(&j->report, "  %-*s %9.4g   SEM %-9.4g 95 %%: %.4g to %.4g\n", width, name, mean[c], sem[c],
-                    mean[c] - t95 * sem[c], mean[c] + t95 * sem[c]);
-        report_set(&j->report, ":{ cell:s mean:n sem:n low:n high:n }", name, mean[c], sem[c], mean[c] - t95 * sem[c],
-                   mean[c] + t95 * sem[c]);
-        judge_figure(j, mean[c], "mean(%s)", name);
-        judge_figure(j, sem[c], "sem(%s)", name);
+    struct means m = means_of(t, mask, j->arena);
+    double t95 = gsl_cdf_tdist_Pinv(0.975, t->design.people - 1);
+    for (int i = 0; i < m.n; i++) {
+        double mean = m.mean[i], sem = m.sem[i], low = mean - t95 * sem, high = mean + t95 * sem;
+        report_text(&j->report, "  %-*s %9.4g   SEM %-9.4g 95 %%: %.4g to %.4g\n", m.width, m.name[i], mean, sem, low,
+                    high);
+        report_set(&j->report, ":{ cell:s mean:n sem:n low:n high:n }", m.name[i], mean, sem, low, high);
+        judge_figure(j, mean, "mean(%s)", m.name[i]);
+        judge_figure(j, sem, "sem(%s)", m.name[i]);
     }
 }
 
-static void report_tukey(struct judge *j, const struct ratings *t, unsigned mask)
+/* Of n means n (n - 1)/2 comparisons, each an integral of some milliseconds. */
+static bool report_tukey(struct judge *j, const struct ratings *t, unsigned mask, struct err *e)
 {
-    const struct anova_design *d = &t->design;
-    double *mean = ARENA_TAKE(j->arena, double, d->cells), *sem = ARENA_TAKE(j->arena, double, d->cells);
-    int width = 2 * widest(t, mask, j->arena) + 3;
-    anova_means(d, mask, j->arena, mean, sem);
-    report_text(&j->report, "\nTukey's comparisons of %s\n", effect_name(t, mask, j->arena));
-    for (int b = 0; b < d->cells; b++)
+    struct means m = means_of(t, mask, j->arena);
+    const char *effect = effect_name(t, mask, j->arena);
+    if (m.n > JUDGE_COMPARED)
+        return err_set(e, ERR_SCENE, "%s: %s has %d means: Tukey's comparisons are of %d at most", t->file, effect, m.n,
+                       JUDGE_COMPARED);
+    report_text(&j->report, "\nTukey's comparisons of %s\n", effect);
+    for (int b = 0; b < m.n; b++)
         for (int a = 0; a < b; a++) {
-            if (!leads(d, mask, a) || !leads(d, mask, b)) continue;
-            const char *name =
-                arena_format(j->arena, "%s - %s", cell_name(t, mask, a, j->arena), cell_name(t, mask, b, j->arena));
-            double p = anova_tukey(d, &t->effect[mask - 1], mean[a] - mean[b]);
-            report_text(&j->report, p < 1e-10 ? "  %-*s %9.4g   p <1e-10\n" : "  %-*s %9.4g   p %.4g\n", width, name,
-                        mean[a] - mean[b], p);
-            report_set(&j->report, ":{ effect:s pair:s difference:n p:n }", effect_name(t, mask, j->arena), name,
-                       mean[a] - mean[b], p);
+            const char *name = arena_format(j->arena, "%s - %s", m.name[a], m.name[b]);
+            double off = m.mean[a] - m.mean[b], p = anova_tukey(&t->design, &t->effect[mask - 1], off);
+            report_text(&j->report, p < 1e-10 ? "  %-*s %9.4g   p <1e-10\n" : "  %-*s %9.4g   p %.4g\n",
+                        2 * m.width + 3, name, off, p);
+            report_set(&j->report, ":{ effect:s pair:s difference:n p:n }", effect, name, off, p);
             judge_figure(j, p, "tukey(%s)", name);
         }
+    return true;
 }
 
 static void report_effect(struct judge *j, const struct anova_effect *f, const char *name, int width)
@@ -109,27 +114,13 @@ static void report_effect(struct judge *j, const struct anova_effect *f, const c
     judge_figure(j, f->df_error, "df_error(%s)", name);
 }
 
-/* So many comparisons take seconds: of n means n (n - 1)/2 integrals. */
-static bool compared_check(struct judge *j, const struct ratings *t, unsigned mask, const char *file, struct err *e)
-{
-    int means = 1;
-    for (int k = 0; k < t->design.factors; k++)
-        means *= mask >> k & 1 ? t->design.levels[k] : 1;
-    return means <= JUDGE_COMPARED ||
-           err_set(e, ERR_SCENE, "%s: %s has %d means: Tukey's comparisons are of %d at most", file,
-                   effect_name(t, mask, j->arena), means, JUDGE_COMPARED);
-}
-
 /* tukey [n]: masks. */
-static bool report_anova(struct judge *j, struct ratings *t, const unsigned *tukey, int n, const char *file,
-                         struct err *e)
+static bool report_anova(struct judge *j, struct ratings *t, const unsigned *tukey, int n, struct err *e)
 {
     const struct anova_design *d = &t->design;
     unsigned effects = 1u << d->factors;
     struct report *r = &j->report;
     int width = (int)strlen(effect_name(t, effects - 1, j->arena));
-    for (int k = 0; k < n; k++)
-        if (!compared_check(j, t, tukey[k], file, e)) return false;
     anova_within(d, t->effect);
     judge_figure(j, d->people, "listeners");
     report_set(r, "listeners:i cells:i means:[", d->people, d->cells);
@@ -143,29 +134,29 @@ static bool report_anova(struct judge *j, struct ratings *t, const unsigned *tuk
         report_effect(j, &t->effect[m - 1], effect_name(t, m, j->arena), width);
     report_set(r, "] tukey:[");
     for (int k = 0; k < n; k++)
-        report_tukey(j, t, tukey[k]);
+        if (!report_tukey(j, t, tukey[k], e)) return false;
     report_end(r);
     return true;
 }
 
 /* ------------------------------------------------------------------ ratings */
 
-static bool design_check(struct ratings *t, const char *file, struct err *e)
+static bool design_check(struct ratings *t, struct err *e)
 {
     struct anova_design *d = &t->design;
     double cells = 1;
     for (int k = 0; k < d->factors; k++) {
         if (t->factor[k].n < 2)
-            return err_set(e, ERR_SCENE, "%s: column '%s' has one level only, '%s': leave it out of --factors", file,
+            return err_set(e, ERR_SCENE, "%s: column '%s' has one level only, '%s': leave it out of --factors", t->file,
                            t->factor[k].name, t->factor[k].levels[0]);
         cells *= d->levels[k] = t->factor[k].n;
     }
     d->cells = (int)fmin(cells, 1e6);
     if (cells > 5000 || cells * d->people > 1e7)
-        return err_set(e, ERR_SCENE, "%s: %g combinations of levels, %d listeners: at most 5000, and 1e7 cells", file,
-                       cells, d->people);
+        return err_set(e, ERR_SCENE, "%s: %g combinations of levels, %d listeners: at most 5000, and 1e7 cells",
+                       t->file, cells, d->people);
     return d->people >= 2 ||
-           err_set(e, ERR_SCENE, "%s: %d listener: at least 2 are needed, or nothing is repeated", file, d->people);
+           err_set(e, ERR_SCENE, "%s: %d listener: at least 2 are needed, or nothing is repeated", t->file, d->people);
 }
 
 /* Means of each listener's ratings in each cell. */
@@ -183,17 +174,18 @@ static bool cells_take(struct judge *j, struct ratings *t, const struct csv *v, 
         y[at] += x;
         n[at]++;
     }
-    unsigned whole = (1u << d->factors) - 1;
     for (int i = 0; i < d->people * d->cells; i++) {
-        const char *who = person->levels[i / d->cells], *cell = cell_name(t, whole, i % d->cells, j->arena);
-        if (n[i] == 0)
-            return err_set(e, ERR_SCENE, "%s: listener '%s' has no rating of %s: each must rate every combination",
-                           v->file, who, cell);
-        if (n[i] != n[0])
-            return err_set(e, ERR_SCENE,
-                           "%s: listener '%s' has %d ratings of %s, where '%s' has %d of the first: as many are needed "
-                           "in every cell",
-                           v->file, who, n[i], cell, person->levels[0], n[0]);
+        if (n[i] == 0 || n[i] != n[0]) {
+            const char *who = person->levels[i / d->cells],
+                       *cell = cell_name(t, (1u << d->factors) - 1, i % d->cells, j->arena);
+            return n[i] == 0 ? err_set(e, ERR_SCENE,
+                                       "%s: listener '%s' has no rating of %s: each must rate every combination",
+                                       v->file, who, cell)
+                             : err_set(e, ERR_SCENE,
+                                       "%s: listener '%s' has %d ratings of %s, where '%s' has %d of the first: as "
+                                       "many are needed in every cell",
+                                       v->file, who, n[i], cell, person->levels[0], n[0]);
+        }
         y[i] /= n[i];
     }
     d->y = y;
@@ -222,22 +214,20 @@ static bool factors_take(struct judge *j, struct ratings *t, const struct csv *v
 /* --tukey kappa:mu, in whatever order; one factor has them anyway. */
 static bool tukey_of(const struct judge *j, const struct ratings *t, unsigned *mask, int *n, struct err *e)
 {
-    int given;
+    int given, words;
     const char **names = args_values(&j->call->args, "tukey", &given);
-    *n = 0;
     if (given > 16) return err_set(e, ERR_USAGE, "--tukey was given %d times, and may be 16 times", given);
     for (int i = 0; i < given; i++) {
-        unsigned m = 0;
-        char *word = arena_text(j->arena, names[i]);
-        for (char *next; word; word = next) {
-            unsigned was = m;
-            if ((next = strchr(word, ':'))) *next++ = '\0';
+        const char **word = judge_split(j->arena, names[i], ':', &words);
+        mask[i] = 0;
+        for (int w = 0; w < words; w++) {
+            unsigned was = mask[i];
             for (int k = 0; k < t->design.factors; k++)
-                if (!strcmp(word, t->factor[k].name)) m |= 1u << k;
-            if (m == was) return err_set(e, ERR_USAGE, "--tukey: '%s' is no factor, or comes twice", word);
+                if (!strcmp(word[w], t->factor[k].name)) mask[i] |= 1u << k;
+            if (mask[i] == was) return err_set(e, ERR_USAGE, "--tukey: '%s' is no factor, or comes twice", word[w]);
         }
-        mask[(*n)++] = m;
     }
+    *n = given;
     if (t->design.factors == 1 && !given) mask[(*n)++] = 1;
     return true;
 }
@@ -248,15 +238,15 @@ bool judge_ratings_run(struct judge *j, struct err *e)
     struct ratings *t = arena_take(j->arena, 1, sizeof *t);
     struct judge_factor person;
     unsigned tukey[16];
-    int n;
-    if (!csv_table_read(j->call->args.operands[0], j->arena, &v, e)) return false;
-    int who = judge_table_column(j, &v, "participant", true, e), rating = judge_table_column(j, &v, "rating", true, e);
-    if (e->kind || !judge_table_factor(&v, who, j->arena, &person, e) || !factors_take(j, t, &v, who, rating, e))
+    int n = 0;
+    t->file = j->call->args.operands[0];
+    if (!csv_table_read(t->file, j->arena, &v, e) || !judge_table_role(j, &v, "participant", true, &person, e))
         return false;
+    int rating = judge_table_column(j, &v, "rating", true, e);
+    if (e->kind || !factors_take(j, t, &v, person.column, rating, e)) return false;
     t->design.people = person.n;
-    if (!design_check(t, v.file, e) || !tukey_of(j, t, tukey, &n, e) || !cells_take(j, t, &v, &person, rating, e))
-        return false;
-    return report_anova(j, t, tukey, n, v.file, e);
+    return design_check(t, e) && tukey_of(j, t, tukey, &n, e) && cells_take(j, t, &v, &person, rating, e) &&
+           report_anova(j, t, tukey, n, e);
 }
 
 /* ------------------------------------------------------------------ pairs: 002 VI-C. The printed weights are lost in
@@ -264,26 +254,28 @@ bool judge_ratings_run(struct judge *j, struct err *e)
    diagonal, which adds the same to every score */
 
 struct pairs {
-    struct judge_factor person, set, control, a, b, level; /* level: of a and b together */
-    const char *file;
+    int a, b, answer; /* columns */
+    struct judge_factor person, set, control;
+    struct judge_factor level; /* of a and b together: of_row 2 i and 2 i + 1 are those of row i */
 };
 
 /* 1, 1/2 or 0 of "A>B", "A=B", "B>A", with blanks or without. */
 static bool answer_take(const struct csv *t, size_t row, int column, double *more, struct err *e)
 {
-    char room[CSV_ROOM], bare[4] = "";
+    char room[CSV_ROOM], bare[5] = "";
     size_t n = 0;
     const char *text = csv_text(t, row, column, room);
     for (const char *p = text; *p && n < 4; p++)
-        if (*p != ' ' && n++ < 3) bare[n - 1] = *p;
-    *more = n != 3 ? -1 : !strcmp(bare, "A>B") ? 1 : !strcmp(bare, "A=B") ? 0.5 : !strcmp(bare, "B>A") ? 0 : -1;
-    return *more >= 0 || err_set(e, ERR_SCENE, "%s:%d: column '%s': '%s' is not A>B, A=B or B>A", t->file,
-                                 t->lines[row], t->names[column], text);
+        if (*p != ' ') bare[n++] = *p;
+    *more = !strcmp(bare, "A>B") ? 1 : !strcmp(bare, "A=B") ? 0.5 : 0;
+    return *more > 0 || !strcmp(bare, "B>A") ||
+           err_set(e, ERR_SCENE, "%s:%d: column '%s': '%s' is not A>B, A=B or B>A", t->file, t->lines[row],
+                   t->names[column], text);
 }
 
 /* score[people][levels] of one control: means over sets. */
-static bool score(struct judge *j, const struct csv *t, const struct pairs *q, int control, int answer,
-                  double *score_of, struct err *e)
+static bool score(struct judge *j, const struct csv *t, const struct pairs *q, int control, double *score_of,
+                  struct err *e)
 {
     int n = q->level.n, sets = q->set.n, people = q->person.n;
     bool *seen = ARENA_TAKE(j->arena, bool, people *sets *n *n);
@@ -292,13 +284,12 @@ static bool score(struct judge *j, const struct csv *t, const struct pairs *q, i
     for (size_t i = 0; i < t->rows; i++) {
         double more;
         if (q->control.of_row[i] != control) continue;
-        int a = judge_place(q->level.levels, n, q->a.levels[q->a.of_row[i]]),
-            b = judge_place(q->level.levels, n, q->b.levels[q->b.of_row[i]]);
-        int who = q->person.of_row[i], at = (who * sets + q->set.of_row[i]) * n * n;
-        if (!answer_take(t, i, answer, &more, e)) return false;
+        int a = q->level.of_row[2 * i], b = q->level.of_row[2 * i + 1], who = q->person.of_row[i];
+        int at = (who * sets + q->set.of_row[i]) * n * n;
+        if (!answer_take(t, i, q->answer, &more, e)) return false;
         if (a == b || seen[at + a * n + b])
             return err_set(e, ERR_SCENE, "%s:%d: column '%s': listener '%s' compares '%s' with %s", t->file,
-                           t->lines[i], q->b.name, q->person.levels[who], q->level.levels[a],
+                           t->lines[i], t->names[q->b], q->person.levels[who], q->level.levels[a],
                            a == b ? "itself" : "this one a second time in the set: each pair comes once");
         seen[at + a * n + b] = seen[at + b * n + a] = true;
         score_of[who * n + a] += more / sets;
@@ -312,39 +303,32 @@ static bool score(struct judge *j, const struct csv *t, const struct pairs *q, i
     return true;
 }
 
-/* The levels of both columns. */
-static bool levels_join(const struct csv *t, struct pairs *q, struct arena *a, struct err *e)
+static bool pairs_read(const struct judge *j, const struct csv *t, struct pairs *q, struct err *e)
 {
-    char room[CSV_ROOM];
-    struct csv both = *t;
-    int columns[2] = {csv_column(t, q->a.name), csv_column(t, q->b.name)};
-    both.numbers = NULL;
-    both.columns = 1;
-    both.rows = 2 * t->rows;
-    both.cells = ARENA_TAKE(a, const char *, both.rows);
-    both.lines = ARENA_TAKE(a, int, both.rows);
+    struct csv both = {.file = t->file, .columns = 1, .rows = 2 * t->rows};
+    q->a = judge_table_column(j, t, "a", true, e);
+    q->b = judge_table_column(j, t, "b", true, e);
+    q->answer = judge_table_column(j, t, "answer", true, e);
+    if (!judge_table_role(j, t, "participant", true, &q->person, e) ||
+        !judge_table_role(j, t, "set", false, &q->set, e) ||
+        !judge_table_role(j, t, "condition", false, &q->control, e))
+        return false;
+    both.names = (const char *[]){arena_format(j->arena, "%s', '%s", t->names[q->a], t->names[q->b])};
+    both.cells = ARENA_TAKE(j->arena, const char *, both.rows);
+    both.lines = ARENA_TAKE(j->arena, int, both.rows);
     for (size_t i = 0; i < both.rows; i++) {
-        both.cells[i] = arena_text(a, csv_text(t, i / 2, columns[i % 2], room));
+        char room[CSV_ROOM];
+        both.cells[i] = arena_text(j->arena, csv_text(t, i / 2, i % 2 ? q->b : q->a, room));
         both.lines[i] = t->lines[i / 2];
     }
-    return judge_table_factor(&both, 0, a, &q->level, e);
+    return judge_table_factor(&both, 0, j->arena, &q->level, e);
 }
 
 bool judge_ratings_pairs(struct judge *j, struct err *e)
 {
-    static const char *const roles[] = {"participant", "a", "b", "answer", "set", "condition"};
     struct csv v;
     struct pairs q;
-    int column[6];
-    if (!csv_table_read(j->call->args.operands[0], j->arena, &v, e)) return false;
-    for (int k = 0; k < 6; k++)
-        column[k] = judge_table_column(j, &v, roles[k], k < 4, e);
-    if (e->kind || !judge_table_factor(&v, column[0], j->arena, &q.person, e) ||
-        !judge_table_factor(&v, column[1], j->arena, &q.a, e) ||
-        !judge_table_factor(&v, column[2], j->arena, &q.b, e) ||
-        !judge_table_factor(&v, column[4], j->arena, &q.set, e) ||
-        !judge_table_factor(&v, column[5], j->arena, &q.control, e) || !levels_join(&v, &q, j->arena, e))
-        return false;
+    if (!csv_table_read(j->call->args.operands[0], j->arena, &v, e) || !pairs_read(j, &v, &q, e)) return false;
     double all = (double)q.person.n * q.set.n * q.level.n * q.level.n;
     if (all > 1e8)
         return err_set(e, ERR_SCENE, "%s: %d listeners, %d sets, %d levels: %g cells, at most 1e8", v.file, q.person.n,
@@ -353,14 +337,14 @@ bool judge_ratings_pairs(struct judge *j, struct err *e)
     for (int k = 0; k < q.control.n; k++) {
         struct ratings *t = arena_take(j->arena, 1, sizeof *t);
         double *y = ARENA_TAKE(j->arena, double, q.person.n *q.level.n);
-        t->factor[0] = q.level;
-        t->factor[0].name = column[5] < 0 ? "level" : q.control.levels[k];
-        t->design = (struct anova_design){.people = q.person.n, .factors = 1, .y = y};
-        if (!design_check(t, v.file, e) || !score(j, &v, &q, k, column[3], y, e)) return false;
+        *t = (struct ratings){
+            .file = v.file, .design = {.people = q.person.n, .factors = 1, .y = y}, .factor = {q.level}};
+        t->factor[0].name = q.control.column < 0 ? "level" : q.control.levels[k];
+        if (!design_check(t, e) || !score(j, &v, &q, k, y, e)) return false;
         report_text(&j->report, "%s%s: scores of %d listeners, means of %d set%s (1 more, 1/2 alike, 1 of itself)\n",
                     k ? "\n" : "", t->factor[0].name, q.person.n, q.set.n, q.set.n == 1 ? "" : "s");
         report_set(&j->report, ":{ condition:s sets:i", t->factor[0].name, q.set.n);
-        if (!report_anova(j, t, (const unsigned[]){1}, 1, v.file, e)) return false;
+        if (!report_anova(j, t, (const unsigned[]){1}, 1, e)) return false;
         report_end(&j->report);
     }
     report_end(&j->report);

@@ -7,12 +7,13 @@
 #include "analysis/choices.h"
 #include "base/outfile.h"
 #include "base/text.h"
+#include "batch/tables.h"
 #include "cmd/judge.h"
 #include "output/mark.h"
 
 int judge_table_column(const struct judge *j, const struct csv *t, const char *role, bool must, struct err *e)
 {
-    int n, column;
+    int n;
     const char **given = args_values(&j->call->args, "column", &n), *name = role;
     size_t length = strlen(role);
     for (int i = 0; i < n; i++)
@@ -20,7 +21,7 @@ int judge_table_column(const struct judge *j, const struct csv *t, const char *r
             name = given[i] + length + 1;
             must = true;
         }
-    column = csv_column(t, name);
+    int column = csv_column(t, name);
     if (column < 0 && must)
         err_set(e, ERR_SCENE, "%s: there is no column '%s': add it, or say which it is by --column %s=NAME", t->file,
                 name, role);
@@ -39,11 +40,12 @@ bool judge_table_factor(const struct csv *t, int column, struct arena *a, struct
 {
     char room[CSV_ROOM];
     bool numbers = true;
-    *f = (struct judge_factor){column < 0 ? "condition" : t->names[column], NULL, 0, ARENA_TAKE(a, int, t->rows + 1)};
+    double x;
+    *f = (struct judge_factor){column < 0 ? "condition" : t->names[column], column, NULL, 0,
+                               ARENA_TAKE(a, int, t->rows + 1)};
     if (t->rows == 0) return err_set(e, ERR_SCENE, "%s: has no rows", t->file);
     for (size_t i = 0; i < t->rows; i++) {
         const char *word = column < 0 ? "all" : csv_text(t, i, column, room);
-        double x;
         if (!*word)
             return err_set(e, ERR_SCENE, "%s:%d: column '%s': is empty: fill the cell, or take the row out", t->file,
                            t->lines[i], f->name);
@@ -52,68 +54,66 @@ bool judge_table_factor(const struct csv *t, int column, struct arena *a, struct
             return err_set(e, ERR_SCENE, "%s:%d: column '%s': more than %d different words: is it the right column?",
                            t->file, t->lines[i], f->name, JUDGE_LEVELS);
         numbers = numbers && text_double(word, &x);
-        f->levels = arena_more(a, f->levels, f->n, sizeof *f->levels);
-        f->levels[f->n++] = arena_text(a, word);
+        judge_add(a, &f->levels, &f->n, arena_text(a, word));
     }
     if (numbers) qsort(f->levels, (size_t)f->n, sizeof *f->levels, by_size);
-    for (size_t i = 0; i < t->rows; i++)
-        f->of_row[i] = column < 0 ? 0 : judge_place(f->levels, f->n, csv_text(t, i, column, room));
+    for (size_t i = 0; column >= 0 && i < t->rows; i++)
+        f->of_row[i] = judge_place(f->levels, f->n, csv_text(t, i, column, room));
     return true;
 }
 
-/* ------------------------------------------------------------------ classes */
-
-static const char *listed(const char *const *words, int n, struct arena *a)
+bool judge_table_role(const struct judge *j, const struct csv *t, const char *role, bool must, struct judge_factor *f,
+                      struct err *e)
 {
-    const char *all = "";
-    for (int i = 0; i < n; i++)
-        all = arena_format(a, "%s%s%s", all, i ? ", " : "", words[i]);
-    return all;
+    int column = judge_table_column(j, t, role, must, e);
+    return !e->kind && judge_table_factor(t, column, j->arena, f, e);
 }
+
+/* ------------------------------------------------------------------ classes */
 
 struct classes { /* words that may stand in a cell, and what each counts as */
     const char **word;
     int n, *as;
 };
 
+static const char *listed(const struct classes *c, struct arena *a)
+{
+    const char *all = "";
+    for (int i = 0; i < c->n; i++)
+        all = arena_format(a, "%s%s%s", all, i ? ", " : "", c->word[i]);
+    return all;
+}
+
 /* --groups a+b,c+d: each counts as one; what is in none stands for itself. */
 static bool group(struct judge *j, struct classes *c, struct judge_choices *m, struct err *e)
 {
-    int groups;
+    int groups, words;
     const char **given = judge_words(j->call, "groups", &groups, e);
     c->as = ARENA_TAKE(j->arena, int, c->n);
-    m->class = ARENA_TAKE(j->arena, const char *, c->n);
     for (int i = 0; i < c->n; i++)
         c->as[i] = -1;
-    for (int g = 0; g < groups && !e->kind; g++) {
-        char *word = arena_text(j->arena, given[g]);
-        for (char *next; word; word = next) {
-            if ((next = strchr(word, '+'))) *next++ = '\0';
-            int k = judge_place(c->word, c->n, word);
+    for (int g = 0; g < groups; g++) {
+        const char **word = judge_split(j->arena, given[g], '+', &words);
+        for (int w = 0; w < words && !e->kind; w++) {
+            int k = judge_place(c->word, c->n, word[w]);
             if (k < 0 || c->as[k] >= 0)
-                return err_set(e, ERR_USAGE, "--groups: '%s' is %s; the classes are: %s", word,
-                               k < 0 ? "no class" : "in two groups", listed(c->word, c->n, j->arena));
+                return err_set(e, ERR_USAGE, "--groups: '%s' is %s; the classes are: %s", word[w],
+                               k < 0 ? "no class" : "in two groups", listed(c, j->arena));
             c->as[k] = g;
         }
     }
-    for (int i = 0; i < c->n && !e->kind; i++) { /* in the classes' order */
-        bool first = c->as[i] < 0;
-        const char *name = first ? c->word[i] : given[c->as[i]];
-        int k = judge_place(m->class, m->classes, name);
-        if (k < 0) m->class[k = m->classes++] = name;
-        c->as[i] = -2 - k;
-    }
-    for (int i = 0; i < c->n; i++)
-        c->as[i] = -2 - c->as[i];
-    return !e->kind;
+    for (int i = 0; i < c->n && !e->kind; i++) /* in the classes' order */
+        c->as[i] = judge_add(j->arena, &m->class, &m->classes, c->as[i] < 0 ? c->word[i] : given[c->as[i]]);
+    return judge_table_open(j, m, e);
 }
 
 bool judge_table_open(struct judge *j, struct judge_choices *m, struct err *e)
 {
+    if (e->kind) return false;
     if (m->classes < 2 || m->classes > JUDGE_CLASSES)
         return err_set(e, ERR_SCENE, "%s: %d class%s: 2 to %d can be confused", m->file, m->classes,
                        m->classes > 1 ? "es" : "", JUDGE_CLASSES);
-    m->cell = ARENA_TAKE(j->arena, double, (size_t)m->conditions *(size_t)(m->classes * m->classes));
+    m->cell = ARENA_TAKE(j->arena, double, m->conditions * m->classes * m->classes);
     return true;
 }
 
@@ -128,47 +128,41 @@ static bool class_of(const struct csv *t, size_t row, int column, const struct c
     memcpy(names, c->word, (size_t)c->n * sizeof *names);
     const char *meant = text_nearest(word, names);
     return err_set(e, ERR_SCENE, "%s:%d: column '%s': '%s' is no class (%s; --classes names them)%s%s%s", t->file,
-                   t->lines[row], t->names[column], word, listed(c->word, c->n, a), meant ? ": did you mean '" : "",
+                   t->lines[row], t->names[column], word, listed(c, a), meant ? ": did you mean '" : "",
                    meant ? meant : "", meant ? "'?" : "");
 }
 
-static double *cell_of(const struct judge_choices *m, int condition, int played, int chosen)
+double *judge_table_row(const struct judge_choices *m, int condition, int played)
 {
-    return &m->cell[(condition * m->classes + played) * m->classes + chosen];
+    return m->cell + (condition * m->classes + played) * m->classes;
 }
 
 /* ------------------------------------------------------------------ answers */
 
 static bool answers_take(struct judge *j, const struct csv *t, int chosen, struct judge_choices *m, struct err *e)
 {
-    struct judge_factor condition, played, person = {0};
-    struct classes c = {0};
-    int column = judge_table_column(j, t, "played", true, e), who = judge_table_column(j, t, "participant", false, e);
-    int of = judge_table_column(j, t, "condition", false, e);
-    if (e->kind || !judge_table_factor(t, of, j->arena, &condition, e) ||
-        !judge_table_factor(t, column, j->arena, &played, e) ||
-        (who >= 0 && !judge_table_factor(t, who, j->arena, &person, e)))
+    struct judge_factor condition, played, person;
+    struct classes c;
+    if (!judge_table_role(j, t, "condition", false, &condition, e) ||
+        !judge_table_role(j, t, "played", true, &played, e) ||
+        !judge_table_role(j, t, "participant", false, &person, e))
         return false;
     c.word = judge_words(j->call, "classes", &c.n, e);
-    if (!c.n) {
-        c.word = played.levels;
-        c.n = played.n;
-    }
-    if (e->kind || !group(j, &c, m, e)) return false;
+    if (!c.n) c = (struct classes){played.levels, played.n, NULL};
     m->condition = condition.levels;
     m->conditions = condition.n;
     m->counted = true;
     m->person = person.levels;
-    m->people = person.n;
-    if (!judge_table_open(j, m, e)) return false;
+    m->people = person.column < 0 ? 0 : person.n;
+    if (!group(j, &c, m, e)) return false;
     m->right = ARENA_TAKE(j->arena, double, m->people * m->conditions + 1);
     m->asked = ARENA_TAKE(j->arena, double, m->people * m->conditions + 1);
     for (size_t i = 0; i < t->rows; i++) {
-        int p, k;
-        if (!class_of(t, i, column, &c, j->arena, &p, e) || !class_of(t, i, chosen, &c, j->arena, &k, e)) return false;
-        ++*cell_of(m, condition.of_row[i], c.as[p], c.as[k]);
+        int p, k, at = person.of_row[i] * m->conditions + condition.of_row[i];
+        if (!class_of(t, i, played.column, &c, j->arena, &p, e) || !class_of(t, i, chosen, &c, j->arena, &k, e))
+            return false;
+        judge_table_row(m, condition.of_row[i], c.as[p])[c.as[k]]++;
         if (!m->people) continue;
-        int at = person.of_row[i] * m->conditions + condition.of_row[i];
         m->asked[at]++;
         m->right[at] += c.as[p] == c.as[k];
     }
@@ -177,75 +171,70 @@ static bool answers_take(struct judge *j, const struct csv *t, int chosen, struc
 
 /* ------------------------------------------------------------------ matrices */
 
-/* Are the cells answers, or shares (of 1 or of 100)? "# cells: answers", shares or percent says it; else whole numbers
-   are answers. */
-static bool kind_of(const struct csv *t, const struct judge_factor *condition, const int *columns, int n, bool *counted,
-                    struct err *e)
+/* The rows [rows][n] of the columns. Are they answers, or shares (of 1 or of 100)? "# cells: answers", shares or percent
+   says it; else whole numbers are answers. */
+static const double *cells_read(const struct csv *t, const struct judge_factor *condition, const int *columns, int n,
+                                bool *counted, struct arena *a, struct err *e)
 {
     static const char *const kinds[] = {"answers", "shares", "percent"};
-    const char *said = csv_comment(t, "cells");
-    int kind = said ? judge_place(kinds, 3, said) : -1;
-    double most = 0, x;
+    const char *stated = csv_comment(t, "cells");
+    int kind = stated ? judge_place(kinds, 3, stated) : -1;
+    double *cells = ARENA_TAKE(a, double, t->rows *(size_t)n), *sums = ARENA_TAKE(a, double, t->rows), most = 0;
     bool whole = true;
-    if (said && kind < 0)
-        return err_set(e, ERR_SCENE, "%s: '# cells: %s' is not answers, shares or percent", t->file, said);
-    for (int pass = 0; pass < 2; pass++) {
-        for (size_t i = 0; i < t->rows; i++) {
-            double sum = 0;
-            for (int k = 0; k < n; k++) {
-                if (!csv_number(t, i, columns[k], &x, e)) return false;
-                if (x < 0 || x > 1e9)
-                    return err_set(e, ERR_SCENE, "%s:%d: column '%s': %g is not from 0 to 1e9", t->file, t->lines[i],
-                                   t->names[columns[k]], x);
-                whole = whole && x == rint(x);
-                sum += x;
-            }
-            most = fmax(most, sum);
-            if (pass == 0) continue;
-            double want = kind == 1 ? 1 : 100;
-            if (!(kind ? fabs(sum - want) <= 0.02 * want : whole && sum > 0))
-                return err_set(e, ERR_SCENE,
-                               "%s:%d: the row of condition '%s' sums to %g: answers are whole numbers, more than 0 a "
-                               "row; shares sum to 1, percent to 100, within 2 %%",
-                               t->file, t->lines[i], condition->levels[condition->of_row[i]], sum);
+    if (stated && kind < 0)
+        err_set(e, ERR_SCENE, "%s: '# cells: %s' is not answers, shares or percent", t->file, stated);
+    for (size_t i = 0; i < t->rows && !e->kind; i++) {
+        for (int k = 0; k < n; k++) {
+            double *x = &cells[i * (size_t)n + (size_t)k];
+            if (csv_number(t, i, columns[k], x, e) && (*x < 0 || *x > 1e9))
+                err_set(e, ERR_SCENE, "%s:%d: column '%s': %g is not from 0 to 1e9", t->file, t->lines[i],
+                        t->names[columns[k]], *x);
+            whole = whole && *x == rint(*x);
+            sums[i] += *x;
         }
-        if (kind < 0) kind = whole ? 0 : most < 1.5 ? 1 : 2;
+        most = fmax(most, sums[i]);
     }
+    if (kind < 0) kind = whole ? 0 : most < 1.5 ? 1 : 2;
     *counted = kind == 0;
-    return true;
+    for (size_t i = 0; i < t->rows; i++) {
+        double sum = sums[i], want = kind == 1 ? 1 : 100;
+        if (!(*counted ? whole && sum > 0 : fabs(sum - want) <= 0.02 * want))
+            err_set(e, ERR_SCENE,
+                    "%s:%d: the row of condition '%s' sums to %g: answers are whole numbers, more than 0 a row; shares "
+                    "sum to 1, percent to 100, within 2 %%",
+                    t->file, t->lines[i], condition->levels[condition->of_row[i]], sum);
+        for (int k = 0; k < n && !*counted; k++)
+            cells[i * (size_t)n + (size_t)k] /= sum;
+    }
+    return cells;
 }
 
 static bool matrices_take(struct judge *j, const struct csv *t, struct judge_choices *m, struct err *e)
 {
     struct judge_factor condition;
     struct classes c = {0};
-    int played = judge_table_column(j, t, "played", true, e), of = judge_table_column(j, t, "condition", false, e);
-    int *columns = ARENA_TAKE(j->arena, int, t->columns);
-    if (e->kind || !judge_table_factor(t, of, j->arena, &condition, e)) return false;
+    int played = judge_table_column(j, t, "played", true, e), *columns = ARENA_TAKE(j->arena, int, t->columns);
+    if (e->kind || !judge_table_role(j, t, "condition", false, &condition, e)) return false;
     c.word = ARENA_TAKE(j->arena, const char *, t->columns);
     for (int k = 0; k < (int)t->columns; k++)
-        if (k != played && k != of) {
+        if (k != played && k != condition.column) {
             columns[c.n] = k;
             c.word[c.n++] = t->names[k];
         }
-    if (!kind_of(t, &condition, columns, c.n, &m->counted, e) || !group(j, &c, m, e)) return false;
     m->condition = condition.levels;
     m->conditions = condition.n;
-    if (!judge_table_open(j, m, e)) return false;
+    const double *cells = cells_read(t, &condition, columns, c.n, &m->counted, j->arena, e);
+    if (e->kind || !group(j, &c, m, e)) return false;
     bool *seen = ARENA_TAKE(j->arena, bool, m->conditions *c.n);
     for (size_t i = 0; i < t->rows; i++) {
-        int p;
-        double x, sum = 0;
+        int p, of = condition.of_row[i];
         if (!class_of(t, i, played, &c, j->arena, &p, e)) return false;
-        bool *there = &seen[condition.of_row[i] * c.n + p];
-        if (*there)
+        if (seen[of * c.n + p])
             return err_set(e, ERR_SCENE, "%s:%d: column '%s': '%s' of condition '%s' has a row already", t->file,
-                           t->lines[i], t->names[played], c.word[p], m->condition[condition.of_row[i]]);
-        *there = true;
+                           t->lines[i], t->names[played], c.word[p], m->condition[of]);
+        seen[of * c.n + p] = true;
         for (int k = 0; k < c.n; k++)
-            sum += csv_number(t, i, columns[k], &x, e) ? x : 0;
-        for (int k = 0; k < c.n && csv_number(t, i, columns[k], &x, e); k++)
-            *cell_of(m, condition.of_row[i], c.as[p], c.as[k]) += m->counted ? x : x / sum;
+            judge_table_row(m, of, c.as[p])[c.as[k]] += cells[i * (size_t)c.n + (size_t)k];
     }
     return true;
 }
@@ -257,34 +246,28 @@ bool judge_table_choices(struct judge *j, const char *file, struct judge_choices
     if (!csv_read(file, j->arena, &t, e)) return false;
     bool answers = judge_table_column(j, &t, "participant", false, e) >= 0;
     int chosen = judge_table_column(j, &t, "chosen", answers, e);
-    if (e->kind || !(chosen >= 0 ? answers_take(j, &t, chosen, m, e) : matrices_take(j, &t, m, e))) return false;
-    for (int c = 0; c < m->conditions; c++)
-        for (int p = 0; p < m->classes; p++) {
-            double sum = 0;
-            for (int k = 0; k < m->classes; k++)
-                sum += *cell_of(m, c, p, k);
-            if (sum == 0)
-                return err_set(e, ERR_SCENE, "%s: condition '%s': '%s' was never played: each needs every class", file,
-                               m->condition[c], m->class[p]);
-        }
+    return !e->kind && (chosen >= 0 ? answers_take(j, &t, chosen, m, e) : matrices_take(j, &t, m, e)) &&
+           judge_table_whole(m, e);
+}
+
+bool judge_table_whole(const struct judge_choices *m, struct err *e)
+{
+    for (int i = 0; i < m->conditions * m->classes; i++) {
+        double sum = 0;
+        for (int k = 0; k < m->classes; k++)
+            sum += m->cell[i * m->classes + k];
+        if (sum == 0)
+            return err_set(e, ERR_SCENE, "%s: condition '%s' has no '%s': each needs every class", m->file,
+                           m->condition[i / m->classes], m->class[i % m->classes]);
+    }
     return true;
 }
 
 const double *judge_table_shares(const struct judge_choices *m, int condition, struct arena *a)
 {
     double *shares = ARENA_TAKE(a, double, m->classes * m->classes);
-    choices_shares(cell_of(m, condition, 0, 0), m->classes, shares);
+    choices_shares(judge_table_row(m, condition, 0), m->classes, shares);
     return shares;
-}
-
-/* A word as a cell. */
-static void put_word(FILE *f, const char *word, char after)
-{
-    bool quoted = word[strcspn(word, ",\"\r\n")] != '\0';
-    if (quoted) fputc('"', f);
-    for (; *word; word++)
-        fprintf(f, *word == '"' ? "\"\"" : "%c", *word);
-    fprintf(f, quoted ? "\"%c" : "%c", after);
 }
 
 bool judge_table_write(struct judge *j, const struct judge_choices *m, struct err *e)
@@ -296,16 +279,21 @@ bool judge_table_write(struct judge *j, const struct judge_choices *m, struct er
         !cmd_spares(to, "the table", m->file, "-o OTHER.csv", e) || !outfile_open(&o, to, e))
         return false;
     int n = m->classes;
-    fprintf(o.stream, "# cells: %s\ncondition,played,", m->counted ? "answers" : "shares");
-    for (int k = 0; k < n; k++)
-        put_word(o.stream, m->class[k], k + 1 < n ? ',' : '\n');
+    fprintf(o.stream, "# cells: %s\ncondition,played", m->counted ? "answers" : "shares");
+    for (int k = 0; k < n; k++) {
+        fputc(',', o.stream);
+        tables_text(o.stream, m->class[k]);
+    }
     for (int i = 0; i < m->conditions * n; i++) {
-        put_word(o.stream, m->condition[i / n], ',');
-        put_word(o.stream, m->class[i % n], ',');
+        fputc('\n', o.stream);
+        tables_text(o.stream, m->condition[i / n]);
+        fputc(',', o.stream);
+        tables_text(o.stream, m->class[i % n]);
         for (int k = 0; k < n; k++) {
+            fputc(',', o.stream);
             csv_put_number(o.stream, m->cell[i * n + k]);
-            fputc(k + 1 < n ? ',' : '\n', o.stream);
         }
     }
+    fputc('\n', o.stream);
     return outfile_commit(&o, e);
 }
