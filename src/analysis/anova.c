@@ -4,7 +4,7 @@
    Arrays keep their size, so that each square counts as often as it should.
 
    Greenhouse and Geisser (Psychometrika 24, 1959, 95): epsilon = (tr S)^2/(df tr S^2), S the covariance of those parts
-   between cells. tr S^2 is had from the products of listeners' parts where these are fewer.
+   between cells. tr S^2 is computed from the products of listeners' parts where these are fewer.
 
    The studentized range (Copenhaver and Holland, J. Statist. Comput. Simul. 30, 1988, 1): with
        W(w) = k integral of phi(z) (Phi(z) - Phi(z - w))^(k-1) dz,  P(Q > q) = integral of f(s) (1 - W(q s)) ds,
@@ -161,6 +161,6 @@ double anova_tukey(const struct anova_design *d, const struct anova_effect *e, d
     int groups = 1;
     for (int k = 0; k < d->factors; k++)
         groups *= e->factors >> k & 1 ? d->levels[k] : 1;
-    double each = (double)d->people * d->cells / groups; /* values behind a mean */
+    double each = (double)d->people * d->cells / groups; /* values of each mean */
     return anova_studentized_range(fabs(difference) / sqrt(e->ss_error / e->df_error / each), groups, e->df_error);
 }

@@ -1,4 +1,4 @@
-/* A listener that is a program: it tells motions apart by how level and brightness of a sound go with time, and chooses
+/* A listener that is a program: it distinguishes motions by how level and brightness change over time, and chooses
    among classes of which it knows some sounds, the templates. See machine_listener.c. */
 #ifndef ANALYSIS_MACHINE_LISTENER_H
 #define ANALYSIS_MACHINE_LISTENER_H

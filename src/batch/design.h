@@ -61,7 +61,7 @@ struct design_trials {                   /* what listeners do with the stimuli (
     int asked;                           /* the factor whose level is the right answer; -1: none                 */
     struct design_answer *answers;       /* of RATE: words of the scale, from 0 to 100 at equal distances        */
     int n_answers;
-    int session, block;      /* factors whose levels are heard in different sessions, blocks; -1: none           */
+    int session, block;      /* factors whose levels are in different sessions, blocks; -1: none                 */
     int training;            /* trials that are drawn to begin each session with                                 */
     enum design_role *roles; /* [n_stimuli] what each is for                                                     */
     bool *for_training;      /* [n_stimuli] it is in trials of training alone                                    */

@@ -1,5 +1,5 @@
-/* `trials` of a design: what listeners do with the stimuli, once all else of it is known. The trials themselves are
-   made of it by trials.c, here to see that it can be done; nothing that is rendered depends on it. */
+/* `trials` of a design: what listeners do with the stimuli, once all else of it is known. trials.c makes
+   the trials; here they are made to check that this is possible. Nothing that is rendered depends on them. */
 #include <string.h>
 
 #include "base/text.h"
@@ -109,7 +109,7 @@ static bool *picked(const struct reading_trials *x, const char *key, int *n)
         is[i] = design_rows_match(d, d->stimuli[i].level, all, *n);
     for (int i = 0; i < *n && x->diag->n == 0; i++)
         if (!all[i].matched)
-            diag_add(x->diag, all[i].entry->at, "remove it, or mend it", "%s: no stimulus is so", label);
+            diag_add(x->diag, all[i].entry->at, "remove it, or mend it", "%s: no stimulus has these levels", label);
     return is;
 }
 

@@ -97,7 +97,7 @@ static bool stimulus_check(struct export *x, int i, struct err *e)
         return err_set(e, ERR_SCENE, "%s: %s %s: render the set first, by rasp batch", x->set, name,
                        strcmp(status, "failed") ? "is not there yet" : "has failed");
     if (!text_ends(export_manifest(x, i, "file_name"), ".wav"))
-        return err_set(e, ERR_SCENE, "%s: %s makes no sound that could be heard", x->set, name);
+        return err_set(e, ERR_SCENE, "%s: %s makes no sound", x->set, name);
     if (is_lost(name))
         return err_set(e, ERR_SCENE,
                        "%s: the stimulus '%s' would be read as a number or as nothing from a table: give the design a "
@@ -114,8 +114,8 @@ static bool stimulus_check(struct export *x, int i, struct err *e)
                            x->set, d->factors[f].column, value, name);
         if (d->stimuli[i].level[f] >= 0 && is_lost(value) && !text_double(value, &number))
             return err_set(e, ERR_SCENE,
-                           "%s: the label '%s' of %s would be read as something else from a table: call "
-                           "it otherwise",
+                           "%s: the label '%s' of %s would be read as something else from a table: give "
+                           "it another",
                            d->file, value, d->factors[f].name);
     }
     if (x->format->browser && !strcmp(export_manifest(x, i, "encoding"), "float64"))
@@ -354,7 +354,7 @@ static bool format_read(struct export *x, const struct args *g, struct err *e)
         words[i] = export_formats_table[i].name;
         list = arena_format(x->arena, "%s%s%s", list, i ? ", " : "", words[i]);
     }
-    if (!args_given(g, "for")) return err_set(e, ERR_USAGE, "--for: say for what the set is: %s", list);
+    if (!args_given(g, "for")) return err_set(e, ERR_USAGE, "--for is needed, one of: %s", list);
     if (!args_word(g, "for", words, &k, e)) return false;
     x->format = &export_formats_table[k];
     return true;
@@ -434,24 +434,23 @@ const struct command export_command = {
         "DESIGN is that of the set in FOLDER, which rasp batch has rendered; its trials (rasp-design(5)) say what "
         "listeners do. The folder that is made has the sounds, copied, a table of them with the columns of "
         "manifest.csv and its side-car, and:\n"
-        "webmushra: configs/NAME_p01.yaml for each participant, to be laid over a copy of webMUSHRA (which is not part "
-        "of this; PHP 7, or pymushra) and opened with ?config=NAME_p01.yaml. Trials with a reference are MUSHRA pages, "
-        "which want sounds of one length (length: longest); all others are Likert pages. webMUSHRA shuffles the sounds "
-        "of a page by itself. It has no page for two sounds that are compared.\n"
+        "webmushra: configs/NAME_p01.yaml for each participant, to be added to a copy of webMUSHRA (which is not "
+        "part of this; PHP 7, or pymushra) and opened with ?config=NAME_p01.yaml. Trials with a reference are MUSHRA "
+        "pages, which want sounds of one length (length: longest); all others are Likert pages. webMUSHRA shuffles "
+        "the sounds of a page by itself. It has no page for two sounds that are compared.\n"
         "psychopy: conditions_p01.csv, a row a trial, in order (loopType sequential), with file_1, file_2 and so on.\n"
         "jspsych: index.html and lists/p01.js, whose trials are timeline variables; npm install fetches jsPsych. "
         "page: the same without any library: buttons, or sliders. Both are opened as index.html?list=p01, from the "
-        "disk or from a server of files, and give answers_p01.csv, a row an answer, to be kept by the browser.\n"
+        "disk or from a server of files, and give answers_p01.csv, a row an answer, as a download.\n"
         "bids: stimuli/, and sub-01/beh/ with the trials of each participant, to be filled in; side-cars for all "
-        "columns. audiofolder: train/metadata.csv with its sounds, as Hugging Face's datasets read it; --splits shares "
-        "them out, replicates of a cell together.",
+        "columns. audiofolder: train/metadata.csv with its sounds, as Hugging Face's datasets read it; --splits "
+        "shares them out, replicates of a cell together.",
     .also =
-        "Where trials have a session, each participant has a list for each (p01_s1); each session comes at each place, "
-        "and "
-        "behind each other one, equally often. Orders are drawn from the seed: the same seed gives the same bytes "
-        "everywhere, and a "
-        "participant more changes nobody's order. In tables seeds begin with s: 64 bits do not survive where they are "
-        "read as numbers. The folder appears when it is complete; SHA256SUMS has what is in it.",
+        "Where trials have a session, each participant has a list for each (p01_s1); each session comes at each "
+        "place, and behind each other one, equally often. Orders are drawn from the seed: the same seed gives the "
+        "same bytes everywhere, and a participant more changes nobody's order. In tables seeds begin with s: 64 bits "
+        "do not survive where they are read as numbers. The folder appears when it is complete; SHA256SUMS has what "
+        "is in it.",
     .operands = "DESIGN FOLDER",
     .least = 2,
     .most = 2,

@@ -17,9 +17,7 @@
 #include "cmd/export.h"
 #include "file/json_value.h"
 
-/* ------------------------------------------------------------------ what all say of a trial */
-
-static const struct design_trials *said(const struct export *x) { return x->design->trials; }
+/* ------------------------------------------------------------------ what formats share of a trial */
 
 static const char *title(const struct export *x) { return x->design->title ? x->design->title : x->name; }
 
@@ -30,13 +28,13 @@ static const char *id_of(const struct export *x, const struct trial *t, struct a
 
 static const char *session_of(const struct export *x, const struct trial *t)
 {
-    int f = said(x)->session;
+    int f = x->design->trials->session;
     return f < 0 || t->session < 0 ? "n/a" : x->design->factors[f].levels[t->session].label;
 }
 
 static const char *role(const struct export *x, int i)
 {
-    const struct design_trials *w = said(x);
+    const struct design_trials *w = x->design->trials;
     return w->for_training[i] && w->roles[i] == DESIGN_ROLE_TEST ? "training" : design_trials_roles[w->roles[i]];
 }
 
@@ -44,12 +42,12 @@ static const char *role(const struct export *x, int i)
 static const char *played(const struct export *x, const struct trial *t)
 {
     int right = trials_right(&x->trials, t);
-    return right < 0 ? NULL : said(x)->answers[right].label;
+    return right < 0 ? NULL : x->design->trials->answers[right].label;
 }
 
 /* ------------------------------------------------------------------ webMUSHRA */
 
-/* JSON in block style; at: columns of the indentation; in_list: behind a dash. */
+/* JSON in block style; at: columns of the indentation; in_list: after a dash. */
 static void put_yaml(FILE *f, const json_t *value, int at, bool in_list)
 {
     const char *key;
@@ -83,14 +81,14 @@ static void put_yaml(FILE *f, const json_t *value, int at, bool in_list)
 /* HTML of question and text. */
 static const char *content(const struct export *x, const struct trial *t, struct arena *a)
 {
-    const char *question = said(x)->question, *html = "";
+    const char *question = x->design->trials->question, *html = "";
     if (question) html = arena_format(a, "<p>%s</p>", text_html(a, question));
     return t->text ? arena_format(a, "%s<p>%s</p>", html, text_html(a, t->text)) : html;
 }
 
 static json_t *webmushra_trial(struct export *x, const struct export_list *l, int k, struct err *e)
 {
-    const struct design_trials *w = said(x);
+    const struct design_trials *w = x->design->trials;
     const struct trial *t = &l->trials[k];
     struct arena *a = l->arena;
     bool several = t->n > 1, mushra = t->reference >= 0;
@@ -132,7 +130,7 @@ static json_t *webmushra_trial(struct export *x, const struct export_list *l, in
 
 static bool webmushra_files(struct export *x, struct err *e)
 {
-    return said(x)->task != DESIGN_TASK_COMPARE ||
+    return x->design->trials->task != DESIGN_TASK_COMPARE ||
            err_set(e, ERR_SCENE,
                    "%s: trials.task: webMUSHRA has no page on which one of two sounds is chosen; --for jspsych, page "
                    "and psychopy do",
@@ -142,9 +140,10 @@ static bool webmushra_files(struct export *x, struct err *e)
 static bool webmushra_list(struct export *x, const struct export_list *l, json_t *trials, struct err *e)
 {
     json_t *pages = json_array();
-    if (said(x)->instructions)
-        json_array_append_new(pages, json_value_object("type:s id:s name:s content:s", "generic", "instructions",
-                                                       "Instructions", text_html(l->arena, said(x)->instructions)));
+    if (x->design->trials->instructions)
+        json_array_append_new(pages,
+                              json_value_object("type:s id:s name:s content:s", "generic", "instructions",
+                                                "Instructions", text_html(l->arena, x->design->trials->instructions)));
     json_array_extend(pages, trials);
     json_array_append_new(pages,
                           json_value_object("type:s name:s content:s popupContent:s showResults:b writeResults:b",
@@ -161,7 +160,7 @@ static bool webmushra_list(struct export *x, const struct export_list *l, json_t
 
 /* ------------------------------------------------------------------ tables of trials: PsychoPy and BIDS */
 
-/* What columns mean; those of sounds have a number behind their name. */
+/* What columns mean; names of sounds' columns end in a number. */
 static const struct {
     const char *name, *meaning;
 } columns[] = {
@@ -193,7 +192,7 @@ static json_t *row_trial(struct export *x, const struct export_list *l, int k, s
 {
     const struct trial *t = &l->trials[k];
     bool bids = x->format->tabs;
-    const char *const read[] = {said(x)->question, t->text, played(x, t)};
+    const char *const read[] = {x->design->trials->question, t->text, played(x, t)};
     const char *const of_sound[] = {bids ? "stim_file" : "file", "stimulus", "role"};
     json_t *row =
         json_value_object("trial:i trial_id:s session:s block:i training:i question:s text:s played:s", k + 1,
@@ -236,7 +235,7 @@ static bool psychopy_list(struct export *x, const struct export_list *l, json_t 
 
 static bool psychopy_files(struct export *x, struct err *e)
 {
-    const struct design_trials *w = said(x);
+    const struct design_trials *w = x->design->trials;
     json_auto_t *answers = json_array();
     for (int i = 0; i < w->n_answers; i++)
         json_array_append_new(answers, json_value_object("answer:s text:s", w->answers[i].label, w->answers[i].text));
@@ -269,7 +268,7 @@ static bool bids_list(struct export *x, const struct export_list *l, json_t *tri
 /* The side-car of the tables of trials. */
 static json_t *bids_columns(struct export *x, struct err *e)
 {
-    const struct design_trials *w = said(x);
+    const struct design_trials *w = x->design->trials;
     const char *key;
     json_t *cell, *all = json_value_object("TaskName:s", task_name(x));
     json_value_set(all, "TaskDescription:? Instructions:?", w->question, w->instructions);
@@ -316,7 +315,8 @@ static json_t *script_sound(const struct export *x, int i, struct arena *a)
     const char *level = "";
     for (int f = 0; f < d->n_factors; f++) {
         json_object_set_new(levels, d->factors[f].column, json_value_text(design_value(d, i, f)));
-        if (said(x)->within[f]) level = arena_format(a, "%s%s%s", level, *level ? ", " : "", design_label(d, i, f));
+        if (x->design->trials->within[f])
+            level = arena_format(a, "%s%s%s", level, *level ? ", " : "", design_label(d, i, f));
     }
     return json_value_object("file:s stimulus_id:s role:s level:s levels:o", export_sound(x, i, a), d->stimuli[i].name,
                              role(x, i), level, levels);
@@ -335,7 +335,7 @@ static json_t *script_trial(struct export *x, const struct export_list *l, int k
 
 static bool script_list(struct export *x, const struct export_list *l, json_t *trials, struct err *e)
 {
-    const struct design_trials *w = said(x);
+    const struct design_trials *w = x->design->trials;
     struct arena *a = l->arena;
     json_t *answers = json_array();
     for (int i = 0; i < w->n_answers; i++)

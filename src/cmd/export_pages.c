@@ -1,7 +1,7 @@
 /* The pages of `rasp export`: what both have (study.js), the one that jsPsych runs, and the one without any library.
 
    index.html?list=p01 loads lists/p01.js, which sets `study` (export_formats.c, script_list). rows() makes rows of a
-   table of an answer: one for each sound that was rated, else one; save() lets the browser keep them. */
+   table of an answer: one for each sound that was rated, else one; save() offers them as a download. */
 #include "cmd/export.h"
 
 #define STYLE                                                                                                          \

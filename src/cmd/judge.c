@@ -214,13 +214,12 @@ const struct command judge_command = {
     .name = "judge",
     .summary = "what listeners made of the sounds: confusions, ratings, pairs",
     .does =
-        "rasp judge choices ANSWERS: confusion matrices of forced choices, with Wilson's intervals. A table has a row "
-        "for each answer (columns participant, condition, played, chosen; participant and condition may be missing), "
-        "or is matrices already (condition, played, and a column for each class that could be chosen: answers, "
-        "shares, or percent). With --reference each other condition is compared with it: equation 14 of Agarwal and "
-        "others (2021); the share of right answers by a permutation test over listeners, and by two one-sided t tests "
-        "of "
-        "equivalence; each row by chi-squared, which takes answers as independent.\n"
+        "rasp judge choices ANSWERS: confusion matrices of forced choices, with Wilson's intervals. A table has a "
+        "row for each answer (columns participant, condition, played, chosen; participant and condition may be "
+        "missing), or is matrices already (condition, played, and a column for each class that could be chosen: "
+        "answers, shares, or percent). With --reference each other condition is compared with it: equation 14 of "
+        "Agarwal and others (2021); the share of right answers by a permutation test over listeners, and by two "
+        "one-sided t tests of equivalence; each row by chi-squared, which takes answers as independent.\n"
         "rasp judge similarity TABLE...: equation 14 by both norms, of all conditions, against the first table's (or "
         "its --reference): 1 is the same matrix. The paper does not say which norm; the spectral one comes first.\n"
         "rasp judge ratings RATINGS: means, standard errors, and analysis of variance with repeated measures, of a "
@@ -228,11 +227,10 @@ const struct command judge_command = {
         "several ratings of one are averaged. epsilon is Greenhouse and Geisser's.",
     .also =
         "rasp judge pairs ANSWERS: paired comparisons (participant, a, b, answer A>B, A=B or B>A; set and condition "
-        "may "
-        "be missing): scores as of Conan and others (2014), analysis of variance of each condition's, Tukey's "
+        "may be missing): scores as of Conan and others (2014), analysis of variance of each condition's, Tukey's "
         "comparisons.\n"
-        "rasp judge listen SET --templates SET: a program listens. By level and brightness over time it compares each "
-        "sound of a set (rasp batch) with templates whose class it knows, and gives shares of answers: "
+        "rasp judge listen SET --templates SET: a program listens. By level and brightness over time it compares "
+        "each sound of a set (rasp batch) with templates whose class it knows, and gives shares of answers: "
         "exp(-d/(2 spread)), d the distance to the nearest template of a class. A template among the sounds is "
         "judged without itself. It is no model of a person.\n"
         "What is missing, unbalanced, unknown or twice there is an error with its place: nothing is left out or "

@@ -209,12 +209,10 @@ bool judge_choices_similarity(struct judge *j, struct err *e)
                 files[0]);
     for (int f = 0; files[f]; f++) {
         if (!judge_table_choices(j, files[f], &m, e)) return false;
-        for (int k = 0; k < m.classes; k++) {
-            int at = judge_place(first.class, first.classes, m.class[k]);
-            if (at != k || m.classes != first.classes)
+        for (int k = 0; k < m.classes; k++)
+            if (m.classes != first.classes || strcmp(m.class[k], first.class[k]) != 0)
                 return err_set(e, ERR_SCENE, "%s: its classes are not those of %s, or in another order: '%s'", files[f],
                                files[0], m.class[k]);
-        }
         for (int k = 0; k < m.conditions; k++) {
             if (f == 0 && k == reference) continue;
             const char *label = f == 0             ? m.condition[k]

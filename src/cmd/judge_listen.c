@@ -85,7 +85,7 @@ static bool add(struct judge *j, const char *set, bool templates, struct judge_c
             h->condition[h->n] = judge_add(a, &m->condition, &m->conditions, condition.levels[condition.of_row[i]]);
         h->n++;
     }
-    return h->n > before || err_set(e, ERR_SCENE, "%s: no row is as --where says", file);
+    return h->n > before || err_set(e, ERR_SCENE, "%s: no row matches --where", file);
 }
 
 /* How far apart takes of one class are, by which the listener errs: of templates, or --spread. */

@@ -139,18 +139,16 @@ double *judge_table_row(const struct judge_choices *m, int condition, int played
 
 /* ------------------------------------------------------------------ answers */
 
-static bool answers_take(struct judge *j, const struct csv *t, int chosen, struct judge_choices *m, struct err *e)
+static bool answers_take(struct judge *j, const struct csv *t, const struct judge_factor *condition, int chosen,
+                         struct judge_choices *m, struct err *e)
 {
-    struct judge_factor condition, played, person;
+    struct judge_factor played, person;
     struct classes c;
-    if (!judge_table_role(j, t, "condition", false, &condition, e) ||
-        !judge_table_role(j, t, "played", true, &played, e) ||
+    if (!judge_table_role(j, t, "played", true, &played, e) ||
         !judge_table_role(j, t, "participant", false, &person, e))
         return false;
     c.word = judge_words(j->call, "classes", &c.n, e);
     if (!c.n) c = (struct classes){played.levels, played.n, NULL};
-    m->condition = condition.levels;
-    m->conditions = condition.n;
     m->counted = true;
     m->person = person.levels;
     m->people = person.column < 0 ? 0 : person.n;
@@ -158,10 +156,10 @@ static bool answers_take(struct judge *j, const struct csv *t, int chosen, struc
     m->right = ARENA_TAKE(j->arena, double, m->people * m->conditions + 1);
     m->asked = ARENA_TAKE(j->arena, double, m->people * m->conditions + 1);
     for (size_t i = 0; i < t->rows; i++) {
-        int p, k, at = person.of_row[i] * m->conditions + condition.of_row[i];
+        int p, k, of = condition->of_row[i], at = person.of_row[i] * m->conditions + of;
         if (!class_of(t, i, played.column, &c, j->arena, &p, e) || !class_of(t, i, chosen, &c, j->arena, &k, e))
             return false;
-        judge_table_row(m, condition.of_row[i], c.as[p])[c.as[k]]++;
+        judge_table_row(m, of, c.as[p])[c.as[k]]++;
         if (!m->people) continue;
         m->asked[at]++;
         m->right[at] += c.as[p] == c.as[k];
@@ -171,8 +169,8 @@ static bool answers_take(struct judge *j, const struct csv *t, int chosen, struc
 
 /* ------------------------------------------------------------------ matrices */
 
-/* The rows [rows][n] of the columns. Are they answers, or shares (of 1 or of 100)? "# cells: answers", shares or percent
-   says it; else whole numbers are answers. */
+/* The rows [rows][n] of the columns. Are they answers, or shares (of 1 or of 100)? "# cells: answers", shares or
+   percent says it; else whole numbers are answers. */
 static const double *cells_read(const struct csv *t, const struct judge_factor *condition, const int *columns, int n,
                                 bool *counted, struct arena *a, struct err *e)
 {
@@ -209,25 +207,23 @@ static const double *cells_read(const struct csv *t, const struct judge_factor *
     return cells;
 }
 
-static bool matrices_take(struct judge *j, const struct csv *t, struct judge_choices *m, struct err *e)
+static bool matrices_take(struct judge *j, const struct csv *t, const struct judge_factor *condition,
+                          struct judge_choices *m, struct err *e)
 {
-    struct judge_factor condition;
     struct classes c = {0};
     int played = judge_table_column(j, t, "played", true, e), *columns = ARENA_TAKE(j->arena, int, t->columns);
-    if (e->kind || !judge_table_role(j, t, "condition", false, &condition, e)) return false;
+    if (e->kind) return false;
     c.word = ARENA_TAKE(j->arena, const char *, t->columns);
     for (int k = 0; k < (int)t->columns; k++)
-        if (k != played && k != condition.column) {
+        if (k != played && k != condition->column) {
             columns[c.n] = k;
             c.word[c.n++] = t->names[k];
         }
-    m->condition = condition.levels;
-    m->conditions = condition.n;
-    const double *cells = cells_read(t, &condition, columns, c.n, &m->counted, j->arena, e);
+    const double *cells = cells_read(t, condition, columns, c.n, &m->counted, j->arena, e);
     if (e->kind || !group(j, &c, m, e)) return false;
     bool *seen = ARENA_TAKE(j->arena, bool, m->conditions *c.n);
     for (size_t i = 0; i < t->rows; i++) {
-        int p, of = condition.of_row[i];
+        int p, of = condition->of_row[i];
         if (!class_of(t, i, played, &c, j->arena, &p, e)) return false;
         if (seen[of * c.n + p])
             return err_set(e, ERR_SCENE, "%s:%d: column '%s': '%s' of condition '%s' has a row already", t->file,
@@ -242,11 +238,13 @@ static bool matrices_take(struct judge *j, const struct csv *t, struct judge_cho
 bool judge_table_choices(struct judge *j, const char *file, struct judge_choices *m, struct err *e)
 {
     struct csv t;
-    *m = (struct judge_choices){.file = file};
-    if (!csv_read(file, j->arena, &t, e)) return false;
+    struct judge_factor condition;
+    if (!csv_read(file, j->arena, &t, e) || !judge_table_role(j, &t, "condition", false, &condition, e)) return false;
+    *m = (struct judge_choices){.file = file, .conditions = condition.n, .condition = condition.levels};
     bool answers = judge_table_column(j, &t, "participant", false, e) >= 0;
     int chosen = judge_table_column(j, &t, "chosen", answers, e);
-    return !e->kind && (chosen >= 0 ? answers_take(j, &t, chosen, m, e) : matrices_take(j, &t, m, e)) &&
+    return !e->kind &&
+           (chosen >= 0 ? answers_take(j, &t, &condition, chosen, m, e) : matrices_take(j, &t, &condition, m, e)) &&
            judge_table_whole(m, e);
 }
 
