@@ -127,6 +127,12 @@ export_as choose webmushra -p 1
 sed 's/reference: [^ ]* real}], //' rate.yaml > likert.yaml
 ln -s set_rate set_likert
 export_as likert webmushra
+# training with a reference of its own
+sed 's/anchors/training: [{speed: slow}], anchors/' rate.yaml > trained.yaml
+ln -s set_rate set_trained
+export_as trained webmushra
+export_as trained psychopy
+cut -d, -f4,5,16-18 trained.psychopy/conditions_p01.csv
 export_as compare audiofolder --splits train=4,validation=1,test=1
 export_as rate audiofolder
 echo "-- takes of a cell stay together"
