@@ -109,19 +109,16 @@ static bool stimulus_check(struct export *x, int i, struct err *e)
         if (csv_column(&x->manifest, d->factors[f].column) < 0 ||
             strcmp(export_manifest(x, i, d->factors[f].column), value) != 0)
             return err_set(e, ERR_SCENE,
-                           "%s: %s is not the %s of %s: is it the set of another design, or of an "
-                           "earlier state of it?",
+                           "%s: %s is not the %s of %s: is it the set of another design, or of an earlier state of it?",
                            x->set, d->factors[f].column, value, name);
         if (d->stimuli[i].level[f] >= 0 && is_lost(value) && !text_double(value, &number))
             return err_set(e, ERR_SCENE,
-                           "%s: the label '%s' of %s would be read as something else from a table: give "
-                           "it another",
+                           "%s: the label '%s' of %s would be read as something else from a table: give it another",
                            d->file, value, d->factors[f].name);
     }
     if (x->format->browser && !strcmp(export_manifest(x, i, "encoding"), "float64"))
         return err_set(e, ERR_SCENE,
-                       "%s: %s is float64, which browsers do not play: set: {output.encoding: pcm24} in "
-                       "the design",
+                       "%s: %s is float64, which browsers do not play: set: {output.encoding: pcm24} in the design",
                        x->set, name);
     return true;
 }
@@ -446,11 +443,10 @@ const struct command export_command = {
         "columns. audiofolder: train/metadata.csv with its sounds, as Hugging Face's datasets read it; --splits "
         "shares them out, replicates of a cell together.",
     .also =
-        "Where trials have a session, each participant has a list for each (p01_s1); each session comes at each "
-        "place, and behind each other one, equally often. Orders are drawn from the seed: the same seed gives the "
-        "same bytes everywhere, and a participant more changes nobody's order. In tables seeds begin with s: 64 bits "
-        "do not survive where they are read as numbers. The folder appears when it is complete; SHA256SUMS has what "
-        "is in it.",
+        "Where trials have a session, each participant has a list for each (p01_s1); each session comes at each place, "
+        "and behind each other one, equally often. Orders are drawn from the seed: the same seed gives the same bytes "
+        "everywhere, and a participant more changes nobody's order. In tables seeds begin with s: 64 bits do not "
+        "survive where they are read as numbers. The folder appears when it is complete; SHA256SUMS has what is in it.",
     .operands = "DESIGN FOLDER",
     .least = 2,
     .most = 2,

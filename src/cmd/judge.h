@@ -60,7 +60,7 @@ bool judge_table_role(const struct judge *j, const struct csv *t, const char *ro
 struct judge_choices { /* confusion matrices */
     const char *file;
     int conditions, classes;
-    const char **condition, **class;
+    const char **condition, **class_name;
     double *cell; /* [conditions][classes played][classes chosen]: answers, or shares */
     bool counted; /* answers                                                         */
     int people;   /* listeners; 0: not known                                          */

@@ -26,7 +26,7 @@ static int widest(const struct judge_choices *m)
 {
     int width = 7;
     for (int k = 0; k < m->classes; k++)
-        width = (int)fmax(width, (double)text_utf8_count(m->class[k], strlen(m->class[k])));
+        width = (int)fmax(width, (double)text_utf8_count(m->class_name[k], strlen(m->class_name[k])));
     return width;
 }
 
@@ -40,16 +40,16 @@ static void report_row_of(struct judge *j, const struct judge_choices *m, int c,
     int width = widest(m);
     for (int k = 0; k < m->classes; k++)
         n += cell[k];
-    report_text(r, "  %-*s", width, m->class[p]);
+    report_text(r, "  %-*s", width, m->class_name[p]);
     for (int k = 0; k < m->classes; k++) {
         double hold[2] = {0};
         if (m->counted) choices_wilson(cell[k], n, z, hold);
         low[k] = hold[0];
         high[k] = hold[1];
         report_text(r, " %*.1f", width, 100 * share[k]);
-        judge_figure(j, 100 * share[k], "%s/%s/%s", m->condition[c], m->class[p], m -> class[k]);
+        judge_figure(j, 100 * share[k], "%s/%s/%s", m->condition[c], m->class_name[p], m->class_name[k]);
     }
-    report_set(r, ":{ played:s shares:a", m->class[p], share, m -> classes);
+    report_set(r, ":{ played:s shares:a", m->class_name[p], share, m->classes);
     if (m->counted) {
         report_text(r, " %7.0f   %.1f to %.1f", n, 100 * low[p], 100 * high[p]);
         report_set(r, "answers:n low:a high:a", n, low, m->classes, high, m->classes);
@@ -81,7 +81,7 @@ static void report_matrix(struct judge *j, const struct judge_choices *m, int c,
     }
     report_text(r, "\n  %-*s", width, "");
     for (int k = 0; k < n; k++)
-        report_text(r, " %*s", width, m->class[k]);
+        report_text(r, " %*s", width, m->class_name[k]);
     report_text(r, m->counted ? " answers   right\n" : "\n");
     report_list(r, "rows");
     for (int p = 0; p < n; p++)
@@ -110,8 +110,7 @@ static bool differences(const struct judge_choices *m, int c, int reference, dou
         int none = asked[c] == 0 ? c : reference;
         if (asked[none] == 0)
             return err_set(e, ERR_SCENE,
-                           "%s: listener '%s' has no answers of condition '%s': comparison in pairs needs "
-                           "both of each",
+                           "%s: listener '%s' has no answers of condition '%s': comparison in pairs needs both of each",
                            m->file, m->person[i], m->condition[none]);
         d[i] = 100 * (right[c] / asked[c] - right[reference] / asked[reference]);
     }
@@ -139,9 +138,9 @@ static bool report_pair(struct judge *j, const struct judge_choices *m, int c, i
     report_list(r, "chi_squared");
     for (int k = 0; k < m->classes && m->counted; k++) {
         double x = choices_chi_squared(judge_table_row(m, c, k), judge_table_row(m, reference, k), m->classes, &df, &p);
-        report_row(r, arena_format(j->arena, "  %s", m->class[k]), "chi-squared %.4g, %d degrees of freedom, p %.4g", x,
-                   df, p);
-        report_set(r, ":{ played:s x:n df:i p:n }", m->class[k], x, df, p);
+        report_row(r, arena_format(j->arena, "  %s", m->class_name[k]),
+                   "chi-squared %.4g, %d degrees of freedom, p %.4g", x, df, p);
+        report_set(r, ":{ played:s x:n df:i p:n }", m->class_name[k], x, df, p);
     }
     report_end(r);
     return true;
@@ -162,7 +161,7 @@ bool judge_choices_report(struct judge *j, const struct judge_choices *m, struct
     int reference;
     struct report *r = &j->report;
     if (!options_of(j, m, &o, e) || !reference_of(j, m, -1, &reference, e)) return false;
-    report_set(r, "file:v classes:t conditions:[", m->file, m->class, m->classes);
+    report_set(r, "file:v classes:t conditions:[", m->file, m->class_name, m->classes);
     if (m->people) judge_figure(j, m->people, "listeners");
     for (int c = 0; c < m->conditions; c++)
         report_matrix(j, m, c, &o);
@@ -210,9 +209,9 @@ bool judge_choices_similarity(struct judge *j, struct err *e)
     for (int f = 0; files[f]; f++) {
         if (!judge_table_choices(j, files[f], &m, e)) return false;
         for (int k = 0; k < m.classes; k++)
-            if (m.classes != first.classes || strcmp(m.class[k], first.class[k]) != 0)
+            if (m.classes != first.classes || strcmp(m.class_name[k], first.class_name[k]) != 0)
                 return err_set(e, ERR_SCENE, "%s: its classes are not those of %s, or in another order: '%s'", files[f],
-                               files[0], m.class[k]);
+                               files[0], m.class_name[k]);
         for (int k = 0; k < m.conditions; k++) {
             if (f == 0 && k == reference) continue;
             const char *label = f == 0             ? m.condition[k]

@@ -78,8 +78,8 @@ static bool add(struct judge *j, const char *set, bool templates, struct judge_c
         h->file[h->n] = sound;
         if (!listen(j, sound, &h->sound[h->n], e)) return err_at(e, "%s:%d", file, t.lines[i]);
         if (templates)
-            h->sound[h->n].class = judge_add(a, &m->class, &m->classes, word);
-        else if ((h->sound[h->n].class = judge_place(m->class, m->classes, word)) < 0)
+            h->sound[h->n].class = judge_add(a, &m->class_name, &m->classes, word);
+        else if ((h->sound[h->n].class = judge_place(m->class_name, m->classes, word)) < 0)
             return err_set(e, ERR_SCENE, "%s: no template is a '%s', which %s is", m->file, word, sound);
         else
             h->condition[h->n] = judge_add(a, &m->condition, &m->conditions, condition.levels[condition.of_row[i]]);
@@ -117,7 +117,7 @@ static bool judge_all(struct judge *j, const struct sounds *s, const struct soun
         }
         if (!others)
             return err_set(e, ERR_SCENE, "%s: is the only template of '%s': it cannot be judged by itself", s->file[i],
-                           m->class[played]);
+                           m->class_name[played]);
         machine_listener_choose(&s->sound[i], t->sound, t->n, skip, m->classes, spread, share);
         double *row = judge_table_row(m, s->condition[i], played);
         for (int k = 0; k < m->classes; k++) {

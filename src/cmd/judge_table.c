@@ -103,7 +103,7 @@ static bool group(struct judge *j, struct classes *c, struct judge_choices *m, s
         }
     }
     for (int i = 0; i < c->n && !e->kind; i++) /* in the classes' order */
-        c->as[i] = judge_add(j->arena, &m->class, &m->classes, c->as[i] < 0 ? c->word[i] : given[c->as[i]]);
+        c->as[i] = judge_add(j->arena, &m->class_name, &m->classes, c->as[i] < 0 ? c->word[i] : given[c->as[i]]);
     return judge_table_open(j, m, e);
 }
 
@@ -256,7 +256,7 @@ bool judge_table_whole(const struct judge_choices *m, struct err *e)
             sum += m->cell[i * m->classes + k];
         if (sum == 0)
             return err_set(e, ERR_SCENE, "%s: condition '%s' has no '%s': each needs every class", m->file,
-                           m->condition[i / m->classes], m->class[i % m->classes]);
+                           m->condition[i / m->classes], m->class_name[i % m->classes]);
     }
     return true;
 }
@@ -280,13 +280,13 @@ bool judge_table_write(struct judge *j, const struct judge_choices *m, struct er
     fprintf(o.stream, "# cells: %s\ncondition,played", m->counted ? "answers" : "shares");
     for (int k = 0; k < n; k++) {
         fputc(',', o.stream);
-        tables_text(o.stream, m->class[k]);
+        tables_text(o.stream, m->class_name[k]);
     }
     for (int i = 0; i < m->conditions * n; i++) {
         fputc('\n', o.stream);
         tables_text(o.stream, m->condition[i / n]);
         fputc(',', o.stream);
-        tables_text(o.stream, m->class[i % n]);
+        tables_text(o.stream, m->class_name[i % n]);
         for (int k = 0; k < n; k++) {
             fputc(',', o.stream);
             csv_put_number(o.stream, m->cell[i * n + k]);
