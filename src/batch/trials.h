@@ -2,8 +2,8 @@
    has them.
 
    Stimuli that share the levels of all factors but those within a trial, and the replicate, are presented together:
-   rated in one trial, or compared two by two. Orders are drawn by Philox streams whose names are the stimuli's: a participant
-   more changes nobody's order, and a trial more comes in between the others. */
+   rated in one trial, or compared two by two. Orders are drawn by Philox streams whose names are the stimuli's: a
+   participant more changes nobody's order, and a trial more comes in between the others. */
 #ifndef BATCH_TRIALS_H
 #define BATCH_TRIALS_H
 #include "batch/design.h"
@@ -34,8 +34,8 @@ struct trials {
    `trials`. */
 bool trials_make(const struct design *d, struct arena *a, struct trials *t, struct err *e);
 
-/* The trials of one participant (from 1) in one sitting (from 1). Sessions: by a Latin square in which each comes at each
-   place, and behind each other, equally often over participants (Williams 1949). Training first; then blocks and
+/* The trials of one participant (from 1) in one sitting (from 1). Sessions: by a Latin square in which each comes at
+   each place, and after each other, equally often over participants (Williams 1949). Training first; then blocks and
    trials, shuffled. */
 struct trial *trials_list(const struct trials *t, uint64_t seed, int participant, int sitting, struct arena *a, int *n);
 

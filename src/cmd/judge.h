@@ -47,7 +47,7 @@ struct judge_factor { /* a column whose cells are words */
     int n, *of_row;      /* of_row [rows]: which level it is */
 };
 
-/* The column of that role; `--column ROLE=NAME` gives it another name. -1: it is not there (ERR_SCENE if it must be). */
+/* The column of that role; `--column ROLE=NAME` names another. -1: it is not there (ERR_SCENE if it must be). */
 int judge_table_column(const struct judge *j, const struct csv *t, const char *role, bool must, struct err *e);
 
 /* ERR_SCENE: an empty cell, more than JUDGE_LEVELS levels. column < 0: one level, "all". */
