@@ -275,8 +275,8 @@ static json_t *bids_columns(struct export *x, struct err *e)
     json_auto_t *row = row_trial(x, &(struct export_list){.trials = x->trials.all, .arena = x->arena}, 0, e);
     json_object_foreach(row, key, cell)
     {
-        size_t c = 0, bare = strcspn(key, "0123456789");
-        size_t n = key[bare] ? bare - 1 : bare;
+        size_t c = 0, n = strcspn(key, "0123456789");
+        n -= key[n] != '\0'; /* "stimulus_1": without _1 */
         while (strncmp(columns[c].name, key, n) != 0 || columns[c].name[n])
             c++;
         json_t *one = json_value_object("Description:s", columns[c].meaning), *levels = json_object();
@@ -295,15 +295,18 @@ static bool bids_files(struct export *x, struct err *e)
     struct arena *a = x->arena;
     const char *about = "An experiment in listening, to be carried out. The sounds and what they were made from are in "
                         "stimuli/.";
-    const char *people = "participant_id\n";
+    if (!export_json(x, "dataset_description.json",
+                     json_value_object("Name:s BIDSVersion:s DatasetType:s", title(x), "1.9.0", "raw"), e) ||
+        !export_text(x, "README", arena_format(a, "%s\n\n%s\n", title(x), about), e) ||
+        !export_text(x, ".bidsignore", "SHA256SUMS\n", e) || !x->trials.n)
+        return !e->kind;
+    if (!export_json(x, arena_format(a, "task-%s_beh.json", task_name(x)), bids_columns(x, e), e) ||
+        !export_open(x, "participants.tsv", e))
+        return false;
+    fputs("participant_id\n", x->stream);
     for (int p = 1; p <= x->people; p++)
-        people = arena_format(a, "%ssub-%s\n", people, export_person(x, p, a));
-    return export_json(x, "dataset_description.json",
-                       json_value_object("Name:s BIDSVersion:s DatasetType:s", title(x), "1.9.0", "raw"), e) &&
-           export_text(x, "README", arena_format(a, "%s\n\n%s\n", title(x), about), e) &&
-           export_text(x, ".bidsignore", "SHA256SUMS\n", e) &&
-           (!x->trials.n || (export_json(x, arena_format(a, "task-%s_beh.json", task_name(x)), bids_columns(x, e), e) &&
-                             export_text(x, "participants.tsv", people, e)));
+        fprintf(x->stream, "sub-%s\n", export_person(x, p, a));
+    return export_close(x, e);
 }
 
 /* ------------------------------------------------------------------ jsPsych, and a page without library */
