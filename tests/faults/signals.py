@@ -30,6 +30,7 @@ base: BASE.yaml
 seed: 1
 factors: {motion.rate: [1 Hz, 2 Hz, 3 Hz, 4 Hz, 5 Hz, 6 Hz]}
 level: {common: {peak: -3 dB}}
+trials: {task: choose, answers: [x, y]}
 """
 PLATE = ["out.wav", "out.csv", "out.force.wav", "out.surface.wav", "out.scene.yaml", "out.json"]
 
@@ -81,7 +82,7 @@ COMMANDS = {
     "batch, one at a time": (["batch", "../in/design.yaml", "-o", "set", "-j", "1"], None),
     "batch, opening": (["batch", "../in/balls.yaml", "-o", "set", "-j", "2"], None),
     "batch, joining shards": (["batch", "../in/shorts.yaml", "-o", "set", "--no-render"], None),
-    "export": (["export", "../in/shorts.yaml", "../in/ready", "--for", "audiofolder", "-o", "data"], ["data/SHA256SUMS"] + ["data/train/" + f for f in ("metadata.csv", "metadata.json", "1Hz.wav", "2Hz.wav", "3Hz.wav", "4Hz.wav", "5Hz.wav", "6Hz.wav")]),
+    "export": (["export", "../in/shorts.yaml", "../in/ready", "--for", "page", "--participants", "10000", "-o", "data"], ["data/" + f for f in ("SHA256SUMS", "index.html", "lists/p00001.js", "lists/p10000.js", "stimuli/6Hz.wav")]),
     "golden check": (["golden", "check", "../in/plate.yaml", "--kept", "kept", "-j", "2"], []),
     "golden update": (["golden", "update", "../in/plate.yaml", "--kept", "kept", "-j", "2"], None),
     "surface synth": (["surface", "synth", "--size", "3cmx2cm", "--pitch", "5um", ROOT + "/surfaces/sandpaper.yaml", "out.gsf"], ["out.gsf"]),
