@@ -200,7 +200,8 @@ static const char **warnings_of(const struct measure *m, const struct wav_writte
     if (m->frames < m->own && m->end > 1e-4 * m->before)
         all[n++] = arena_format(
             a, "length: the recording is cut at %.4g s of %.4g s, where it is %.1f dB below its peak before the ramp",
-            (double)m->frames / m->rate, (double)m->own / m->rate, fmax(0, -20 * real_log10(m->end / m->before)));
+            (double)m->frames / m->rate, (double)m->own / m->rate,
+            fmax(0, -20 * real_log10(m->end / m->before)) + 0.0); /* not -0 */
     return all;
 }
 

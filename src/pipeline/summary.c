@@ -128,7 +128,7 @@ static void warn_cut(const struct scene *s, struct render_report *report, struct
              (double)l->frames / rate, (double)l->natural / rate,
              (double)l->frames + 1e-3 * rate < (double)l->motion ? "where the motion still goes on, and the sound is"
                                                                  : "where the sound is",
-             fmax(0, -decibel(o->end / o->before_ramps))));
+             fmax(0, -decibel(o->end / o->before_ramps)) + 0.0)); /* not -0 */
 }
 
 void summary_warnings(const struct scene *s, const struct run *const *runs, struct render_report *report,
