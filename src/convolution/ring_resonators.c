@@ -14,14 +14,8 @@
 #include "convolution/ring.h"
 #include "num/real.h"
 
-/* Nodes that ring out are dropped when they have fallen by 100 dB, and where gain_ramp is less than 64 by 12 dB more
-   for each halving, as the error of the nodes falls. Where an error is asked for, they fall 20 dB below it: the end of
-   a sound is beyond what pilot runs compare. */
-static double node_floor(const struct accuracy *a, double ramp)
-{
-    double floor = 1e-5 * fmin(ramp * ramp / (64 * 64), 1);
-    return isnan(a->error) ? floor : fmin(floor, 0.1 * real_exp10(a->error / 20));
-}
+/* Nodes that ring out are dropped when they have fallen by 180 dB. */
+#define NODE_FLOOR 1e-9
 
 struct bank {
     struct resonators *bank; /* or, of a soft onset,                       */
@@ -173,7 +167,7 @@ static bool ring_launch_open(struct stage_run *r, struct err *e)
         struct launch_ask ask = {.n = v->n,
                                  .rate = r->board->rate,
                                  .hop = ring_choice_hop(s->ring.choice, &r->scene->accuracy),
-                                 .floor = node_floor(&r->scene->accuracy, s->ring.ramp),
+                                 .floor = NODE_FLOOR,
                                  .quantity = listener_quantity(v->listener)};
         s->outputs[k].engine = launch_open(&ask, launching_point, &s->outputs[k]);
     }
