@@ -18,6 +18,7 @@
     SIGRTMIN /* wakes the thread that waits; not pthread_cancel, whose unwinding the address sanitizer takes for a     \
                 fault */
 #define GRACE 250000000 /* ns */
+enum { AGAIN = 1000 };
 #define WORDS 100000000 /* ns: for who is telling it, and ends the program then */
 
 struct temporary {
@@ -117,7 +118,8 @@ static _Noreturn void end(void)
     }
     pthread_mutex_lock(&lock);
     for (const struct temporary *t = temporaries; t; t = t->next)
-        nftw(t->path, remove_one, 16, FTW_DEPTH | FTW_PHYS);
+        for (int k = 0; k < AGAIN && nftw(t->path, remove_one, 16, FTW_DEPTH | FTW_PHYS) == 0; k++)
+            continue; /* until it is not there: another thread may still have made a file in the folder */
     _exit(ERR_INTERRUPTED);
 }
 
