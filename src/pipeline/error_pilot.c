@@ -36,26 +36,28 @@ enum {
 
 /* What of a contact's force is heard: the power of its sound over that of the force, by frequency. */
 
-/* power[PILOT_BINS] of the contact's sound at a place (m) that is touched and left: its response to a unit impulse,
-   all listening places together, of the first AUDIBLE_FRAMES frames (what rings longer is counted less than it rings:
-   all of it, by the same bands). Where nothing rings, and of a contact whose gain is 0, it is 1: the force itself.
+/* power[bins] of the contact's sound at a place (m) that is touched and left: its response to a unit impulse,
+   all listening places together, of the first AUDIBLE_FRAMES frames and, by how these fall, of what rings on. Where
+   nothing rings, and of a contact whose gain is 0, it is 1: the force itself.
    Errors: those of plans and stages. */
 enum { AUDIBLE_FRAMES = 8192 };
 
 /* The contact is replaced by a strike far shorter than a sample, and its sound by the scene's own stages: whatever
    rings (modes, recordings, an object, scraper and surface) and however it is heard needs no second formula here.
 
-     |H(f)|^2 = sum over channels |FFT of the sound|^2 / |FFT of the force|^2      means over 1/512 of
-       the band */
+     |H(f)|^2 = sum over channels |FFT of the sound|^2 / |FFT of the force|^2      means over 1/(bins - 1) of the band
+
+   contact.enhance belongs to it: what it enhances rings longer than the force that it is given. */
 #define SHORT 1e-7        /* s, of the strike */
 #define LEAST_PUSHED 1e-8 /* of the force's power at 0 Hz: the contact smooths, and the decimator has its edge */
 enum { FIRST = 64 };      /* frames before it: the decimator's reach and more */
+#define LONGEST 60.0      /* s of what rings */
+#define FADED 10.0        /* beta from which all is within 10 % of what is under the fade */
 
 static void strike(struct contact *c, const double place[2], double rate, struct arena *a)
 {
     double mass = 0.01;
     c->start = 0;
-    *(bool *)params_edit(c, enhance_stage.params, a) = false; /* the pilot's force has it */
     c->contact.model = CONTACT_STRIKE;
     *(struct strike *)params_edit(c, strike_stage.params, a) =
         (struct strike){.pulse = PULSE_HALF_SINE,
@@ -71,40 +73,93 @@ static void strike(struct contact *c, const double place[2], double rate, struct
 }
 
 /* What still rings at the end would leak to where the object does not. */
-static double fade(long n)
+static double fade(double u)
 {
-    double c = real_sinpi(0.5 + 0.5 * (double)n / AUDIBLE_FRAMES);
+    double c = real_sinpi(0.5 + 0.5 * u);
     return c * c;
 }
 
-static bool measure(struct run *r, struct arena *a, double *power, struct err *e)
+/* int_0^1 e^(-beta u) sum_k a_k cos(step k pi u) du, k = 0 .. 2. */
+static double falling(double beta, const double a[3], int step)
 {
-    enum { WIDE = AUDIBLE_FRAMES / 2 / (PILOT_BINS - 1), FINE = AUDIBLE_FRAMES / 2 + 1 };
-    int channels = r->board.channels;
-    double *force = ARENA_TAKE(a, double, AUDIBLE_FRAMES),
-           *sound = ARENA_TAKE(a, double, (size_t)channels *AUDIBLE_FRAMES), *re = ARENA_TAKE(a, double, FINE),
-           *im = ARENA_TAKE(a, double, FINE), *pushed = ARENA_TAKE(a, double, FINE);
+    double sum = 0;
+    for (int k = 0; k < 3; k++) {
+        double w = step * k * REAL_PI, end = (step * k % 2 ? -1 : 1) * real_exp(-beta);
+        sum += a[k] * beta * (1 - end) / (beta * beta + w * w);
+    }
+    return sum;
+}
+
+/* What a mode leaves out under the fade, over what it has under the last window (add_bands): its energy falls like
+   e^(-beta u), u in units of AUDIBLE_FRAMES. */
+static double left_over_end(double beta)
+{
+    static const double fade2[3] = {0.375, 0.5, 0.125}, window2[3] = {0.375, -0.5, 0.125};
+    return (1 / beta - falling(beta, fade2, 1)) / (0.5 * real_exp(-beta / 2) * falling(beta / 2, window2, 2));
+}
+
+struct spectra { /* of AUDIBLE_FRAMES frames */
+    struct fft *fft;
+    double *x, *re, *im;
+    double *pushed; /* power of the force */
+    int bins, wide; /* bands, and bins of these spectra in one */
+};
+
+enum { FINE = AUDIBLE_FRAMES / 2 + 1 };
+
+/* Adds to each band what the sound has there of the force, from frame `first` on, under a window of so many frames
+   that falls, or that rises and falls. */
+static void add_bands(struct spectra *s, const double *sound, long first, long frames, bool rises, double *power)
+{
+    double each = 1.0 / (double)frames;
+    memset(s->x, 0, AUDIBLE_FRAMES * sizeof *s->x);
+    for (long i = 0; i < frames; i++)
+        s->x[first + i] = sound[first + i] * fade(rises ? 2 * each * (double)i - 1 : each * (double)i);
+    fft_forward(s->fft, s->x, s->re, s->im);
+    for (int i = 0; i < FINE; i++)
+        power[(i + s->wide / 2) / s->wide] += (s->re[i] * s->re[i] + s->im[i] * s->im[i]) / s->pushed[i];
+}
+
+/* What rings longer is added: it falls as it fell from the middle half of what is run to the second half, but at least
+   as the sound does in all. */
+static bool measure(struct run r[2], enum item item, int bins, struct arena *a, double *power, struct err *e)
+{
+    const struct board *b = &r[1].board;
+    int channels = item == ITEM_SOUND ? b->channels : 1;
+    double *force = ARENA_TAKE(a, double, AUDIBLE_FRAMES), *middle = ARENA_TAKE(a, double, bins),
+           *end = ARENA_TAKE(a, double, bins), *sound = ARENA_TAKE(a, double, (size_t)channels *AUDIBLE_FRAMES);
+    struct spectra s = {.x = ARENA_TAKE(a, double, AUDIBLE_FRAMES),
+                        .re = ARENA_TAKE(a, double, FINE),
+                        .im = ARENA_TAKE(a, double, FINE),
+                        .pushed = ARENA_TAKE(a, double, FINE),
+                        .bins = bins,
+                        .wide = AUDIBLE_FRAMES / 2 / (bins - 1)};
     for (long from = 0; from < AUDIBLE_FRAMES; from += STAGE_BLOCK) {
-        if (!run_block(r, from + STAGE_BLOCK, e)) return false;
-        const double *x = board_at(&r->board, ITEM_SOUND, from);
-        memcpy(force + from, board_at(&r->board, ITEM_FORCE, from), STAGE_BLOCK * sizeof *force);
+        if (!run_block(&r[0], from + STAGE_BLOCK, e) || !run_block(&r[1], from + STAGE_BLOCK, e)) return false;
+        const double *x = board_at(b, item, from);
+        memcpy(force + from, board_at(&r[0].board, ITEM_FORCE, from), STAGE_BLOCK * sizeof *force);
         for (long i = 0; i < STAGE_BLOCK; i++)
             for (int k = 0; k < channels; k++)
-                sound[k * (long)AUDIBLE_FRAMES + from + i] = x[i * channels + k] * fade(from + i);
+                sound[k * (long)AUDIBLE_FRAMES + from + i] = x[i * channels + k];
     }
-    struct fft *f = fft_open(AUDIBLE_FRAMES);
-    fft_forward(f, force, re, im);
+    s.fft = fft_open(AUDIBLE_FRAMES);
+    fft_forward(s.fft, force, s.re, s.im);
     for (int i = 0; i < FINE; i++)
-        pushed[i] = fmax(re[i] * re[i] + im[i] * im[i], LEAST_PUSHED * re[0] * re[0]);
-    memset(power, 0, PILOT_BINS * sizeof *power);
-    for (int k = 0; k < channels; k++) { /* each channel's spectrum onto the bands */
-        fft_forward(f, sound + k * (long)AUDIBLE_FRAMES, re, im);
-        for (int i = 0; i < FINE; i++)
-            power[(i + WIDE / 2) / WIDE] += (re[i] * re[i] + im[i] * im[i]) / pushed[i];
+        s.pushed[i] = fmax(s.re[i] * s.re[i] + s.im[i] * s.im[i], LEAST_PUSHED * s.re[0] * s.re[0]);
+    memset(power, 0, (size_t)bins * sizeof *power);
+    for (int k = 0; k < channels; k++) {
+        const double *x = sound + k * (long)AUDIBLE_FRAMES;
+        add_bands(&s, x, 0, AUDIBLE_FRAMES, false, power);
+        add_bands(&s, x, AUDIBLE_FRAMES / 4, AUDIBLE_FRAMES / 2, true, middle);
+        add_bands(&s, x, AUDIBLE_FRAMES / 2, AUDIBLE_FRAMES / 2, true, end);
     }
-    fft_close(f);
-    for (int k = 0; k < PILOT_BINS; k++)
-        power[k] /= k == 0 || k == PILOT_BINS - 1 ? 0.5 * WIDE + 0.5 : WIDE;
+    fft_close(s.fft);
+    double slowest = 18.42 * AUDIBLE_FRAMES / (fmin(b->ring, LONGEST) * b->rate); /* 80 dB: e^-18.42 */
+    for (int k = 0; k < bins; k++) {
+        double beta = middle[k] > 0 && end[k] > 0 ? fmax(-4 * real_log(end[k] / middle[k]), slowest) : FADED;
+        if (beta < FADED) power[k] += end[k] * left_over_end(beta);
+        power[k] /= k == 0 || k == bins - 1 ? 0.5 * s.wide + 0.5 : s.wide;
+    }
     return true;
 }
 
@@ -115,28 +170,35 @@ void error_pilot_drop_residual(struct contact *c, struct arena *a)
 }
 
 static bool audible_power(const struct scene *s, const struct contact *c, const double place[2], bool residual,
-                          double *power, struct err *e)
+                          int bins, double *power, struct err *e)
 {
-    struct scene own = *s;
-    struct contact struck = *c;
-    struct plan p;
-    struct run r;
-    for (int k = 0; k < PILOT_BINS; k++)
+    bool enhanced = *(const bool *)params_of(c, enhance_stage.params),
+         silent = s->output.quantity == QUANTITY_FORCE || !response_rings(c) || c->gain == 0, ok = true;
+    for (int k = 0; k < bins; k++)
         power[k] = 1;
-    if (s->output.quantity == QUANTITY_FORCE || !response_rings(c) || c->gain == 0) return true;
+    if (silent && !enhanced) return true;
     struct arena *a = arena_open();
-    strike(&struck, place, s->output.sample_rate, a);
-    if (!residual) error_pilot_drop_residual(&struck, a);
-    own.contacts = &struck;
-    own.n_contacts = 1;
-    own.output.stems = NULL;
-    own.output.diagnostics.given = false;
-    own.output.impacts = LISTING_NONE;
-    bool ok = plan_make(stages_table, &struck, &own, a, &p, e) && run_open(&r, &p, &own, NULL, e);
-    if (ok) {
-        ok = measure(&r, a, power, e);
-        run_close(&r);
+    struct contact struck[2] = {*c, *c}; /* whose force is pushed, and which sounds */
+    struct scene own[2] = {*s, *s};
+    struct plan p[2];
+    struct run r[2];
+    bool open[2] = {false, false};
+    for (int k = 0; ok && k < 2; k++) {
+        strike(&struck[k], place, s->output.sample_rate, a);
+        if (!residual) error_pilot_drop_residual(&struck[k], a);
+        own[k].contacts = &struck[k];
+        own[k].n_contacts = 1;
+        own[k].output.stems = NULL;
+        own[k].output.diagnostics.given = false;
+        own[k].output.impacts = LISTING_NONE;
+        if (k == 0 || silent) own[k].output.quantity = QUANTITY_FORCE;
+        if (k == 0) *(bool *)params_edit(&struck[k], enhance_stage.params, a) = false;
+        ok = plan_make(stages_table, &struck[k], &own[k], a, &p[k], e);
+        ok = open[k] = ok && run_open(&r[k], &p[k], &own[k], NULL, e);
     }
+    ok = ok && measure(r, silent ? ITEM_FORCE : ITEM_SOUND, bins, a, power, e);
+    for (int k = 0; k < 2; k++)
+        if (open[k]) run_close(&r[k]);
     arena_close(a);
     return ok;
 }
@@ -188,9 +250,13 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
                               .gain = c->gain,
                               .drift = 1,
                               .places = moves && !sampled ? PILOT_PLACES : 1,
-                              .power = ARENA_TAKE(a, double, PILOT_PLACES *PILOT_BINS)};
+                              .window = sampled ? PILOT_WINDOW_SAMPLED : PILOT_WINDOW};
+    p->hop = p->window / 2;
+    p->bins = p->hop + 1;
+    p->power = ARENA_TAKE(a, double, p->places * p->bins);
     if (c->gain == 0) /* it is here for its table, which holds its force as it is */
         p->gain = p->contact.gain = 1;
+    *(bool *)params_edit(&p->contact, enhance_stage.params, a) = false; /* power has it */
     p->scene.contacts = &p->contact;
     p->scene.n_contacts = 1;
     p->scene.output.quantity = QUANTITY_FORCE;
@@ -210,7 +276,7 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
         p->some = first < p->some ? first : p->some;
         p->drift = sampled ? 1 : fmax(1, (double)p->moving / (double)p->some);
     }
-    p->blocks = (p->some + PILOT_HOP - 1) / PILOT_HOP + 1;
+    p->blocks = (p->some + p->hop - 1) / p->hop + 1;
     p->last = p->some > FORCE_MOST ? NULL : ARENA_TAKE(a, double, p->some);
     p->distance = ARENA_TAKE(a, double, p->blocks);
     p->older = ARENA_TAKE(a, double, p->blocks);
@@ -219,8 +285,7 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
     p->knobs = plan_knobs(&p->plan);
     int spread = p->knobs & KNOB_BIT(tip_heights) ? PILOT_SAMPLED / 2 : PILOT_SAMPLED;
     p->followed = sampled ? spread + PILOT_ENDS : PILOT_FOLLOWED;
-    bool enhanced = *(const bool *)params_of(c, enhance_stage.params); /* the force rings: it begins with its motion */
-    p->follows = anywhere && !enhanced && p->blocks > 2 * p->followed; /* else as dear */
+    p->follows = anywhere && p->blocks > 2 * p->followed; /* else as dear */
     p->block = p->follows ? ARENA_TAKE(a, struct pilot_block, p->followed) : NULL;
     for (int k = 0; sampled && p->follows && k < p->followed; k++) /* 0, those spread, the last two */
         p->block[k].number = k == 0        ? 0
@@ -231,7 +296,7 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
     for (int k = 0; k < p->places; k++) { /* of a response that moves, those in the middle of each third */
         double t = tr.duration * (2 * k + 1) / (2 * p->places), place[2];
         trajectory_at(&tr, 1, &t, (struct trajectory_out){.x = &place[0], .y = &place[1]});
-        if (!audible_power(s, c, place, !sampled, p->power + k * PILOT_BINS, e)) return false;
+        if (!audible_power(s, c, place, !sampled, p->bins, p->power + k * p->bins, e)) return false;
     }
     return true;
 }
@@ -240,14 +305,15 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
 
 struct hearing {
     struct fft *fft;
+    int window;
     double taper[PILOT_WINDOW], x[PILOT_WINDOW], re[PILOT_BINS], im[PILOT_BINS];
 };
 
-static struct hearing hearing_open(void)
+static struct hearing hearing_open(const struct error_pilot *p)
 {
-    struct hearing h = {.fft = fft_open(PILOT_WINDOW)};
-    for (int i = 0; i < PILOT_WINDOW; i++) {
-        double s = real_sin(REAL_PI * (i + 0.5) / PILOT_WINDOW);
+    struct hearing h = {.fft = fft_open(p->window), .window = p->window};
+    for (int i = 0; i < p->window; i++) {
+        double s = real_sin(REAL_PI * (i + 0.5) / p->window);
         h.taper[i] = s * s;
     }
     return h;
@@ -255,23 +321,23 @@ static struct hearing hearing_open(void)
 
 static double weighted(const struct error_pilot *p, long block, const double *square)
 {
-    const double *power = p->power + block * p->places / p->blocks * PILOT_BINS;
+    const double *power = p->power + block * p->places / p->blocks * p->bins;
     double sum = 0;
-    for (int k = 0; k < PILOT_BINS; k++)
-        sum += (k == 0 || k == PILOT_BINS - 1 ? 1 : 2) * power[k] * square[k];
-    return p->gain * p->gain * sum / PILOT_WINDOW;
+    for (int k = 0; k < p->bins; k++)
+        sum += (k == 0 || k == p->bins - 1 ? 1 : 2) * power[k] * square[k];
+    return p->gain * p->gain * sum / p->window;
 }
 
 static bool spectrum(struct hearing *h, double *square)
 {
     double any = 0;
-    for (int i = 0; i < PILOT_WINDOW; i++) {
+    for (int i = 0; i < h->window; i++) {
         h->x[i] *= h->taper[i];
         any = fmax(any, fabs(h->x[i]));
     }
     if (any == 0) return false;
     fft_forward(h->fft, h->x, h->re, h->im);
-    for (int k = 0; k < PILOT_BINS; k++)
+    for (int k = 0; k <= h->window / 2; k++)
         square[k] = h->re[k] * h->re[k] + h->im[k] * h->im[k];
     return true;
 }
@@ -282,14 +348,14 @@ static bool spectrum(struct hearing *h, double *square)
 static double block_energy(const struct error_pilot *p, struct hearing *h, long block, const double *x)
 {
     double square[PILOT_BINS], other[PILOT_BINS];
-    memcpy(h->x, x, sizeof h->x);
+    memcpy(h->x, x, (size_t)p->window * sizeof *x);
     if (!spectrum(h, square)) return 0;
-    h->x[0] = h->x[PILOT_WINDOW - 1] = 0;
-    for (int i = 1; i < PILOT_WINDOW - 1; i++)
+    h->x[0] = h->x[p->window - 1] = 0;
+    for (int i = 1; i < p->window - 1; i++)
         h->x[i] = x[i - 1] - 2 * x[i] + x[i + 1];
     bool bends = spectrum(h, other);
-    for (int k = 1; k < PILOT_BINS; k++) {
-        double s = real_sinpi((double)k / PILOT_WINDOW), scale = 16 * s * s * s * s;
+    for (int k = 1; k < p->bins; k++) {
+        double s = real_sinpi((double)k / p->window), scale = 16 * s * s * s * s;
         square[k] = bends ? fmin(square[k], other[k] / scale) : 0;
     }
     return weighted(p, block, square);
@@ -300,7 +366,7 @@ static double block_distance(const struct error_pilot *p, struct hearing *h, lon
                              const double *y)
 {
     double square[PILOT_BINS];
-    for (int i = 0; i < PILOT_WINDOW; i++)
+    for (int i = 0; i < p->window; i++)
         h->x[i] = x[i] - y[i];
     return spectrum(h, square) ? weighted(p, block, square) : 0;
 }
@@ -328,7 +394,8 @@ static bool run_whole(struct error_pilot *p, const struct accuracy *set, const s
     struct scene scene[2] = {p->scene, p->scene};
     struct run r[2];
     bool open[2] = {false, false}, ok = true;
-    struct hearing h = hearing_open();
+    struct hearing h = hearing_open(p);
+    long hop = p->hop;
     double x[2][PILOT_WINDOW] = {{0}}, *now = x[finer != NULL];
     p->energy = 0;
     for (int k = 0; ok && k < 2; k++) {
@@ -338,18 +405,18 @@ static bool run_whole(struct error_pilot *p, const struct accuracy *set, const s
     }
     if (open[0]) take_lead(p, &r[0]);
     for (long number = 0; ok && number < p->blocks; number++) {
-        long from = number * PILOT_HOP, left = p->some - from, frames = left < PILOT_HOP ? left : PILOT_HOP;
+        long from = number * hop, left = p->some - from, frames = left < hop ? left : hop;
         for (int k = 0; k < 2; k++) {
-            memcpy(x[k], x[k] + PILOT_HOP, PILOT_HOP * sizeof(double));
-            memset(x[k] + PILOT_HOP, 0, PILOT_HOP * sizeof(double));
+            memcpy(x[k], x[k] + hop, (size_t)hop * sizeof(double));
+            memset(x[k] + hop, 0, (size_t)hop * sizeof(double));
         }
         for (int k = 0; ok && k < 2 && frames > 0; k++) {
             const double *force = k == 0 && !open[0] ? p->last + from : NULL;
             if (open[k] && (ok = run_block(&r[k], from + frames, e))) force = board_at(&r[k].board, ITEM_FORCE, from);
-            if (ok && force) memcpy(x[k] + PILOT_HOP, force, (size_t)frames * sizeof(double));
+            if (ok && force) memcpy(x[k] + hop, force, (size_t)frames * sizeof(double));
         }
         if (!ok) break;
-        if (p->last && frames > 0) memcpy(p->last + from, now + PILOT_HOP, (size_t)frames * sizeof(double));
+        if (p->last && frames > 0) memcpy(p->last + from, now + hop, (size_t)frames * sizeof(double));
         double energy = block_energy(p, &h, number, now);
         p->energy += energy;
         p->distance[number] = finer ? block_distance(p, &h, number, x[1], x[0]) : energy;
@@ -415,7 +482,7 @@ static bool run_blocks(struct error_pilot *p, const struct accuracy *set, struct
         memset(to[k].x, 0, sizeof to[k].x);
     }
     for (int k = 0; ok && k < p->followed; k++) {
-        long from = (p->block[k].number - 1) * PILOT_HOP, end = from + PILOT_WINDOW;
+        long from = (p->block[k].number - 1) * p->hop, end = from + p->window;
         end = end < p->some ? end : p->some;
         if (from - p->lead > at) run_skip(&r, at = from - p->lead, 0);
         for (long next; ok && at < end; at = next) {
@@ -423,8 +490,8 @@ static bool run_blocks(struct error_pilot *p, const struct accuracy *set, struct
             ok = run_block(&r, next, e);
             const double *force = ok ? board_at(&r.board, ITEM_FORCE, at) : NULL;
             for (int i = 0; ok && i < p->followed; i++) {
-                long begin = (p->block[i].number - 1) * PILOT_HOP, first = at > begin ? at : begin,
-                     last = next < begin + PILOT_WINDOW ? next : begin + PILOT_WINDOW;
+                long begin = (p->block[i].number - 1) * p->hop, first = at > begin ? at : begin,
+                     last = next < begin + p->window ? next : begin + p->window;
                 if (first < last)
                     memcpy(to[i].x + (first - begin), force + (first - at), (size_t)(last - first) * sizeof(double));
             }
@@ -453,7 +520,7 @@ static const struct pilot_block *sample(struct error_pilot *p, const struct accu
 static bool run_sample(struct error_pilot *p, const struct accuracy *set, const struct accuracy *finer, struct err *e)
 {
     const struct pilot_block *x = sample(p, set, e), *y = x && finer ? sample(p, finer, e) : x;
-    struct hearing h = hearing_open();
+    struct hearing h = hearing_open(p);
     int spread = p->followed - PILOT_ENDS;
     p->energy = 0;
     memset(p->distance, 0, (size_t)p->blocks * sizeof *p->distance);
@@ -474,7 +541,7 @@ static bool run_some(struct error_pilot *p, const struct accuracy *set, const st
     bool ok = true;
     if (p->pairs == 3) ok = run_blocks(p, set, p->block, e);
     ok = ok && run_blocks(p, finer, now, e);
-    struct hearing h = hearing_open();
+    struct hearing h = hearing_open(p);
     double spread = 0, expected = 0;
     for (long b = 0; b < p->blocks; b++)
         p->distance[b] = p->older[b] * p->falls[b];

@@ -1,8 +1,8 @@
 /* What two settings of a knob make of a contact's force, heard: the energy of their difference, block by block of the
    motion.
 
-   A block is a window of PILOT_WINDOW frames, sin^2, one each PILOT_HOP. Its energy is that of the sound that the force
-   makes of it:
+   A block is a window of sin^2, one each half of it: of 4096 frames, whose bins are as narrow as most that rings, or,
+   of a sampled pilot, of 1024. Its energy is that of the sound that the force makes of it:
 
      E(x) = sum over bins of |FFT(w x)|^2 |H|^2        H  the contact's response (audible_power)
 
@@ -16,8 +16,8 @@
 #define PIPELINE_ERROR_PILOT_H
 #include "pipeline/plan.h"
 
-enum { PILOT_WINDOW = 1024, PILOT_HOP = PILOT_WINDOW / 2, PILOT_BINS = PILOT_HOP + 1, PILOT_PLACES = 3 };
-enum { PILOT_WORST = 16, PILOT_SPREAD = 16, PILOT_FOLLOWED = PILOT_WORST + PILOT_SPREAD };
+enum { PILOT_WINDOW = 4096, PILOT_WINDOW_SAMPLED = 1024, PILOT_BINS = PILOT_WINDOW / 2 + 1, PILOT_PLACES = 3 };
+enum { PILOT_WORST = 8, PILOT_SPREAD = 8, PILOT_FOLLOWED = PILOT_WORST + PILOT_SPREAD };
 enum { PILOT_SAMPLED = 4, PILOT_ENDS = 3, PILOT_SETTINGS = 16, PILOT_STRETCH = 4096 };
 
 struct pilot_block {
@@ -34,10 +34,11 @@ struct error_pilot {        /* of one contact */
     struct scene scene;     /* that asks for the force alone */
     struct contact contact; /* of it */
     struct plan plan;
-    unsigned knobs;     /* those that the force depends on */
-    long moving, some;  /* frames of the motion; of what is run of it */
-    double gain, drift; /* drift: by which errors may grow beyond what is run: 1, but of a coupled ball */
-    double *power;      /* [PILOT_PLACES][PILOT_BINS] |H|^2 */
+    unsigned knobs;        /* those that the force depends on */
+    long moving, some;     /* frames of the motion; of what is run of it */
+    double gain, drift;    /* drift: by which errors may grow beyond what is run: 1, but of a coupled ball */
+    int window, hop, bins; /* frames of a block; half of them; bins of its spectrum */
+    double *power;         /* [places][bins] |H|^2 */
     int places;
     long blocks;
     bool sampled;
