@@ -274,10 +274,20 @@ static bool run_chaos_pilot(const struct budgeting *m, bool failed, struct err *
 
 /* ------------------------------------------------------------------ sharing */
 
-/* The ramp after this one. What ramps leave repeats with them, and the k-th harmonic of a ramp is as strong as the
-   first of one k times as short: of two ramps of which one is a multiple of the other a mode may hear the same. Of
-   the sequence 256, 102, 40, 16, 6, 2, 1 the last three are; presets, which halve, compare such ramps throughout. */
-static double ramp_after(double value) { return value > 1 ? fmax(floor(0.4 * value), 1) : 0; }
+/* The ramp after this one: odd, at most 0.4 of it, and no factor is in both. What ramps leave repeats with them, and
+   the k-th harmonic of a ramp is as strong as the first of one k times as short: of two ramps that share a harmonic a
+   mode there hears the same, and they agree by accident; and even ones all leave the same at half the rate.
+   256, 101, 39, 11, 3, 1. Presets, which halve, compare such ramps. */
+static double ramp_after(double value)
+{
+    long next = (long)fmax(0.4 * value, 1), a, b, rest;
+    for (next -= next % 2 == 0;; next -= 2) {
+        for (a = (long)value, b = next; b > 0; a = b, b = rest)
+            rest = a % b;
+        if (a == 1) break;
+    }
+    return value > 1 ? (double)next : 0;
+}
 
 /* The coarsest value whose error is within the share, from the first on by doublings, of ramps by ramp_after; false
    without an error: none. A knob that the scene says has the value that it says. */
