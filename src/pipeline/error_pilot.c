@@ -37,10 +37,10 @@ enum {
 /* What of a contact's force is heard: the power of its sound over that of the force, by frequency. */
 
 /* power[bins] of the contact's sound at a place (m) that is touched and left: its response to a unit impulse,
-   all listening places together, of the first AUDIBLE_FRAMES frames and, by how these fall, of what rings on. Where
+   all listening places together, of the first frames and, by how these fall, of what rings on. Where
    nothing rings, and of a contact whose gain is 0, it is 1: the force itself.
    Errors: those of plans and stages. */
-enum { AUDIBLE_FRAMES = 8192 };
+enum { AUDIBLE_FRAMES = 8192, AUDIBLE_ENHANCED = 65536 }; /* what is enhanced rises for as long as it falls */
 
 /* The contact is replaced by a strike far shorter than a sample, and its sound by the scene's own stages: whatever
    rings (modes, recordings, an object, scraper and surface) and however it is heard needs no second formula here.
@@ -54,7 +54,7 @@ enum { FIRST = 64 };      /* frames before it: the decimator's reach and more */
 #define LONGEST 60.0      /* s of what rings */
 #define FADED 10.0        /* beta from which all is within 10 % of what is under the fade */
 
-static void strike(struct contact *c, const double place[2], double rate, struct arena *a)
+static void strike(struct contact *c, const double place[2], double duration, double rate, struct arena *a)
 {
     double mass = 0.01;
     c->start = 0;
@@ -68,8 +68,7 @@ static void strike(struct contact *c, const double place[2], double rate, struct
                         .interval = NAN,
                         .restitution = NAN};
     c->scraper.mass = mass;
-    c->motion = (struct motion){
-        .path = PATH_STILL, .at = {place[0], place[1]}, .duration = AUDIBLE_FRAMES / rate, .speed = NAN};
+    c->motion = (struct motion){.path = PATH_STILL, .at = {place[0], place[1]}, .duration = duration, .speed = NAN};
 }
 
 /* What still rings at the end would leak to where the object does not. */
@@ -91,70 +90,69 @@ static double falling(double beta, const double a[3], int step)
 }
 
 /* What a mode leaves out under the fade, over what it has under the last window (add_bands): its energy falls like
-   e^(-beta u), u in units of AUDIBLE_FRAMES. */
+   e^(-beta u), u in units of the frames that are run. */
 static double left_over_end(double beta)
 {
     static const double fade2[3] = {0.375, 0.5, 0.125}, window2[3] = {0.375, -0.5, 0.125};
     return (1 / beta - falling(beta, fade2, 1)) / (0.5 * real_exp(-beta / 2) * falling(beta / 2, window2, 2));
 }
 
-struct spectra { /* of AUDIBLE_FRAMES frames */
+struct spectra {
+    long n; /* frames */
     struct fft *fft;
     double *x, *re, *im;
     double *pushed; /* power of the force */
-    int bins, wide; /* bands, and bins of these spectra in one */
+    int wide; /* bins of these spectra in a band */
 };
-
-enum { FINE = AUDIBLE_FRAMES / 2 + 1 };
 
 /* Adds to each band what the sound has there of the force, from frame `first` on, under a window of so many frames
    that falls, or that rises and falls. */
 static void add_bands(struct spectra *s, const double *sound, long first, long frames, bool rises, double *power)
 {
     double each = 1.0 / (double)frames;
-    memset(s->x, 0, AUDIBLE_FRAMES * sizeof *s->x);
+    memset(s->x, 0, (size_t)s->n * sizeof *s->x);
     for (long i = 0; i < frames; i++)
         s->x[first + i] = sound[first + i] * fade(rises ? 2 * each * (double)i - 1 : each * (double)i);
     fft_forward(s->fft, s->x, s->re, s->im);
-    for (int i = 0; i < FINE; i++)
+    for (long i = 0; i <= s->n / 2; i++)
         power[(i + s->wide / 2) / s->wide] += (s->re[i] * s->re[i] + s->im[i] * s->im[i]) / s->pushed[i];
 }
 
 /* What rings longer is added: it falls as it fell from the middle half of what is run to the second half, but at least
    as the sound does in all. */
-static bool measure(struct run r[2], enum item item, int bins, struct arena *a, double *power, struct err *e)
+static bool measure(struct run r[2], enum item item, long n, int bins, struct arena *a, double *power, struct err *e)
 {
     const struct board *b = &r[1].board;
     int channels = item == ITEM_SOUND ? b->channels : 1;
-    double *force = ARENA_TAKE(a, double, AUDIBLE_FRAMES), *middle = ARENA_TAKE(a, double, bins),
-           *end = ARENA_TAKE(a, double, bins), *sound = ARENA_TAKE(a, double, (size_t)channels *AUDIBLE_FRAMES);
-    struct spectra s = {.x = ARENA_TAKE(a, double, AUDIBLE_FRAMES),
-                        .re = ARENA_TAKE(a, double, FINE),
-                        .im = ARENA_TAKE(a, double, FINE),
-                        .pushed = ARENA_TAKE(a, double, FINE),
-                        .bins = bins,
-                        .wide = AUDIBLE_FRAMES / 2 / (bins - 1)};
-    for (long from = 0; from < AUDIBLE_FRAMES; from += STAGE_BLOCK) {
+    double *force = ARENA_TAKE(a, double, n), *middle = ARENA_TAKE(a, double, bins), *end = ARENA_TAKE(a, double, bins),
+           *sound = ARENA_TAKE(a, double, channels *n);
+    struct spectra s = {.n = n,
+                        .x = ARENA_TAKE(a, double, n),
+                        .re = ARENA_TAKE(a, double, n / 2 + 1),
+                        .im = ARENA_TAKE(a, double, n / 2 + 1),
+                        .pushed = ARENA_TAKE(a, double, n / 2 + 1),
+                        .wide = (int)(n / 2 / (bins - 1))};
+    for (long from = 0; from < n; from += STAGE_BLOCK) {
         if (!run_block(&r[0], from + STAGE_BLOCK, e) || !run_block(&r[1], from + STAGE_BLOCK, e)) return false;
         const double *x = board_at(b, item, from);
         memcpy(force + from, board_at(&r[0].board, ITEM_FORCE, from), STAGE_BLOCK * sizeof *force);
         for (long i = 0; i < STAGE_BLOCK; i++)
             for (int k = 0; k < channels; k++)
-                sound[k * (long)AUDIBLE_FRAMES + from + i] = x[i * channels + k];
+                sound[k * n + from + i] = x[i * channels + k];
     }
-    s.fft = fft_open(AUDIBLE_FRAMES);
+    s.fft = fft_open(n);
     fft_forward(s.fft, force, s.re, s.im);
-    for (int i = 0; i < FINE; i++)
+    for (long i = 0; i <= n / 2; i++)
         s.pushed[i] = fmax(s.re[i] * s.re[i] + s.im[i] * s.im[i], LEAST_PUSHED * s.re[0] * s.re[0]);
     memset(power, 0, (size_t)bins * sizeof *power);
     for (int k = 0; k < channels; k++) {
-        const double *x = sound + k * (long)AUDIBLE_FRAMES;
-        add_bands(&s, x, 0, AUDIBLE_FRAMES, false, power);
-        add_bands(&s, x, AUDIBLE_FRAMES / 4, AUDIBLE_FRAMES / 2, true, middle);
-        add_bands(&s, x, AUDIBLE_FRAMES / 2, AUDIBLE_FRAMES / 2, true, end);
+        const double *x = sound + k * n;
+        add_bands(&s, x, 0, n, false, power);
+        add_bands(&s, x, n / 4, n / 2, true, middle);
+        add_bands(&s, x, n / 2, n / 2, true, end);
     }
     fft_close(s.fft);
-    double slowest = 18.42 * AUDIBLE_FRAMES / (fmin(b->ring, LONGEST) * b->rate); /* 80 dB: e^-18.42 */
+    double slowest = 18.42 * (double)n / (fmin(b->ring, LONGEST) * b->rate); /* 80 dB: e^-18.42 */
     for (int k = 0; k < bins; k++) {
         double beta = middle[k] > 0 && end[k] > 0 ? fmax(-4 * real_log(end[k] / middle[k]), slowest) : FADED;
         if (beta < FADED) power[k] += end[k] * left_over_end(beta);
@@ -183,8 +181,9 @@ static bool audible_power(const struct scene *s, const struct contact *c, const 
     struct plan p[2];
     struct run r[2];
     bool open[2] = {false, false};
+    long n = enhanced ? AUDIBLE_ENHANCED : AUDIBLE_FRAMES;
     for (int k = 0; ok && k < 2; k++) {
-        strike(&struck[k], place, s->output.sample_rate, a);
+        strike(&struck[k], place, (double)n / s->output.sample_rate, s->output.sample_rate, a);
         if (!residual) error_pilot_drop_residual(&struck[k], a);
         own[k].contacts = &struck[k];
         own[k].n_contacts = 1;
@@ -196,7 +195,7 @@ static bool audible_power(const struct scene *s, const struct contact *c, const 
         ok = plan_make(stages_table, &struck[k], &own[k], a, &p[k], e);
         ok = open[k] = ok && run_open(&r[k], &p[k], &own[k], NULL, e);
     }
-    ok = ok && measure(r, silent ? ITEM_FORCE : ITEM_SOUND, bins, a, power, e);
+    ok = ok && measure(r, silent ? ITEM_FORCE : ITEM_SOUND, n, bins, a, power, e);
     for (int k = 0; k < 2; k++)
         if (open[k]) run_close(&r[k]);
     arena_close(a);
