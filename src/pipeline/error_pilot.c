@@ -246,6 +246,7 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
     double rate = s->output.sample_rate;
     *p = (struct error_pilot){.scene = *s,
                               .contact = *c,
+                              .arena = a,
                               .gain = c->gain,
                               .drift = 1,
                               .places = moves && !sampled ? PILOT_PLACES : 1,
@@ -290,8 +291,6 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
         p->block[k].number = k == 0        ? 0
                              : k <= spread ? p->blocks * (2 * k - 1) / (2 * spread)
                                            : p->blocks - p->followed + k;
-    for (int k = 0; sampled && p->follows && k < PILOT_SETTINGS; k++)
-        p->ran[k].block = ARENA_TAKE(a, struct pilot_block, p->followed);
     for (int k = 0; k < p->places; k++) { /* of a response that moves, those in the middle of each third */
         double t = tr.duration * (2 * k + 1) / (2 * p->places), place[2];
         trajectory_at(&tr, 1, &t, (struct trajectory_out){.x = &place[0], .y = &place[1]});
@@ -512,6 +511,7 @@ static const struct pilot_block *sample(struct error_pilot *p, const struct accu
     }
     struct pilot_sample *to = &p->ran[p->next++ % PILOT_SETTINGS];
     to->set = *set;
+    if (!to->block) to->block = ARENA_TAKE(p->arena, struct pilot_block, p->followed);
     return run_blocks(p, set, to->block, e) ? to->block : NULL;
 }
 

@@ -34,6 +34,7 @@ struct error_pilot {        /* of one contact */
     struct scene scene;     /* that asks for the force alone */
     struct contact contact; /* of it */
     struct plan plan;
+    struct arena *arena;
     unsigned knobs;        /* those that the force depends on */
     long moving, some;     /* frames of the motion; of what is run of it */
     double gain, drift;    /* drift: by which errors may grow beyond what is run: 1, but of a coupled ball */
