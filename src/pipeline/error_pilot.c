@@ -58,6 +58,7 @@ static void strike(struct contact *c, const double place[2], double duration, do
 {
     double mass = 0.01;
     c->start = 0;
+    c->gain = 1; /* the pilot has it */
     c->contact.model = CONTACT_STRIKE;
     *(struct strike *)params_edit(c, strike_stage.params, a) =
         (struct strike){.pulse = PULSE_HALF_SINE,

@@ -1,5 +1,6 @@
 # Scenes that random ones once missed their error by are kept to it: what a mode narrower than the pilot's bins hears of
-# lines in the force, a force that is enhanced and rings on after the motion, ramps of gains that share a harmonic.
+# lines in the force, a force that is enhanced and rings on after the motion, ramps of gains that
+# share a harmonic, contacts of unlike gains.
 . "$ROOT/tests/lib/test.sh"
 cat > narrow.csv <<'END'
 # poles: shared
@@ -50,7 +51,22 @@ motion: {path: polyline, duration: 0.173, points: [[-0.0391511, 0.0224885], [-0.
 load: {approach: 0.9 ms}
 contact: {limiter: {zeta: 0.5651}}
 END
-for name in narrow enhanced ${SANITIZED:-ramps}; do
+cat > gains.yaml <<'END'
+rasp: 1
+accuracy: {error: -90 dB}
+contacts:
+  - name: loud
+    surface: {roughness: {rms: 5 um}, material: steel, object: {shape: bar, length: 20 cm, width: 3 cm, thickness: 2 mm}}
+    scraper: {mass: 20 g}
+    motion: {path: line, from: [2 cm, 1 cm], to: [8 cm, 1 cm], duration: 0.1 s}
+    gain: 0.001
+  - name: soft
+    surface: {material: steel, object: {shape: bar, length: 20 cm, width: 3 cm, thickness: 2 mm}}
+    scraper: {mass: 5 g}
+    contact: {model: strike, strike: {speed: 0.003 mm/s, pulse: half_sine, stiffness: 5e4 N/m}}
+    motion: {path: still, at: [3 cm, 1 cm], duration: 0.1 s}
+END
+for name in narrow enhanced gains ${SANITIZED:-ramps}; do
     [ -e $name.yaml ] || continue # with sanitizers ramps would take a minute
     rasp render "$name.yaml" --verify --set output.encoding=float64 --set output.level.full_scale=1e6 -o "$name.wav" \
         > said 2>&1 || fail "$name: $(grep 'accuracy' said)"
