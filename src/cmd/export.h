@@ -19,7 +19,7 @@ struct export_format {
     bool bare;                  /* a design without trials will do          */
     bool splits;                /* the folder of the WAVs is divided into splits */
     bool (*files)(struct export *x, struct err *e); /* once; NULL: none          */
-    /* Trial k, from 0, of a list. NULL: an error is set */
+    /* Trial k, from 0, of a list. an error may be set; what it gives is freed all the same */
     json_t *(*trial)(struct export *x, const struct export_list *l, int k, struct err *e);
     /* Its file, of all of them. NULL: the format has no trials */
     bool (*list)(struct export *x, const struct export_list *l, json_t *trials, struct err *e);

@@ -172,7 +172,7 @@ static const struct {
     {"question", "what the listener is asked"},
     {"text", "what the listener reads of the sounds"},
     {"played", "the right answer"},
-    {"stim_file", "a sound, in the order in which they are heard"},
+    {"stim_file", "a sound, in the order in which they are presented"},
     {"stimulus", "which stimulus it is, stimulus_id of the table of sounds"},
     {"role", "what it is for: test, reference, anchor or training"},
     {"response", "the answer; of several sounds, numbers with blanks between"},

@@ -276,8 +276,8 @@ static bool run_chaos_pilot(const struct budgeting *m, bool failed, struct err *
 
 /* The ramp after this one: odd, at most 0.4 of it, and no factor is in both. What ramps leave repeats with them, and
    the k-th harmonic of a ramp is as strong as the first of one k times as short: of two ramps that share a harmonic a
-   mode there hears the same, and they agree by accident; and even ones all leave the same at half the rate.
-   256, 101, 39, 11, 3, 1. Presets, which halve, compare such ramps. */
+   mode at that frequency responds alike to both, and they agree by accident; and even ones all leave the same at half
+   the rate. 256, 101, 39, 11, 3, 1. Presets, which halve, compare such ramps. */
 static double ramp_after(double value)
 {
     long next = (long)fmax(0.4 * value, 1), a, b, rest;

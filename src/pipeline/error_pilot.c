@@ -47,14 +47,16 @@ enum { AUDIBLE_FRAMES = 8192, AUDIBLE_ENHANCED = 65536 }; /* what is enhanced ri
 
      |H(f)|^2 = sum over channels |FFT of the sound|^2 / |FFT of the force|^2      means over 1/(bins - 1) of the band
 
-   contact.enhance belongs to it: what it enhances rings longer than the force that it is given. */
+   contact.enhance belongs to it: what it enhances rings longer than the force that it is given. It goes by the modes
+   along the whole motion: so its |H|^2 is that of a strike on the contact's own motion, with and without it. */
 #define SHORT 1e-7        /* s, of the strike */
 #define LEAST_PUSHED 1e-8 /* of the force's power at 0 Hz: the contact smooths, and the decimator has its edge */
 enum { FIRST = 64 };      /* frames before it: the decimator's reach and more */
 #define LONGEST 60.0      /* s of what rings */
 #define FADED 10.0        /* beta from which all is within 10 % of what is under the fade */
 
-static void strike(struct contact *c, const double place[2], double duration, double rate, struct arena *a)
+/* place NULL: on its own motion, at once. */
+static void strike(struct contact *c, const double *place, double duration, double rate, struct arena *a)
 {
     double mass = 0.01;
     c->start = 0;
@@ -64,12 +66,13 @@ static void strike(struct contact *c, const double place[2], double duration, do
         (struct strike){.pulse = PULSE_HALF_SINE,
                         .speed = 1,
                         .stiffness = mass * REAL_PI * REAL_PI / (SHORT * SHORT),
-                        .first = FIRST / rate,
+                        .first = place ? FIRST / rate : 0,
                         .count = 1,
                         .interval = NAN,
                         .restitution = NAN};
     c->scraper.mass = mass;
-    c->motion = (struct motion){.path = PATH_STILL, .at = {place[0], place[1]}, .duration = duration, .speed = NAN};
+    if (place)
+        c->motion = (struct motion){.path = PATH_STILL, .at = {place[0], place[1]}, .duration = duration, .speed = NAN};
 }
 
 /* What still rings at the end would leak to where the object does not. */
@@ -103,7 +106,7 @@ struct spectra {
     struct fft *fft;
     double *x, *re, *im;
     double *pushed; /* power of the force */
-    int wide; /* bins of these spectra in a band */
+    int wide;       /* bins of these spectra in a band */
 };
 
 /* Adds to each band what the sound has there of the force, from frame `first` on, under a window of so many frames
@@ -119,32 +122,58 @@ static void add_bands(struct spectra *s, const double *sound, long first, long f
         power[(i + s->wide / 2) / s->wide] += (s->re[i] * s->re[i] + s->im[i] * s->im[i]) / s->pushed[i];
 }
 
+enum { PLAIN, SOUNDING, OWN, ENHANCED, STRIKES }; /* runs; the last two where contact.enhance is given */
+
+/* The spectrum of a strike's force. */
+static bool force_spectrum(struct run *r, struct spectra *s, struct err *e)
+{
+    for (long from = 0; from < s->n; from += STAGE_BLOCK) {
+        if (!run_block(r, from + STAGE_BLOCK, e)) return false;
+        const double *x = board_at(&r->board, ITEM_FORCE, from);
+        for (long i = 0; i < STAGE_BLOCK; i++)
+            s->x[from + i] = x[i] * fade((double)(from + i) / (double)s->n);
+    }
+    fft_forward(s->fft, s->x, s->re, s->im);
+    return true;
+}
+
 /* What rings longer is added: it falls as it fell from the middle half of what is run to the second half, but at least
    as the sound does in all. */
-static bool measure(struct run r[2], enum item item, long n, int bins, struct arena *a, double *power, struct err *e)
+static bool measure(struct run r[STRIKES], enum item item, bool enhanced, long n, int bins, struct arena *a,
+                    double *power, struct err *e)
 {
-    const struct board *b = &r[1].board;
+    const struct board *b = &r[SOUNDING].board;
     int channels = item == ITEM_SOUND ? b->channels : 1;
-    double *force = ARENA_TAKE(a, double, n), *middle = ARENA_TAKE(a, double, bins), *end = ARENA_TAKE(a, double, bins),
+    double *middle = ARENA_TAKE(a, double, bins), *end = ARENA_TAKE(a, double, bins),
            *sound = ARENA_TAKE(a, double, channels *n);
     struct spectra s = {.n = n,
+                        .fft = fft_open(n),
                         .x = ARENA_TAKE(a, double, n),
                         .re = ARENA_TAKE(a, double, n / 2 + 1),
                         .im = ARENA_TAKE(a, double, n / 2 + 1),
                         .pushed = ARENA_TAKE(a, double, n / 2 + 1),
                         .wide = (int)(n / 2 / (bins - 1))};
-    for (long from = 0; from < n; from += STAGE_BLOCK) {
-        if (!run_block(&r[0], from + STAGE_BLOCK, e) || !run_block(&r[1], from + STAGE_BLOCK, e)) return false;
-        const double *x = board_at(b, item, from);
-        memcpy(force + from, board_at(&r[0].board, ITEM_FORCE, from), STAGE_BLOCK * sizeof *force);
-        for (long i = 0; i < STAGE_BLOCK; i++)
+    bool ok = force_spectrum(&r[PLAIN], &s, e);
+    for (long i = 0; ok && i <= n / 2; i++)
+        s.pushed[i] = fmax(s.re[i] * s.re[i] + s.im[i] * s.im[i], LEAST_PUSHED * s.re[0] * s.re[0]);
+    for (int k = OWN; ok && enhanced && k <= ENHANCED; k++) {
+        ok = force_spectrum(&r[k], &s, e);
+        for (long i = 0; ok && i <= n / 2; i++) {
+            double square = fmax(s.re[i] * s.re[i] + s.im[i] * s.im[i], LEAST_PUSHED * s.re[0] * s.re[0]);
+            s.pushed[i] = k == OWN ? s.pushed[i] * square : s.pushed[i] / square;
+        }
+    }
+    for (long from = 0; ok && from < n; from += STAGE_BLOCK) {
+        ok = run_block(&r[SOUNDING], from + STAGE_BLOCK, e);
+        const double *x = ok ? board_at(b, item, from) : NULL;
+        for (long i = 0; ok && i < STAGE_BLOCK; i++)
             for (int k = 0; k < channels; k++)
                 sound[k * n + from + i] = x[i * channels + k];
     }
-    s.fft = fft_open(n);
-    fft_forward(s.fft, force, s.re, s.im);
-    for (long i = 0; i <= n / 2; i++)
-        s.pushed[i] = fmax(s.re[i] * s.re[i] + s.im[i] * s.im[i], LEAST_PUSHED * s.re[0] * s.re[0]);
+    if (!ok) {
+        fft_close(s.fft);
+        return false;
+    }
     memset(power, 0, (size_t)bins * sizeof *power);
     for (int k = 0; k < channels; k++) {
         const double *x = sound + k * n;
@@ -177,28 +206,31 @@ static bool audible_power(const struct scene *s, const struct contact *c, const 
         power[k] = 1;
     if (silent && !enhanced) return true;
     struct arena *a = arena_open();
-    struct contact struck[2] = {*c, *c}; /* whose force is pushed, and which sounds */
-    struct scene own[2] = {*s, *s};
-    struct plan p[2];
-    struct run r[2];
-    bool open[2] = {false, false};
+    struct contact struck[STRIKES];
+    struct scene own[STRIKES];
+    struct plan p[STRIKES];
+    struct run r[STRIKES];
     long n = enhanced ? AUDIBLE_ENHANCED : AUDIBLE_FRAMES;
-    for (int k = 0; ok && k < 2; k++) {
-        strike(&struck[k], place, (double)n / s->output.sample_rate, s->output.sample_rate, a);
+    double rate = s->output.sample_rate;
+    int open = 0, all = enhanced ? STRIKES : OWN;
+    for (int k = 0; ok && k < all; k++) {
+        struck[k] = *c;
+        own[k] = *s;
+        strike(&struck[k], k < OWN ? place : NULL, (double)n / rate, rate, a);
         if (!residual) error_pilot_drop_residual(&struck[k], a);
         own[k].contacts = &struck[k];
         own[k].n_contacts = 1;
         own[k].output.stems = NULL;
         own[k].output.diagnostics.given = false;
         own[k].output.impacts = LISTING_NONE;
-        if (k == 0 || silent) own[k].output.quantity = QUANTITY_FORCE;
-        if (k == 0) *(bool *)params_edit(&struck[k], enhance_stage.params, a) = false;
-        ok = plan_make(stages_table, &struck[k], &own[k], a, &p[k], e);
-        ok = open[k] = ok && run_open(&r[k], &p[k], &own[k], NULL, e);
+        if (k != SOUNDING || silent) own[k].output.quantity = QUANTITY_FORCE;
+        if (k != ENHANCED) *(bool *)params_edit(&struck[k], enhance_stage.params, a) = false;
+        ok = plan_make(stages_table, &struck[k], &own[k], a, &p[k], e) && run_open(&r[k], &p[k], &own[k], NULL, e);
+        open += ok;
     }
-    ok = ok && measure(r, silent ? ITEM_FORCE : ITEM_SOUND, n, bins, a, power, e);
-    for (int k = 0; k < 2; k++)
-        if (open[k]) run_close(&r[k]);
+    ok = ok && measure(r, silent ? ITEM_FORCE : ITEM_SOUND, enhanced, n, bins, a, power, e);
+    for (int k = 0; k < open; k++)
+        run_close(&r[k]);
     arena_close(a);
     return ok;
 }

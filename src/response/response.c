@@ -273,8 +273,7 @@ static const struct key body_keys[] = {
      "onset of Hermes for what rolls (papers/002, section II-B); 1: at once"},
     {ROW_TIME_OR_AUTO(response, length, ".response_length"), KEY_TIME, 1e-4, 60, "auto", NULL,
      "t0, at which the impulse response is cut off; auto: what rings is heard until the sound ends, but what launch "
-     "lets ring is dropped at -100 dB (-124 dB of the preset high), and what "
-     "overlap_add computes ends at -140 dB or after 60 s"},
+     "lets ring is dropped at -180 dB, and what overlap_add computes ends at -140 dB or after 60 s"},
     {ROW_CHOICE(response, convolution, ".convolution"), KEY_NONE, 0, 0, "auto", NULL, "how force becomes sound",
      engines},
     {ROW_CHOICE(response, object.material, ".material"), KEY_NONE, 0, 0, "custom", NULL,

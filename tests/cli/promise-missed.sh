@@ -1,5 +1,5 @@
-# Scenes that random ones once missed their error by are kept to it: what a mode narrower than the pilot's bins hears of
-# lines in the force, a force that is enhanced and rings on after the motion, ramps of gains that
+# Scenes like random ones that missed the error they asked for. Each must meet it: a mode narrower than the pilot's bins
+# between lines of the force, a force that is enhanced and rings on after the motion, ramps of gains that
 # share a harmonic, contacts of unlike gains.
 . "$ROOT/tests/lib/test.sh"
 cat > narrow.csv <<'END'
