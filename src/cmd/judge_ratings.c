@@ -211,7 +211,7 @@ static bool factors_take(struct judge *j, struct ratings *t, const struct csv *v
     return !e->kind && (t->design.factors || err_set(e, ERR_SCENE, "%s: no column is a factor", v->file));
 }
 
-/* --tukey kappa:mu, in whatever order; one factor has them anyway. */
+/* --tukey kappa:mu, in whatever order; one factor has them anyway, if it has no more levels than can be compared. */
 static bool tukey_of(const struct judge *j, const struct ratings *t, unsigned *mask, int *n, struct err *e)
 {
     int given, words;
@@ -228,7 +228,7 @@ static bool tukey_of(const struct judge *j, const struct ratings *t, unsigned *m
         }
     }
     *n = given;
-    if (t->design.factors == 1 && !given) mask[(*n)++] = 1;
+    if (t->design.factors == 1 && !given && t->factor[0].n <= JUDGE_COMPARED) mask[(*n)++] = 1;
     return true;
 }
 

@@ -26,6 +26,7 @@
 
 #include "convolution/gammatone.h"
 #include "num/lanes.h"
+#include "num/real.h"
 #include "response/listener.h"
 #include "response/object.h"
 #include "response/response.h"
@@ -282,12 +283,12 @@ enum ring_engine ring_choice_engine(const struct contact *c, enum ring_body body
 
 static double recorded_work(double samples) { return 70 + samples * PARTITION; }
 
-/* Nodes that ring at a time: those of each mode until they are dropped, at 180 dB. */
+/* Nodes that ring at a time: those of each mode until they are dropped. */
 static double alive(const struct ring_choice *c, double rate, double hop)
 {
     double sum = 0;
     for (int i = 0; i < c->modes.n; i++)
-        sum += fmin(20.7 / fmax(c->modes.slowest[i], 1e-3), COMPUTED_MOST) * rate / hop;
+        sum += fmin(-real_log(RING_CHOICE_NODE_FLOOR) / fmax(c->modes.slowest[i], 1e-3), COMPUTED_MOST) * rate / hop;
     return sum;
 }
 

@@ -5,6 +5,9 @@
 #include "response/modes.h"
 #include "scene/scene.h"
 
+/* Nodes of launch that ring out are dropped at this part of what they were: -180 dB. */
+#define RING_CHOICE_NODE_FLOOR 1e-9
+
 enum ring_body { RING_SURFACE, RING_SCRAPER };
 enum ring_engine { RING_NONE, RING_RESONATORS, RING_LAUNCH, RING_OVERLAP_ADD };
 

@@ -14,9 +14,6 @@
 #include "convolution/ring.h"
 #include "num/real.h"
 
-/* Nodes that ring out are dropped when they have fallen by 180 dB. */
-#define NODE_FLOOR 1e-9
-
 struct bank {
     struct resonators *bank; /* or, of a soft onset,                       */
     struct gammatone_bank *tones;
@@ -167,7 +164,7 @@ static bool ring_launch_open(struct stage_run *r, struct err *e)
         struct launch_ask ask = {.n = v->n,
                                  .rate = r->board->rate,
                                  .hop = ring_choice_hop(s->ring.choice, &r->scene->accuracy),
-                                 .floor = NODE_FLOOR,
+                                 .floor = RING_CHOICE_NODE_FLOOR,
                                  .quantity = listener_quantity(v->listener)};
         s->outputs[k].engine = launch_open(&ask, launching_point, &s->outputs[k]);
     }

@@ -80,7 +80,6 @@ static bool budget_used(const struct budgeting *m, int knob) { return m->used & 
 #define HAND_LAST 2.0    /* the same, of the last value, beside the difference from the one before */
 #define FLOOR 1e-15  /* of a difference that is none of 0: the filters' ripple and rounding are no powers; -150 dB */
 #define FIRST 0.5    /* s of a coupled ball, to begin with; half of it of a sampled force that begins at 0 only */
-#define LONGEST 60.0 /* s of what rings */
 #define FADE 2048    /* frames over which the force of a stretch in the middle rises */
 #define RAMPS 4096   /* frames, a multiple of the ramps that are chosen */
 #define SOUND_MOST (1L << 20) /* samples of a sound that is kept in memory, at most */
@@ -188,7 +187,7 @@ static bool compare_ramps(const struct budgeting *m, int contact, const double r
     const struct ring_choice *choice = own.surface.response.choice;
     bool stretch = m->sampled && !(choice && ring_choice_glides(choice)); /* what is retuned drifts off as it rings */
     long first = stretch ? m->pilot[contact].fastest / RAMPS * RAMPS : 0,
-         frames = ok ? b->moving + (long)(0.5 * fmin(b->ring, LONGEST) * b->rate) - first : 0;
+         frames = ok ? b->moving + (long)(0.5 * fmin(b->ring, PILOT_LONGEST) * b->rate) - first : 0;
     if (stretch && frames > PILOT_STRETCH) frames = PILOT_STRETCH;
     if (ok && own.contact.model == CONTACT_ROLL_COUPLED && b->moving > m->pilot[contact].some)
         frames = m->pilot[contact].some; /* its beginning */

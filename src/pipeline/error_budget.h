@@ -6,8 +6,7 @@
 
      predicted^2 = sum of e_k^2 <= asked^2
 
-   e of gain_ramp   the sound of the motion at one ramp against the next, of which no two share a harmonic, all else at
-                    `draft`
+   e of gain_ramp   the sound of the motion at one ramp against the next, which share no harmonic, all else at `draft`
    e of steps       the force of the motion at doubled values against each other, weighed by what of it is audible
                     (error_pilot.h) */
 #ifndef PIPELINE_ERROR_BUDGET_H

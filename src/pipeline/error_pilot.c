@@ -10,7 +10,8 @@
 
    They are run at finer settings, and with them some spread evenly, by which the others are scaled: d of those is
    d q c, where c is the sum of what the spread ones gave over the sum of their d q, at least 1. Beside the whole motion
-   the sum is then within 3 dB where it matters (scenes/circle; with 32 of the worst and none spread 5 dB too low). */
+   the sum is then within 3 dB where it matters (scenes/circle; of 1024 frames, with 32 of the worst
+   and none spread, 5 dB too low). */
 #include "pipeline/error_pilot.h"
 
 #include <math.h>
@@ -52,7 +53,6 @@ enum { AUDIBLE_FRAMES = 8192, AUDIBLE_ENHANCED = 65536 }; /* what is enhanced ri
 #define SHORT 1e-7        /* s, of the strike */
 #define LEAST_PUSHED 1e-8 /* of the force's power at 0 Hz: the contact smooths, and the decimator has its edge */
 enum { FIRST = 64 };      /* frames before it: the decimator's reach and more */
-#define LONGEST 60.0      /* s of what rings */
 #define FADED 10.0        /* beta from which all is within 10 % of what is under the fade */
 
 /* place NULL: on its own motion, at once. */
@@ -182,7 +182,7 @@ static bool measure(struct run r[STRIKES], enum item item, bool enhanced, long n
         add_bands(&s, x, n / 2, n / 2, true, end);
     }
     fft_close(s.fft);
-    double slowest = 18.42 * (double)n / (fmin(b->ring, LONGEST) * b->rate); /* 80 dB: e^-18.42 */
+    double slowest = 18.42 * (double)n / (fmin(b->ring, PILOT_LONGEST) * b->rate); /* 80 dB: e^-18.42 */
     for (int k = 0; k < bins; k++) {
         double beta = middle[k] > 0 && end[k] > 0 ? fmax(-4 * real_log(end[k] / middle[k]), slowest) : FADED;
         if (beta < FADED) power[k] += end[k] * left_over_end(beta);
@@ -442,9 +442,14 @@ static bool run_whole(struct error_pilot *p, const struct accuracy *set, const s
             memset(x[k] + hop, 0, (size_t)hop * sizeof(double));
         }
         for (int k = 0; ok && k < 2 && frames > 0; k++) {
-            const double *force = k == 0 && !open[0] ? p->last + from : NULL;
-            if (open[k] && (ok = run_block(&r[k], from + frames, e))) force = board_at(&r[k].board, ITEM_FORCE, from);
-            if (ok && force) memcpy(x[k] + hop, force, (size_t)frames * sizeof(double));
+            if (k == 0 && !open[0] && p->last) memcpy(x[0] + hop, p->last + from, (size_t)frames * sizeof(double));
+            for (long at = 0, to; ok && open[k] && at < frames; at = to) {
+                to = at + STAGE_BLOCK < frames ? at + STAGE_BLOCK : frames;
+                ok = run_block(&r[k], from + to, e);
+                if (ok)
+                    memcpy(x[k] + hop + at, board_at(&r[k].board, ITEM_FORCE, from + at),
+                           (size_t)(to - at) * sizeof(double));
+            }
         }
         if (!ok) break;
         if (p->last && frames > 0) memcpy(p->last + from, now + hop, (size_t)frames * sizeof(double));

@@ -41,7 +41,7 @@ for fault in '7d' '7{p}' '7s/,[^,]*$/,A>C/' '7s/,[0-9],[0-9],/,4,4,/'; do
     try rasp judge pairs broken.csv
 done
 { echo participant,track,rating && awk 'BEGIN { for (i = 0; i < 404; i++) print i % 4 "," int(i / 4) "," i * i % 7 }'; } > broken.csv
-try rasp judge ratings broken.csv
+try rasp judge ratings broken.csv --tukey track
 try rasp judge ratings ratings.csv --column raitng=rating
 try rasp judge choices answers.csv --column chosen
 try rasp judge listen . --templates . --column answer=chosen

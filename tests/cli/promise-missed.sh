@@ -67,6 +67,26 @@ contacts:
     motion: {path: still, at: [3 cm, 1 cm], duration: 0.1 s}
 END
 [ -z "${SANITIZED:-}" ] || rm narrow.yaml enhanced.yaml ramps.yaml # they would take minutes
+# Enhanced, and the mode does not move where the pilot strikes; a mute contact is there for its table.
+cat > node.csv <<'END'
+# poles: shared
+# quantity: velocity
+# radius_m: 0.05
+place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad
+1,0.0,0.03,1,440,30,1,0
+2,0.02,0.03,1,440,30,0,0
+3,0.04,0.03,1,440,30,-1,0
+END
+cat > node.yaml <<'END'
+rasp: 1
+surface: {response: node.csv, roughness: {rms: 0.57 um}}
+scraper: {mass: 20 g}
+contact: {enhance: {gain: 20, modes: 10}}
+motion: {path: line, law: constant, from: [0.0, 0.03], to: [0.04, 0.03], duration: 0.1}
+END
+rasp render node.yaml -q -o node.wav || fail 'a mode that does not move where it is struck'
+sed 's/^scraper/gain: 0\noutput: {diagnostics: {}}\naccuracy: {error: -60 dB}\nscraper/' node.yaml > mute.yaml
+rasp render mute.yaml -q -o mute.wav || fail 'a mute contact that is enhanced'
 for name in narrow enhanced gains ramps; do
     [ -e $name.yaml ] || continue
     rasp render "$name.yaml" --verify --set output.encoding=float64 --set output.level.full_scale=1e6 -o "$name.wav" \
