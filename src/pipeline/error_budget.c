@@ -54,9 +54,9 @@ static bool budget_used(const struct budgeting *m, int knob) { return m->used & 
 /* A knob's error at a value K is told from d, the energy of the difference between the sounds at K and at 2K. An error
    that falls by 6 dB a doubling, as at a kink, is twice the difference: so 4 d is what it is taken to be, and K is
    accepted where that is within the knob's share. The first value has no history that shows whether K and 2K agree by
-   accident: there it is 10 times the greater of d and, of steps, the next value's. Of the last value, which has no
-   finer one, the error is at most the difference from the one before it, if it falls by 6 dB or more: 2 d. Of ramps the
-   next value is not 2K but ramp_after, whose difference is nearer to the error.
+   accident: there it is 10 times the greater of d and, of steps and unless d is far below the share, the next value's.
+   Of the last value, which has no finer one, the error is at most the difference from the one before it, if it falls by
+   6 dB or more: 2 d. Of ramps the next value is not 2K but ramp_after, whose difference is nearer to the error.
 
    That of each knob has all others at `draft`, those that the scene says as it says them. A coupled ball's steps are
    contact_steps in a contact or `oversampling` in a sample, whichever are more. So its oversampling is piloted with
@@ -73,15 +73,16 @@ static bool budget_used(const struct budgeting *m, int knob) { return m->used & 
 
 #define HAND 4.0         /* energy of an error over that of a difference that it is taken to have */
 #define HAND_FIRST 10.0  /* the same, of the first value */
+#define FAR 10000.0      /* a first difference so far below its share needs no look at the next: 40 dB */
 #define HAND_SAMPLED 8.0 /* as HAND, of a preset's steps */
 #define HAND_RAMPS 40.0  /* and of its ramps: a stretch says less of the whole, and a finer ramp costs little */
 #define SLOWEST 0.25     /* by which a preset's difference is taken to fall at a doubling, where it was not run: 6 dB */
 #define FASTEST 0.015625 /* at most: 18 dB */
 #define HAND_LAST 2.0    /* the same, of the last value, beside the difference from the one before */
-#define FLOOR 1e-15  /* of a difference that is none of 0: the filters' ripple and rounding are no powers; -150 dB */
-#define FIRST 0.5    /* s of a coupled ball, to begin with; half of it of a sampled force that begins at 0 only */
-#define FADE 2048    /* frames over which the force of a stretch in the middle rises */
-#define RAMPS 4096   /* frames, a multiple of the ramps that are chosen */
+#define FLOOR 1e-15 /* of a difference that is none of 0: the filters' ripple and rounding are no powers; -150 dB */
+#define FIRST 0.5   /* s of a coupled ball, to begin with; half of it of a sampled force that begins at 0 only */
+#define FADE 2048   /* frames over which the force of a stretch in the middle rises */
+#define RAMPS 4096  /* frames, a multiple of the ramps that are chosen */
 #define SOUND_MOST (1L << 20) /* samples of a sound that is kept in memory, at most */
 
 static bool coupled(const struct budgeting *m)
@@ -135,6 +136,35 @@ static struct accuracy turned(const struct budgeting *m, int knob, double value)
     return set;
 }
 
+/* Share of a contact's sound, in energy and to 40 dB after the motion's end, that output.ramp leaves. */
+static bool shown_share(struct budgeting *m, int i, double *share, struct err *e)
+{
+    struct contact own = *m->parts.parts[i].plan.contact;
+    struct scene scene = *m->chosen;
+    struct arena *a = arena_open();
+    struct plan p;
+    struct run r;
+    double all = 0, left = 0;
+    error_pilot_alone(&scene, &own);
+    bool ok = plan_make(stages_table, &own, &scene, a, &p, e) && run_open(&r, &p, &scene, NULL, e), open = ok;
+    const struct board *b = &r.board;
+    long frames = ok ? b->moving + (long)(0.5 * fmin(b->ring, PILOT_LONGEST) * b->rate) : 0;
+    for (long from = 0, to; ok && from < frames; from = to) {
+        to = from + STAGE_BLOCK < frames ? from + STAGE_BLOCK : frames;
+        ok = run_block(&r, to, e);
+        const double *x = ok ? board_at(b, ITEM_SOUND, from) : NULL;
+        for (long k = 0; ok && k < (to - from) * b->channels; k++) {
+            double shown = error_pilot_shown(&scene, m->pilot[i].start + from + k / b->channels) * x[k];
+            all += x[k] * x[k];
+            left += shown * shown;
+        }
+    }
+    if (open) run_close(&r);
+    arena_close(a);
+    *share = all > 0 ? left / all : 1;
+    return ok;
+}
+
 /* The first survey of a contact, of oversampling where that is open, tells its energy.
    What comes in its order may begin with silence: longer beginnings, until something is heard. */
 static bool begin(struct budgeting *m, int i, struct err *e)
@@ -152,7 +182,9 @@ static bool begin(struct budgeting *m, int i, struct err *e)
         if (!error_pilot_run(p, &set, over_used && finer > over ? &next : NULL, false, e)) return false;
         if (p->energy > 0) break;
     }
-    m->energy += p->energy;
+    double share = p->energy > 0 ? p->shown / p->energy : 1; /* at least: what is struck rings on, and the ramp opens */
+    if (m->sounds && share < 0.5 && !shown_share(m, i, &share, e)) return false;
+    m->energy += share * p->energy;
     return true;
 }
 
@@ -172,11 +204,7 @@ static bool compare_ramps(const struct budgeting *m, int contact, const double r
     error_pilot_drop_residual(&own, a); /* it has no ramps */
     for (int k = 0; k < 2; k++) {
         set[k] = *m->chosen;
-        set[k].contacts = &own;
-        set[k].n_contacts = 1;
-        set[k].output.stems = NULL;
-        set[k].output.diagnostics.given = false;
-        set[k].output.impacts = LISTING_NONE;
+        error_pilot_alone(&set[k], &own);
         accuracy_turn(&set[k].accuracy, KNOB_gain_ramp, ramp[k]);
     }
     ok = plan_make(stages_table, &own, set, a, &p, e);
@@ -203,8 +231,10 @@ static bool compare_ramps(const struct budgeting *m, int contact, const double r
                                                               : depends ? finer->x + (from - first) * b->channels
                                                                         : y;
         for (long i = 0; i < (to - from) * b->channels; i++) {
-            *all += y[i] * y[i];
-            *distance += (x[i] - y[i]) * (x[i] - y[i]);
+            double shown = error_pilot_shown(m->chosen, m->pilot[contact].start + from + i / b->channels),
+                   sound = shown * y[i], off = shown * (x[i] - y[i]);
+            *all += sound * sound;
+            *distance += off * off;
         }
         if (finer->next)
             memcpy(finer->next + (from - first) * b->channels, y, (size_t)((to - from) * b->channels) * sizeof *y);
@@ -315,7 +345,8 @@ static bool climb(struct budgeting *m, int knob, double share, bool *had, struct
             return false;
         if (run_chaos_pilot(m, false, e)) return false;
         d = distance[last];
-        if (step == 0 && looks) { /* one that grows from here on was small by accident */
+        if (step == 0 && looks &&
+            !(d > 0 && FAR * d <= share)) { /* one that grows from here on was small by accident */
             if (!knob_distance(m, knob, (double[2]){next, 2 * next}, true, ahead, e)) return false;
             d = fmax(d, ahead[1]);
             looks_back = true;

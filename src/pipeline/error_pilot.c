@@ -28,6 +28,7 @@
 #include "scene/accuracy.h"
 #include "scene/params.h"
 #include "scene/scene.h"
+#include "trajectory/contact.h"
 #include "trajectory/trajectory.h"
 
 enum { FORCE_MOST = 1 << 20 }; /* frames of a force that are kept in memory at most */
@@ -37,32 +38,48 @@ enum {
 
 /* What of a contact's force is heard: the power of its sound over that of the force, by frequency. */
 
-/* power[bins] of the contact's sound at a place (m) that is touched and left: its response to a unit impulse,
+/* power[places][bins] of the contact's sound at a place (m) that is touched and left: its response to a unit impulse,
    all listening places together, of the first frames and, by how these fall, of what rings on. Where
    nothing rings, and of a contact whose gain is 0, it is 1: the force itself.
-   Errors: those of plans and stages. */
-enum { AUDIBLE_FRAMES = 8192, AUDIBLE_ENHANCED = 65536 }; /* what is enhanced rises for as long as it falls */
 
-/* The contact is replaced by a strike far shorter than a sample, and its sound by the scene's own stages: whatever
+   The contact is replaced by a strike far shorter than a sample, and its sound by the scene's own stages: whatever
    rings (modes, recordings, an object, scraper and surface) and however it is heard needs no second formula here.
 
      |H(f)|^2 = sum over channels |FFT of the sound|^2 / |FFT of the force|^2      means over 1/(bins - 1) of the band
 
    contact.enhance belongs to it: what it enhances rings longer than the force that it is given. It goes by the modes
    along the whole motion: so its |H|^2 is that of a strike on the contact's own motion, with and without it. */
-#define SHORT 1e-7        /* s, of the strike */
+enum { AUDIBLE_FRAMES = 8192, AUDIBLE_ENHANCED = 65536 }; /* what is enhanced rises for as long as it falls */
+#define SHORT 1e-7                                        /* s, of the strike */
 #define LEAST_PUSHED 1e-8 /* of the force's power at 0 Hz: the contact smooths, and the decimator has its edge */
 enum { FIRST = 64 };      /* frames before it: the decimator's reach and more */
 #define FADED 10.0        /* beta from which all is within 10 % of what is under the fade */
 
-/* place NULL: on its own motion, at once. */
-static void strike(struct contact *c, const double *place, double duration, double rate, struct arena *a)
+struct strikes {
+    const struct scene *scene;
+    const struct contact *contact;
+    struct arena *arena;
+    bool residual, silent; /* silent: what is listened to is the force */
+    long n;                /* frames */
+    struct fft *fft;
+    double *fade; /* [n + 1] cos^2, from 1 to 0: what still rings at the end would leak to where the object does not */
+    double *x, *re, *im;
+    double *pushed; /* power of the force */
+    int bins, wide; /* bins of these spectra in a band */
+};
+
+/* A strike at a place, or on the contact's own motion (NULL), at once. */
+static bool strike_open(struct strikes *k, const double *place, bool force, bool enhanced, struct run *r, struct err *e)
 {
-    double mass = 0.01;
+    struct contact *c = ARENA_TAKE(k->arena, struct contact, 1);
+    struct scene *own = ARENA_TAKE(k->arena, struct scene, 1);
+    struct plan *p = ARENA_TAKE(k->arena, struct plan, 1);
+    double mass = 0.01, rate = k->scene->output.sample_rate;
+    *c = *k->contact;
     c->start = 0;
     c->gain = 1; /* the pilot has it */
     c->contact.model = CONTACT_STRIKE;
-    *(struct strike *)params_edit(c, strike_stage.params, a) =
+    *(struct strike *)params_edit(c, strike_stage.params, k->arena) =
         (struct strike){.pulse = PULSE_HALF_SINE,
                         .speed = 1,
                         .stiffness = mass * REAL_PI * REAL_PI / (SHORT * SHORT),
@@ -72,14 +89,14 @@ static void strike(struct contact *c, const double *place, double duration, doub
                         .restitution = NAN};
     c->scraper.mass = mass;
     if (place)
-        c->motion = (struct motion){.path = PATH_STILL, .at = {place[0], place[1]}, .duration = duration, .speed = NAN};
-}
-
-/* What still rings at the end would leak to where the object does not. */
-static double fade(double u)
-{
-    double c = real_sinpi(0.5 + 0.5 * u);
-    return c * c;
+        c->motion = (struct motion){
+            .path = PATH_STILL, .at = {place[0], place[1]}, .duration = (double)k->n / rate, .speed = NAN};
+    if (!k->residual) error_pilot_drop_residual(c, k->arena);
+    if (!enhanced) *(bool *)params_edit(c, enhance_stage.params, k->arena) = false;
+    *own = *k->scene;
+    error_pilot_alone(own, c);
+    if (force) own->output.quantity = QUANTITY_FORCE;
+    return plan_make(stages_table, c, own, k->arena, p, e) && run_open(r, p, own, NULL, e);
 }
 
 /* int_0^1 e^(-beta u) sum_k a_k cos(step k pi u) du, k = 0 .. 2. */
@@ -101,94 +118,82 @@ static double left_over_end(double beta)
     return (1 / beta - falling(beta, fade2, 1)) / (0.5 * real_exp(-beta / 2) * falling(beta / 2, window2, 2));
 }
 
-struct spectra {
-    long n; /* frames */
-    struct fft *fft;
-    double *x, *re, *im;
-    double *pushed; /* power of the force */
-    int wide;       /* bins of these spectra in a band */
-};
-
 /* Adds to each band what the sound has there of the force, from frame `first` on, under a window of so many frames
    that falls, or that rises and falls. */
-static void add_bands(struct spectra *s, const double *sound, long first, long frames, bool rises, double *power)
+static void add_bands(struct strikes *s, const double *sound, long first, long frames, bool rises, double *power)
 {
-    double each = 1.0 / (double)frames;
+    long step = (rises ? 2 : 1) * s->n / frames;
     memset(s->x, 0, (size_t)s->n * sizeof *s->x);
     for (long i = 0; i < frames; i++)
-        s->x[first + i] = sound[first + i] * fade(rises ? 2 * each * (double)i - 1 : each * (double)i);
+        s->x[first + i] = sound[first + i] * s->fade[rises ? labs(step * i - s->n) : step * i];
     fft_forward(s->fft, s->x, s->re, s->im);
     for (long i = 0; i <= s->n / 2; i++)
         power[(i + s->wide / 2) / s->wide] += (s->re[i] * s->re[i] + s->im[i] * s->im[i]) / s->pushed[i];
 }
 
-enum { PLAIN, SOUNDING, OWN, ENHANCED, STRIKES }; /* runs; the last two where contact.enhance is given */
-
-/* The spectrum of a strike's force. */
-static bool force_spectrum(struct run *r, struct spectra *s, struct err *e)
+/* power[n/2+1] of a strike's force. */
+static bool force_power(struct strikes *s, const double *place, bool enhanced, double *power, struct err *e)
 {
-    for (long from = 0; from < s->n; from += STAGE_BLOCK) {
-        if (!run_block(r, from + STAGE_BLOCK, e)) return false;
-        const double *x = board_at(&r->board, ITEM_FORCE, from);
-        for (long i = 0; i < STAGE_BLOCK; i++)
-            s->x[from + i] = x[i] * fade((double)(from + i) / (double)s->n);
+    struct run r;
+    if (!strike_open(s, place, true, enhanced, &r, e)) return false;
+    bool ok = true;
+    for (long from = 0; ok && from < s->n; from += STAGE_BLOCK) {
+        ok = run_block(&r, from + STAGE_BLOCK, e);
+        const double *x = ok ? board_at(&r.board, ITEM_FORCE, from) : NULL;
+        for (long i = 0; ok && i < STAGE_BLOCK; i++)
+            s->x[from + i] = x[i] * s->fade[from + i];
     }
+    run_close(&r);
+    if (!ok) return false;
     fft_forward(s->fft, s->x, s->re, s->im);
+    for (long i = 0; i <= s->n / 2; i++)
+        power[i] = fmax(s->re[i] * s->re[i] + s->im[i] * s->im[i], LEAST_PUSHED * s->re[0] * s->re[0]);
     return true;
 }
 
 /* What rings longer is added: it falls as it fell from the middle half of what is run to the second half, but at least
    as the sound does in all. */
-static bool measure(struct run r[STRIKES], enum item item, bool enhanced, long n, int bins, struct arena *a,
-                    double *power, struct err *e)
+static bool place_power(struct strikes *s, const double place[2], double *power, struct err *e)
 {
-    const struct board *b = &r[SOUNDING].board;
-    int channels = item == ITEM_SOUND ? b->channels : 1;
-    double *middle = ARENA_TAKE(a, double, bins), *end = ARENA_TAKE(a, double, bins),
-           *sound = ARENA_TAKE(a, double, channels *n);
-    struct spectra s = {.n = n,
-                        .fft = fft_open(n),
-                        .x = ARENA_TAKE(a, double, n),
-                        .re = ARENA_TAKE(a, double, n / 2 + 1),
-                        .im = ARENA_TAKE(a, double, n / 2 + 1),
-                        .pushed = ARENA_TAKE(a, double, n / 2 + 1),
-                        .wide = (int)(n / 2 / (bins - 1))};
-    bool ok = force_spectrum(&r[PLAIN], &s, e);
-    for (long i = 0; ok && i <= n / 2; i++)
-        s.pushed[i] = fmax(s.re[i] * s.re[i] + s.im[i] * s.im[i], LEAST_PUSHED * s.re[0] * s.re[0]);
-    for (int k = OWN; ok && enhanced && k <= ENHANCED; k++) {
-        ok = force_spectrum(&r[k], &s, e);
-        for (long i = 0; ok && i <= n / 2; i++) {
-            double square = fmax(s.re[i] * s.re[i] + s.im[i] * s.im[i], LEAST_PUSHED * s.re[0] * s.re[0]);
-            s.pushed[i] = k == OWN ? s.pushed[i] * square : s.pushed[i] / square;
-        }
-    }
+    struct run r;
+    if (!strike_open(s, place, s->silent, false, &r, e)) return false;
+    const struct board *b = &r.board;
+    long n = s->n;
+    int channels = s->silent ? 1 : b->channels;
+    double *middle = ARENA_TAKE(s->arena, double, s->bins), *end = ARENA_TAKE(s->arena, double, s->bins),
+           *sound = ARENA_TAKE(s->arena, double, channels *n);
+    bool ok = true;
     for (long from = 0; ok && from < n; from += STAGE_BLOCK) {
-        ok = run_block(&r[SOUNDING], from + STAGE_BLOCK, e);
-        const double *x = ok ? board_at(b, item, from) : NULL;
+        ok = run_block(&r, from + STAGE_BLOCK, e);
+        const double *x = ok ? board_at(b, s->silent ? ITEM_FORCE : ITEM_SOUND, from) : NULL;
         for (long i = 0; ok && i < STAGE_BLOCK; i++)
             for (int k = 0; k < channels; k++)
                 sound[k * n + from + i] = x[i * channels + k];
     }
-    if (!ok) {
-        fft_close(s.fft);
-        return false;
-    }
-    memset(power, 0, (size_t)bins * sizeof *power);
-    for (int k = 0; k < channels; k++) {
-        const double *x = sound + k * n;
-        add_bands(&s, x, 0, n, false, power);
-        add_bands(&s, x, n / 4, n / 2, true, middle);
-        add_bands(&s, x, n / 2, n / 2, true, end);
-    }
-    fft_close(s.fft);
     double slowest = 18.42 * (double)n / (fmin(b->ring, PILOT_LONGEST) * b->rate); /* 80 dB: e^-18.42 */
-    for (int k = 0; k < bins; k++) {
+    run_close(&r);
+    memset(power, 0, (size_t)s->bins * sizeof *power);
+    for (int k = 0; ok && k < channels; k++) {
+        const double *x = sound + k * n;
+        add_bands(s, x, 0, n, false, power);
+        add_bands(s, x, n / 4, n / 2, true, middle);
+        add_bands(s, x, n / 2, n / 2, true, end);
+    }
+    for (int k = 0; k < s->bins; k++) {
         double beta = middle[k] > 0 && end[k] > 0 ? fmax(-4 * real_log(end[k] / middle[k]), slowest) : FADED;
         if (beta < FADED) power[k] += end[k] * left_over_end(beta);
-        power[k] /= k == 0 || k == bins - 1 ? 0.5 * s.wide + 0.5 : s.wide;
+        power[k] /= k == 0 || k == s->bins - 1 ? 0.5 * s->wide + 0.5 : s->wide;
     }
-    return true;
+    return ok;
+}
+
+void error_pilot_alone(struct scene *s, struct contact *c)
+{
+    s->contacts = c;
+    s->n_contacts = 1;
+    s->output.stems = NULL;
+    s->output.diagnostics.given = false;
+    s->output.impacts = LISTING_NONE;
 }
 
 /* It is dear to make, and leaves what is louder, the modes. */
@@ -197,40 +202,44 @@ void error_pilot_drop_residual(struct contact *c, struct arena *a)
     *(const char **)params_edit(c, surface_residual_stage.params, a) = NULL; /* its file */
 }
 
-static bool audible_power(const struct scene *s, const struct contact *c, const double place[2], bool residual,
+static bool audible_power(const struct scene *s, const struct contact *c, double (*place)[2], int places, bool residual,
                           int bins, double *power, struct err *e)
 {
     bool enhanced = *(const bool *)params_of(c, enhance_stage.params),
-         silent = s->output.quantity == QUANTITY_FORCE || !response_rings(c) || c->gain == 0, ok = true;
-    for (int k = 0; k < bins; k++)
+         silent = s->output.quantity == QUANTITY_FORCE || !response_rings(c) || c->gain == 0;
+    for (int k = 0; k < places * bins; k++)
         power[k] = 1;
     if (silent && !enhanced) return true;
     struct arena *a = arena_open();
-    struct contact struck[STRIKES];
-    struct scene own[STRIKES];
-    struct plan p[STRIKES];
-    struct run r[STRIKES];
-    long n = enhanced ? AUDIBLE_ENHANCED : AUDIBLE_FRAMES;
-    double rate = s->output.sample_rate;
-    int open = 0, all = enhanced ? STRIKES : OWN;
-    for (int k = 0; ok && k < all; k++) {
-        struck[k] = *c;
-        own[k] = *s;
-        strike(&struck[k], k < OWN ? place : NULL, (double)n / rate, rate, a);
-        if (!residual) error_pilot_drop_residual(&struck[k], a);
-        own[k].contacts = &struck[k];
-        own[k].n_contacts = 1;
-        own[k].output.stems = NULL;
-        own[k].output.diagnostics.given = false;
-        own[k].output.impacts = LISTING_NONE;
-        if (k != SOUNDING || silent) own[k].output.quantity = QUANTITY_FORCE;
-        if (k != ENHANCED) *(bool *)params_edit(&struck[k], enhance_stage.params, a) = false;
-        ok = plan_make(stages_table, &struck[k], &own[k], a, &p[k], e) && run_open(&r[k], &p[k], &own[k], NULL, e);
-        open += ok;
+    long n = enhanced ? AUDIBLE_ENHANCED : AUDIBLE_FRAMES, half = n / 2 + 1;
+    struct strikes k = {.scene = s,
+                        .contact = c,
+                        .arena = a,
+                        .residual = residual,
+                        .silent = silent,
+                        .n = n,
+                        .fft = fft_open(n),
+                        .fade = ARENA_TAKE(a, double, n + 1),
+                        .x = ARENA_TAKE(a, double, n),
+                        .re = ARENA_TAKE(a, double, half),
+                        .im = ARENA_TAKE(a, double, half),
+                        .pushed = ARENA_TAKE(a, double, half),
+                        .bins = bins,
+                        .wide = (int)(n / 2 / (bins - 1))};
+    for (long i = 0; i <= n; i++) {
+        double x = real_sinpi(0.5 + 0.5 * (double)i / (double)n);
+        k.fade[i] = x * x;
     }
-    ok = ok && measure(r, silent ? ITEM_FORCE : ITEM_SOUND, enhanced, n, bins, a, power, e);
-    for (int k = 0; k < open; k++)
-        run_close(&r[k]);
+    bool ok = force_power(&k, place[0], false, k.pushed, e); /* it is the same at all places */
+    if (ok && enhanced) {
+        double *plain = ARENA_TAKE(a, double, half), *full = ARENA_TAKE(a, double, half);
+        ok = force_power(&k, NULL, false, plain, e) && force_power(&k, NULL, true, full, e);
+        for (long i = 0; ok && i < half; i++)
+            k.pushed[i] *= plain[i] / full[i];
+    }
+    for (int i = 0; ok && i < places; i++)
+        ok = place_power(&k, place[i], power + i * bins, e);
+    fft_close(k.fft);
     arena_close(a);
     return ok;
 }
@@ -275,35 +284,39 @@ static long fastest(const struct trajectory *tr, long moving)
 bool error_pilot_make(const struct scene *s, const struct contact *c, double some, bool moves, bool sampled,
                       struct arena *a, struct error_pilot *p, struct err *e)
 {
-    struct trajectory tr;
     double rate = s->output.sample_rate;
     *p = (struct error_pilot){.scene = *s,
                               .contact = *c,
                               .arena = a,
                               .gain = c->gain,
+                              .silent = s->output.quantity == QUANTITY_FORCE && c->gain != 0,
                               .drift = 1,
                               .places = moves && !sampled ? PILOT_PLACES : 1,
                               .window = sampled ? PILOT_WINDOW_SAMPLED : PILOT_WINDOW};
     p->hop = p->window / 2;
     p->bins = p->hop + 1;
     p->power = ARENA_TAKE(a, double, p->places * p->bins);
+    p->taper = ARENA_TAKE(a, double, p->window);
+    for (int i = 0; i < p->window; i++) {
+        double x = real_sinpi((i + 0.5) / p->window);
+        p->taper[i] = x * x;
+    }
     if (c->gain == 0) /* it is here for its table, which holds its force as it is */
         p->gain = p->contact.gain = 1;
     *(bool *)params_edit(&p->contact, enhance_stage.params, a) = false; /* power has it */
-    p->scene.contacts = &p->contact;
-    p->scene.n_contacts = 1;
+    error_pilot_alone(&p->scene, &p->contact);
     p->scene.output.quantity = QUANTITY_FORCE;
-    p->scene.output.stems = NULL;
     p->scene.output.listen.given = false;
     p->scene.output.channels = 1;
-    p->scene.output.diagnostics.given = false;
-    p->scene.output.impacts = LISTING_NONE;
-    if (!trajectory_make(&c->motion, trajectory_seed(s, c), a, &tr, e)) return err_at(e, "contact '%s'", c->name);
-    p->moving = trajectory_frames(&tr, rate);
+    struct trajectory *tr = ARENA_TAKE(a, struct trajectory, 1);
+    if (!trajectory_make(&c->motion, trajectory_seed(s, c), a, tr, e)) return err_at(e, "contact '%s'", c->name);
+    p->contact.motion.made = tr;
+    p->start = contact_first_frame(c, rate);
+    p->moving = trajectory_frames(tr, rate);
     p->some = p->moving + SETTLED;
     bool anywhere = begins_anywhere(c);
     p->sampled = sampled;
-    p->fastest = anywhere ? fastest(&tr, p->moving) : 0;
+    p->fastest = anywhere ? fastest(tr, p->moving) : 0;
     if (c->contact.model == CONTACT_ROLL_COUPLED || (sampled && !anywhere)) {
         long first = (long)ceil(some * rate);
         p->some = first < p->some ? first : p->some;
@@ -324,12 +337,16 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
         p->block[k].number = k == 0        ? 0
                              : k <= spread ? p->blocks * (2 * k - 1) / (2 * spread)
                                            : p->blocks - p->followed + k;
-    for (int k = 0; k < p->places; k++) { /* of a response that moves, those in the middle of each third */
-        double t = tr.duration * (2 * k + 1) / (2 * p->places), place[2];
-        trajectory_at(&tr, 1, &t, (struct trajectory_out){.x = &place[0], .y = &place[1]});
-        if (!audible_power(s, c, place, !sampled, p->bins, p->power + k * p->bins, e)) return false;
+    /* Of a response that moves, one in each third. Of the first 40 modes of a string or bar along whose length the motion
+       leads, at a steady speed, as minimum jerk or there and back, each has a tenth of its power at these or more:
+       none lies on nodes at all three. */
+    static const double places_at[PILOT_PLACES] = {0.2 / 3, 1.736 / 3, 2.538 / 3};
+    double place[PILOT_PLACES][2];
+    for (int k = 0; k < p->places; k++) {
+        double t = tr->duration * (p->places == 1 ? 0.5 : places_at[k]);
+        trajectory_at(tr, 1, &t, (struct trajectory_out){.x = &place[k][0], .y = &place[k][1]});
     }
-    return true;
+    return audible_power(s, c, place, p->places, !sampled, p->bins, p->power, e);
 }
 
 /* ------------------------------------------------------------------ blocks */
@@ -337,17 +354,13 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
 struct hearing {
     struct fft *fft;
     int window;
-    double taper[PILOT_WINDOW], x[PILOT_WINDOW], re[PILOT_BINS], im[PILOT_BINS];
+    const double *taper;
+    double x[PILOT_WINDOW], re[PILOT_BINS], im[PILOT_BINS];
 };
 
 static struct hearing hearing_open(const struct error_pilot *p)
 {
-    struct hearing h = {.fft = fft_open(p->window), .window = p->window};
-    for (int i = 0; i < p->window; i++) {
-        double s = real_sin(REAL_PI * (i + 0.5) / p->window);
-        h.taper[i] = s * s;
-    }
-    return h;
+    return (struct hearing){.fft = fft_open(p->window), .window = p->window, .taper = p->taper};
 }
 
 static double weighted(const struct error_pilot *p, long block, const double *square)
@@ -373,13 +386,33 @@ static bool spectrum(struct hearing *h, double *square)
     return true;
 }
 
-/* Of the force in a block. A force's mean is often many times what of it rings, and leaks from the window into the bins
+double error_pilot_shown(const struct scene *s, long frame)
+{
+    double ramp = rint(s->output.ramp * s->output.sample_rate),
+           left =
+               isnan(s->output.duration) ? HUGE_VAL : rint(s->output.duration * s->output.sample_rate) - (double)frame,
+           in = fmax(0, fmin(fmin((double)frame + 0.5, left - 0.5), ramp)),
+           x = ramp > 0 ? real_sinpi(0.5 * in / ramp) : 1;
+    return left > 0 ? x * x : 0;
+}
+
+/* The force of a block under output's ramps; false: they leave all of it. */
+static bool fade_block(const struct error_pilot *p, long block, double *x)
+{
+    long first = p->start + (block - 1) * p->hop, last = first + p->window - 1;
+    if (error_pilot_shown(&p->scene, first) == 1 && error_pilot_shown(&p->scene, last) == 1) return false;
+    for (int i = 0; i < p->window; i++)
+        x[i] *= error_pilot_shown(&p->scene, first + i);
+    return true;
+}
+
+/* Of the force in h->x. A force's mean is often many times what of it rings, and leaks from the window into the bins
    of modes: so each bin has the least of its power and of that of the second difference, for which a mean and a slope
    are nothing, over 16 sin^4(omega/2). */
-static double block_energy(const struct error_pilot *p, struct hearing *h, long block, const double *x)
+static double energy_of(const struct error_pilot *p, struct hearing *h, long block)
 {
-    double square[PILOT_BINS], other[PILOT_BINS];
-    memcpy(h->x, x, (size_t)p->window * sizeof *x);
+    double square[PILOT_BINS], other[PILOT_BINS], x[PILOT_WINDOW];
+    memcpy(x, h->x, (size_t)p->window * sizeof *x);
     if (!spectrum(h, square)) return 0;
     h->x[0] = h->x[p->window - 1] = 0;
     for (int i = 1; i < p->window - 1; i++)
@@ -392,13 +425,26 @@ static double block_energy(const struct error_pilot *p, struct hearing *h, long 
     return weighted(p, block, square);
 }
 
-/* Of the difference of two; what leaks makes it more. */
+/* energy[2] of a block of force: as it is, and of the force under output's ramps. Where the force is what is listened
+   to, it is under them. */
+static void block_energy(const struct error_pilot *p, struct hearing *h, long block, const double *x, double energy[2])
+{
+    memcpy(h->x, x, (size_t)p->window * sizeof *x);
+    bool faded = fade_block(p, block, h->x);
+    if (faded) energy[1] = energy_of(p, h, block);
+    memcpy(h->x, x, (size_t)p->window * sizeof *x);
+    energy[0] = faded && p->silent ? energy[1] : energy_of(p, h, block);
+    if (!faded) energy[1] = energy[0];
+}
+
+/* Of the difference of two; what leaks makes it more. A sound's rings on as a ramp opens: it is as it is without. */
 static double block_distance(const struct error_pilot *p, struct hearing *h, long block, const double *x,
                              const double *y)
 {
     double square[PILOT_BINS];
     for (int i = 0; i < p->window; i++)
         h->x[i] = x[i] - y[i];
+    if (p->silent) fade_block(p, block, h->x);
     return spectrum(h, square) ? weighted(p, block, square) : 0;
 }
 
@@ -428,7 +474,7 @@ static bool run_whole(struct error_pilot *p, const struct accuracy *set, const s
     struct hearing h = hearing_open(p);
     long hop = p->hop;
     double x[2][PILOT_WINDOW] = {{0}}, *now = x[finer != NULL];
-    p->energy = 0;
+    p->energy = p->shown = 0;
     for (int k = 0; ok && k < 2; k++) {
         if (!sets[k]) continue;
         scene[k].accuracy = *sets[k];
@@ -453,9 +499,11 @@ static bool run_whole(struct error_pilot *p, const struct accuracy *set, const s
         }
         if (!ok) break;
         if (p->last && frames > 0) memcpy(p->last + from, now + hop, (size_t)frames * sizeof(double));
-        double energy = block_energy(p, &h, number, now);
-        p->energy += energy;
-        p->distance[number] = finer ? block_distance(p, &h, number, x[1], x[0]) : energy;
+        double energy[2];
+        block_energy(p, &h, number, now, energy);
+        p->energy += energy[0];
+        p->shown += energy[1];
+        p->distance[number] = finer ? block_distance(p, &h, number, x[1], x[0]) : energy[0];
     }
     for (int k = 0; k < 2; k++) {
         if (!open[k]) continue;
@@ -559,13 +607,15 @@ static bool run_sample(struct error_pilot *p, const struct accuracy *set, const 
     const struct pilot_block *x = sample(p, set, e), *y = x && finer ? sample(p, finer, e) : x;
     struct hearing h = hearing_open(p);
     int spread = p->followed - PILOT_ENDS;
-    p->energy = 0;
+    p->energy = p->shown = 0;
     memset(p->distance, 0, (size_t)p->blocks * sizeof *p->distance);
     for (int k = 0; y && k < p->followed; k++) {
         double each = k == 0 || k > spread ? 1 : (double)(p->blocks - PILOT_ENDS) / spread;
-        double energy = each * block_energy(p, &h, y[k].number, y[k].x);
-        p->energy += energy;
-        p->distance[y[k].number] = finer ? each * block_distance(p, &h, y[k].number, y[k].x, x[k].x) : energy;
+        double energy[2];
+        block_energy(p, &h, y[k].number, y[k].x, energy);
+        p->energy += each * energy[0];
+        p->shown += each * energy[1];
+        p->distance[y[k].number] = each * (finer ? block_distance(p, &h, y[k].number, y[k].x, x[k].x) : energy[0]);
     }
     fft_close(h.fft);
     return y != NULL;

@@ -37,13 +37,16 @@ struct error_pilot {        /* of one contact */
     struct plan plan;
     struct arena *arena;
     unsigned knobs;        /* those that the force depends on */
+    long start;            /* frame of the sound at which the motion begins */
     long moving, some;     /* frames of the motion; of what is run of it */
     double gain, drift;    /* drift: by which errors may grow beyond what is run: 1, but of a coupled ball */
     int window, hop, bins; /* frames of a block; half of them; bins of its spectrum */
+    double *taper;         /* [window] sin^2 */
     double *power;         /* [places][bins] |H|^2 */
     int places;
     long blocks;
     bool sampled;
+    bool silent;  /* it is the force that is listened to */
     bool follows; /* the force can begin anywhere, and the motion is long enough for that */
     int followed; /* blocks then */
     long lead;    /* frames before a block that is begun with */
@@ -52,7 +55,7 @@ struct error_pilot {        /* of one contact */
     double *last; /* [some] the force at the last setting of a survey; NULL: it is too long, and run again */
     double *distance, *older; /* [blocks] between the last two settings, and between the two before: of a survey */
     double *falls;            /* [blocks] by which the distance is taken to fall at the next doubling */
-    double energy;            /* of the whole */
+    double energy, shown;     /* of the whole; of the force under output.ramp, as error_pilot_shown has it */
     struct pilot_sample ran[PILOT_SETTINGS];
     int next;                  /* of ran, the one to take next */
     struct pilot_block *block; /* [PILOT_FOLLOWED] those that are run, in order of their numbers; NULL: all are */
@@ -64,6 +67,12 @@ struct error_pilot {        /* of one contact */
    changes on the way. */
 bool error_pilot_make(const struct scene *s, const struct contact *c, double some, bool moves, bool sampled,
                       struct arena *a, struct error_pilot *p, struct err *e);
+
+/* The scene with this contact alone, and no files beside the sound. */
+void error_pilot_alone(struct scene *s, struct contact *c);
+
+/* Gain of output.ramp at a frame of the sound: where it begins, and where output.duration ends it. */
+double error_pilot_shown(const struct scene *s, long frame);
 
 /* The contact without surface.residual. */
 void error_pilot_drop_residual(struct contact *c, struct arena *a);

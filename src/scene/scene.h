@@ -161,6 +161,8 @@ struct ball {           /* what rolls: trajectory/contact.h                     
     struct response response;
 };
 
+struct trajectory;
+
 struct motion {
     int path;              /* enum motion_path                                                  */
     double at[2];          /* m, of still                                                       */
@@ -188,6 +190,7 @@ struct motion {
     double gravity,
         inertia;     /* of the path incline, from the contact: m/s^2, g; I / (m R^2) of what moves (ball_apply) */
     double straight; /* m, radius of curvature from which on two_thirds counts a path as straight */
+    const struct trajectory *made; /* no key: what trajectory_make makes of it, where that is known; NULL: it is not */
 };
 
 struct grip { /* N(t) from the hand: eq. 8 and 9 generalised                       */

@@ -448,6 +448,10 @@ bool trajectory_make(const struct motion *m, uint64_t seed, struct arena *a, str
 {
     struct making w = {
         .m = m, .seed = seed, .arena = a, .tr = tr, .s = ARENA_TAKE(a, struct trajectory_state, 1), .e = e};
+    if (m->made) {
+        *tr = *m->made;
+        return true;
+    }
     *tr = (struct trajectory){.straight = false};
     if (!motion_can(m, e)) return false;
     if (!(m->path == PATH_STILL                                ? still_make(&w)

@@ -1,6 +1,6 @@
 # Scenes like random ones that missed the error they asked for. Each must meet it: a mode narrower than the pilot's bins
 # between lines of the force, a force that is enhanced and rings on after the motion, ramps of gains that
-# share a harmonic, contacts of unlike gains.
+# share a harmonic, contacts of unlike gains, a mode on nodes where the pilot might strike.
 . "$ROOT/tests/lib/test.sh"
 cat > narrow.csv <<'END'
 # poles: shared
@@ -66,7 +66,22 @@ contacts:
     contact: {model: strike, strike: {speed: 0.003 mm/s, pulse: half_sine, stiffness: 5e4 N/m}}
     motion: {path: still, at: [3 cm, 1 cm], duration: 0.1 s}
 END
-[ -z "${SANITIZED:-}" ] || rm narrow.yaml enhanced.yaml ramps.yaml # they would take minutes
+# A mode that lies on nodes at the middle of each third of the motion, and is most of the sound elsewhere.
+{
+    printf '# poles: shared\n# quantity: velocity\n# radius_m: 0.05\n'
+    echo place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad
+    awk 'BEGIN { for (p = 0; p < 25; p++) for (m = 1; m <= 2; m++)
+        printf "%d,%.6g,0,%d,%d,40,%.6g,0\n", p + 1, p / 24 * 0.12, m, m == 1 ? 80 : 17000,
+            sin((m == 1 ? 1 : 6) * 3.14159265358979 * p / 24) }'
+} > sixth.csv
+cat > sixth.yaml <<'END'
+rasp: 1
+accuracy: {error: -104.5 dB}
+surface: {response: sixth.csv, roughness: {rms: 5 um, longest: 10 mm}}
+scraper: {mass: 5 g}
+motion: {path: line, law: constant, to: [12 cm, 0], duration: 0.3}
+END
+[ -z "${SANITIZED:-}" ] || rm narrow.yaml enhanced.yaml ramps.yaml sixth.yaml # they would take minutes
 # Enhanced, and the mode does not move where the pilot strikes; a mute contact is there for its table.
 cat > node.csv <<'END'
 # poles: shared
@@ -87,7 +102,7 @@ END
 rasp render node.yaml -q -o node.wav || fail 'a mode that does not move where it is struck'
 sed 's/^scraper/gain: 0\noutput: {diagnostics: {}}\naccuracy: {error: -60 dB}\nscraper/' node.yaml > mute.yaml
 rasp render mute.yaml -q -o mute.wav || fail 'a mute contact that is enhanced'
-for name in narrow enhanced gains ramps; do
+for name in narrow enhanced gains ramps sixth; do
     [ -e $name.yaml ] || continue
     rasp render "$name.yaml" --verify --set output.encoding=float64 --set output.level.full_scale=1e6 -o "$name.wav" \
         > said 2>&1 || fail "$name: $(grep 'accuracy' said)"

@@ -173,13 +173,14 @@ START_TEST(the_best_is_the_same)
 END_TEST
 
 /* A contact whose gain is 0 is there for its table alone, which holds the force as it is: it is given the knobs that
- * the force itself is, whatever rings. */
+ * the force itself is, whatever rings; output.ramp, which fades the force that is listened to, does not count. */
 START_TEST(what_is_mute_has_a_force)
 {
     static const char rings[] = ", material: steel, object: {shape: bar, length: 20 cm, width: 3 cm, thickness: 2 mm}";
     for (double error = -40; error >= -90; error -= 25) {
         struct scene chosen, heard;
         struct error_budget p = applied(error, "", &heard);
+        double first = NAN;
         for (int i = 0; i < 2; i++) {
             const char *text =
                 arena_format(rig_arena(),
@@ -192,7 +193,9 @@ START_TEST(what_is_mute_has_a_force)
             struct err e = {0};
             ck_assert_msg(error_budget_apply(&s, rig_arena(), &chosen, &mute, &e), "%s", e.text);
             ck_assert_double_eq(chosen.accuracy.oversampling, heard.accuracy.oversampling);
-            ck_assert_double_eq(mute.predicted, p.predicted);
+            ck_assert_double_eq_tol(mute.predicted, p.predicted, 0.5);
+            ck_assert(i == 0 || mute.predicted == first);
+            first = mute.predicted;
         }
     }
 }

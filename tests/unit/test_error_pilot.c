@@ -86,4 +86,47 @@ START_TEST(sampled)
 }
 END_TEST
 
-UNIT("error_pilot", as_the_whole_motion, sampled)
+/* What output.ramp takes from a force, and output.duration cuts, counts neither as energy nor as error: beside the force
+   itself under the same ramp. A pulse of 0.6 ms 5 us, 3 ms and 30 ms after the start, and in a sound that ends within
+   it. Windows weigh instants unlike each other, by up to 3 dB. */
+START_TEST(under_ramps)
+{
+    static const struct {
+        const char *first, *output;
+        double end;
+    } cases[] = {{"5 us", "ramp: 10 ms", HUGE_VAL},
+                 {"3 ms", "ramp: 10 ms", HUGE_VAL},
+                 {"30 ms", "ramp: 10 ms", HUGE_VAL},
+                 {"30 ms", "ramp: 1 ms, duration: 30.8 ms", 0.0308}};
+    for (int k = 0; k < 4; k++) {
+        double energy[2], kept = 0, all = 0;
+        for (int plain = 0; plain < 2; plain++) {
+            struct scene s = rig_scene(
+                rig_arena(), arena_format(rig_arena(),
+                                          "rasp: 1\nscraper: {mass: 20 g}\ncontact: {model: strike, strike: {speed: 1 "
+                                          "m/s, pulse: half_sine, stiffness: 5e5 N/m, first: %s}}\nmotion: {path: "
+                                          "still, duration: 0.1}\noutput: {quantity: force, %s}\n",
+                                          cases[k].first, plain ? "ramp: 0" : cases[k].output));
+            struct error_pilot *p = ARENA_TAKE(rig_arena(), struct error_pilot, 1);
+            struct err e = {0};
+            ck_assert_msg(error_pilot_make(&s, s.contacts, 0.5, false, false, rig_arena(), p, &e), "%s", e.text);
+            ck_assert_msg(error_pilot_run(p, &s.accuracy, NULL, false, &e), "%s", e.text);
+            energy[plain] = p->energy;
+            double ramp = s.output.ramp * s.output.sample_rate, end = cases[k].end * s.output.sample_rate;
+            for (long i = 0; !plain && i < p->some; i++) {
+                double edge = fmin((double)i + 0.5, rint(end) - (double)i - 0.5),
+                       gain = edge <= 0     ? 0
+                              : edge < ramp ? sin(M_PI / 2 * edge / ramp)
+                                            : 1;
+                kept += p->last[i] * p->last[i] * pow(gain, 4);
+                all += p->last[i] * p->last[i];
+            }
+        }
+        double off = 10 * log10(energy[0] / energy[1] * all / kept);
+        printf("case %d: %.2f dB left, %.2f dB off\n", k, 10 * log10(kept / all), off);
+        ck_assert_msg(fabs(off) < 3, "%g", off);
+    }
+}
+END_TEST
+
+UNIT("error_pilot", as_the_whole_motion, sampled, under_ramps)
