@@ -19,7 +19,6 @@ measured() { # of the options given, as a list and tables
 
 Made by \`evidence/promise.sh\` at $commit: \`tests/torture/promise.py --seed $SEED --scenes $SCENES\`. The scenes are those of tests/torture, of every model,
 most of them 0.1 to 0.3 s long; each is measured against itself with every knob twice as fine or finer. Scenes that take longer than 20 s are left out.
-Where choosing is said to take longer than the render, it holds what pilot runs and the render share, too: plans, and what listens to an object.
 
 ## An error that is asked for
 
