@@ -307,8 +307,8 @@ bool heightfile_formats_gsf_read(const char *path, const struct bytes *b, struct
     struct gsf g = {.path = path, .e = e};
     size_t n = strlen(gsf_magic);
     if (b->n <= n || memcmp(b->at, gsf_magic, n) != 0 || b->at[n] != '\n')
-        return err_set(e, ERR_SCENE, "%s: GSF header, line 1: is not '%s' with a line feed%s", path, gsf_magic,
-                       b->n > n && b->at[n] == '\r' ? " (it ends in CR LF)" : "");
+        return err_set(e, ERR_SCENE, "%s: GSF header, line 1: is not '%s' with a line feed%s: the file is damaged",
+                       path, gsf_magic, b->n > n && b->at[n] == '\r' ? " (it ends in CR LF)" : "");
     if (!memchr(b->at, '\0', b->n))
         return err_set(e, ERR_SCENE, "%s: it is cut short: no NUL byte ends the GSF header", path);
     return gsf_header(&g, b->at + n + 1) && gsf_resolution(&g, GSF_XRES, &h->columns) &&
