@@ -316,7 +316,7 @@ bool analyse_one_process(const struct analysis *a) { return a->statistics.one_pr
 
 /* ------------------------------------------------------------------ duration */
 
-static bool duration_find(struct cmd_call *c, struct analysis *a, struct err *e)
+static bool duration_find(struct analysis *a, struct err *e)
 {
     struct impact_duration *d = &a->duration;
     *d = (struct impact_duration){.theta = NAN,
@@ -326,9 +326,9 @@ static bool duration_find(struct cmd_call *c, struct analysis *a, struct err *e)
                                   .r2_single = NAN,
                                   .r2_single_log = NAN};
     /* Where theta comes from, in this order: --theta; --single; the impacts of the series that stand alone. */
-    if (args_given(&c->args, "theta")) {
+    if (!isnan(a->given.theta)) {
         a->theta = ANALYSE_THETA_GIVEN;
-        if (!args_number(&c->args, "theta", (const double[2]){0, 2}, &d->theta, e)) return false;
+        d->theta = a->given.theta;
     } else if (a->single.file) {
         a->theta = ANALYSE_THETA_FILE;
         if (!impact_find_duration_single(&a->single.found.events, true, d))
@@ -383,6 +383,8 @@ static bool find_options(struct cmd_call *c, struct analysis *a, struct err *e)
     static const double positive[2] = {1e-300, 1e300}, rates[2] = {1, 1e9}, share[2] = {0, 1}, quiet[2] = {1e-6, 0.1};
     *g = (struct analyse_given){.scale = NAN,
                                 .rate = NAN,
+                                .theta = NAN,
+                                .keep_modulation = args_given(&c->args, "keep-modulation"),
                                 .channel = 1,
                                 .column = args_value(&c->args, "column"),
                                 .options = impact_find_options};
@@ -390,6 +392,7 @@ static bool find_options(struct cmd_call *c, struct analysis *a, struct err *e)
     return args_word(&c->args, "distribution", words, &a->distribution, e) &&
            args_number(&c->args, "scale", positive, &g->scale, e) &&
            args_number(&c->args, "rate", rates, &g->rate, e) &&
+           args_number(&c->args, "theta", (const double[2]){0, 2}, &g->theta, e) &&
            args_whole(&c->args, "channel", (const long[2]){1, 1024}, &g->channel, e) &&
            args_number(&c->args, "threshold", share, &g->options.threshold, e) &&
            args_number(&c->args, "prominence", share, &g->options.prominence, e) &&
@@ -419,7 +422,12 @@ static bool analyse_all(struct cmd_call *c, struct analysis *a, struct err *e)
     if (!find_options(c, a, e) || !analyse_read(c->args.operands[0], &a->given, a->arena, &a->source, e)) return false;
     const char *single = args_value(&c->args, "single");
     if (single && args_given(&c->args, "theta")) return err_set(e, ERR_USAGE, "--single and --theta: give one of them");
-    if ((single && !analyse_read(single, &a->given, a->arena, &a->single, e)) || !options_used(c, a, e)) return false;
+    return (!single || analyse_read(single, &a->given, a->arena, &a->single, e)) && options_used(c, a, e) &&
+           analyse_make(a, e);
+}
+
+bool analyse_make(struct analysis *a, struct err *e)
+{
     if (a->source.has_force) notes_force(a, &a->source);
     if (a->single.file && a->single.has_force) notes_force(a, &a->single);
     const struct impact_events *v = &a->source.found.events;
@@ -442,7 +450,7 @@ static bool analyse_all(struct cmd_call *c, struct analysis *a, struct err *e)
              "%s: one impact, of %.4g N at %.6g s, outweighs all others together: the amplitudes' mean, "
              "deviation and filter are its own. Is it one? Leave it out of the file",
              a->source.file, v->amplitude[most], v->time[most]);
-    if (!duration_find(c, a, e)) return false;
+    if (!duration_find(a, e)) return false;
     if (a->source.has_force) impact_shape_make(&a->source.signal, &a->source.found, a->arena, &a->shape);
     /* Of raised cosines 1; of Hertz's impacts, to which a raised cosine is fitted, 1.1. */
     const struct impact_shape *h = &a->shape;
@@ -455,8 +463,7 @@ static bool analyse_all(struct cmd_call *c, struct analysis *a, struct err *e)
     if (!a->counted)
         note(a, "%d impact%s: statistics of the series take at least %d, and are left out", a->source.found.events.n,
              a->source.found.events.n == 1 ? "" : "s", STATISTICS_LEAST);
-    else if (impact_statistics_make(&a->source.found.events, !args_given(&c->args, "keep-modulation"), a->arena,
-                                    &a->statistics, e)) {
+    else if (impact_statistics_make(&a->source.found.events, !a->given.keep_modulation, a->arena, &a->statistics, e)) {
         for (int i = 0; i < STATISTICS_WARNINGS && a->statistics.warnings[i]; i++)
             note(a, "%s", a->statistics.warnings[i]);
     } else

@@ -10,6 +10,8 @@ enum { ANALYSE_NOTES = 32 };
 
 struct analyse_given {  /* what a file does not say itself, and what counts as an impact */
     double scale, rate; /* N per unit, Hz; NAN: not given                                */
+    double theta;       /* NAN: to be found                                              */
+    bool keep_modulation;
     long channel;       /* from 1                                                        */
     const char *column; /* NULL: force_n or force_mean_n                                 */
     struct impact_options options;
@@ -61,6 +63,9 @@ bool analyse_one_process(const struct analysis *a);
 /* Reads the file, and finds the impacts if it holds a force. ERR_INPUT, ERR_SCENE. */
 bool analyse_read(const char *file, const struct analyse_given *g, struct arena *a, struct analyse_source *s,
                   struct err *e);
+
+/* Statistics, durations and shape of what was read: arena, source, single, given and distribution are set. ERR_SCENE */
+bool analyse_make(struct analysis *a, struct err *e);
 
 /* Prints what was found. ERR_IO */
 bool analyse_report(const struct analysis *a, bool json, struct err *e);

@@ -44,7 +44,7 @@ struct command {
 
 extern const struct command check_command, explain_command, new_command, render_command, plan_command, compare_command,
     plot_command, accuracy_command, analyse_command, surface_command, modes_command, completion_command, batch_command,
-    batch_merge_command, export_command, golden_command, judge_command;
+    batch_merge_command, export_command, golden_command, judge_command, decompose_command;
 
 /* Rows for the option table of every command that reads scenes; cmd_read_scene heeds them. */
 #define CMD_SCENE_OPTIONS                                                                                              \

@@ -1,0 +1,82 @@
+/* A recording of rolling or scraping as what rings and what drives it: poles, gains, source, impacts (papers/002 section
+   II-C).
+
+   Both methods begin with onsets: instants at which the energy of what linear prediction does not foresee rises.
+   Between them the object rings freely, as far as it does at all. The papers go by high frequencies, which a smooth
+   impact has none of.
+
+   Lagrange et al. (papers/002 [18]): the poles of the longest free frames, by ESPRIT and output error (analysis/modal.h).
+   The state of the modes behind an onset less what rings on from the frame before it is what the impact added: a_k A_m
+   e^(s_m t_k). A is of rank one over the impacts, up to each one's time t_k, by which it is found. The source is the
+   recording divided by the modes' response, where that is loud enough:
+
+     F = Y H* / (|H|^2 + eps)      eps: the noise's power over the source's
+
+   An impact in it is a pulse, IFFT(|H|^2/(|H|^2 + eps)); the greatest is taken off, and so on down to the noise. 002
+   prints no eps and no search of impacts: both are ours.
+
+   Lee et al. (papers/002 [19]): the poles by linear prediction of low order in subbands, over all frames together. Each
+   impact has gains of its own, which are what the zeros of its spectrum say: modes that it excites little, or damps. So
+   there is no common H: impacts are the onsets, and the filter changes from one to the next. The paper's notches are
+   these gains; it prints no orders and no bands: ours.
+
+   Where no frame is free, since impacts are too many or the contact never breaks, the poles are those of the recording's
+   autocorrelation: that of what is driven by a white force falls as the object rings. */
+#ifndef ANALYSIS_SOURCE_FILTER_H
+#define ANALYSIS_SOURCE_FILTER_H
+#include "analysis/impact_find.h"
+#include "analysis/modal.h"
+
+enum source_filter_method { SOURCE_FILTER_LAGRANGE, SOURCE_FILTER_LEE };
+
+struct source_filter_options {
+    int method;
+    int most;         /* modes */
+    double low, high; /* Hz */
+    double fastest;   /* 1/s, of decays */
+    double rise;      /* dB, of an onset */
+    double snr;       /* dB by which the source's power is above what the division takes for noise; NAN: as measured */
+    bool both;        /* impacts in both directions */
+};
+
+struct source_filter_mode {
+    double frequency, decay;       /* Hz, 1/s */
+    double frequency_se, decay_se; /* NAN: not known */
+    cplx gain;                     /* A: h(t) = Im A e^(s t) of an impact of 1 */
+};
+
+struct source_filter {
+    const double *x; /* [n] the recording */
+    long n;
+    double rate;
+    int onsets, frames; /* frames: free ones that poles were taken from */
+    long *onset;        /* [onsets] samples */
+    double longest;     /* s, of a free frame */
+    bool correlated;    /* poles of the autocorrelation */
+    const char *note;   /* lines, of the fit; NULL */
+    int m;
+    struct source_filter_mode *mode; /* [m] by falling energy */
+    long clicks;
+    double *click; /* [clicks] what an impact of 1 sounds at once besides, from its time on; none: 0 */
+    double noise;  /* rms of what modes leave of the frames */
+    /* Lee: places of a filter that changes */
+    int places;
+    double *place_time; /* [places] s */
+    cplx *place_gain;   /* [m][places] */
+    /* the source, of an h of the gains above: its unit is the recording's, since |h| is at most 1 */
+    double *source; /* [n] a sample's push; Lee: the impacts alone */
+    double rings;   /* share of the recording's energy in the band that the source and the modes give back */
+    double struck;  /* share of the source's energy that its impacts are */
+    double band[2]; /* Hz, between which half of the source's spectrum is known */
+    struct impact_events impacts; /* amplitude: pushes; durations are not known */
+};
+
+/* mode [m] given (a table of a strike's): only the source is looked for; NULL: all is. ERR_SCENE: silent, no onset and
+   too short, no mode. */
+bool source_filter_find(const double *x, long n, double rate, const struct source_filter_options *o, int m,
+                        const struct source_filter_mode *mode, struct arena *a, struct source_filter *f, struct err *e);
+
+/* y[n] = source * h: what is given back. */
+void source_filter_sound(const struct source_filter *f, double *y);
+
+#endif
