@@ -6,14 +6,18 @@
    impact has none of.
 
    Lagrange et al. (papers/002 [18]): the poles of the longest free frames, by ESPRIT and output error (analysis/modal.h).
-   The state of the modes behind an onset less what rings on from the frame before it is what the impact added: a_k A_m
-   e^(s_m t_k). A is of rank one over the impacts, up to each one's time t_k, by which it is found. The source is the
-   recording divided by the modes' response, where that is loud enough:
+   Impacts are alike in what prediction does not foresee: beside the mean of their pulses each has a time t_k and a size
+   a_k. Then the recording between them is linear in the modes' gains,
 
-     F = Y H* / (|H|^2 + eps)      eps: the noise's power over the source's
+     x = sum_m Im A_m sum_k a_k e^(s_m (t - t_k))
 
-   An impact in it is a pulse, IFFT(|H|^2/(|H|^2 + eps)); the greatest is taken off, and so on down to the noise. 002
-   prints no eps and no search of impacts: both are ours.
+   and what is left about them is their click, which no mode is: the force itself, heard, and what decays at once. The
+   source is the recording divided by the response H of both, where that is loud enough:
+
+     F = Y H* / (|H|^2 + eps)      eps: the noise's power over the source's, at least 40 dB below the greatest |H|^2
+
+   An impact in it is a pulse, IFFT(|H|^2/(|H|^2 + eps)); the greatest is taken off, and so on down to the noise. With these
+   impacts gains, click and source are found once more. 002 prints no eps, no gains and no search of impacts: ours.
 
    Lee et al. (papers/002 [19]): the poles by linear prediction of low order in subbands, over all frames together. Each
    impact has gains of its own, which are what the zeros of its spectrum say: modes that it excites little, or damps. So
@@ -37,6 +41,7 @@ struct source_filter_options {
     double rise;      /* dB, of an onset */
     double snr;       /* dB by which the source's power is above what the division takes for noise; NAN: as measured */
     bool both;        /* impacts in both directions */
+    double direct;    /* of modes that are given: what an impact of 1 adds to one sample at once */
 };
 
 struct source_filter_mode {
@@ -59,6 +64,7 @@ struct source_filter {
     long clicks;
     double *click; /* [clicks] what an impact of 1 sounds at once besides, from its time on; none: 0 */
     double noise;  /* rms of what modes leave of the frames */
+    double fits;   /* share of the energy between impacts that the modes are */
     /* Lee: places of a filter that changes */
     int places;
     double *place_time; /* [places] s */

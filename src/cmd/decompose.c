@@ -148,12 +148,11 @@ static bool table_modes(struct decompose *d, struct source_filter_mode **mode, i
     for (size_t k = t.first[0]; k < t.first[1]; k++) {
         const struct mode_slope *s = &t.entry[k].slope[0];
         if (t.entry[k].frequency < d->options.low || t.entry[k].frequency > d->options.high || s->gain == 0) continue;
-        (*mode)[(*n)++] =
-            (struct source_filter_mode){.frequency = t.entry[k].frequency,
-                                        .decay = s->decay,
-                                        .frequency_se = NAN,
-                                        .decay_se = NAN,
-                                        .gain = {s->gain * real_cos(s->phase), s->gain * real_sin(s->phase)}};
+        cplx a = {s->gain * real_cos(s->phase), s->gain * real_sin(s->phase)},
+             pole = {-s->decay, 2 * REAL_PI * t.entry[k].frequency};
+        if (t.quantity == MODES_ACCELERATION) d->options.direct += d->rate * cplx_div(a, pole).im; /* modes_direct */
+        (*mode)[(*n)++] = (struct source_filter_mode){
+            .frequency = t.entry[k].frequency, .decay = s->decay, .frequency_se = NAN, .decay_se = NAN, .gain = a};
     }
     return *n > 0 ||
            err_set(e, ERR_SCENE, "%s: no mode lies from %.6g to %.6g Hz", d->table, d->options.low, d->options.high);
@@ -192,11 +191,7 @@ static void echo(struct decompose *d)
 static void judge(struct decompose *d)
 {
     const struct source_filter *f = &d->found;
-    double all = 0, loud = 0;
-    for (long i = 0; i < d->n; i++)
-        all += d->x[i] * d->x[i] / (double)d->n;
-    loud = all > 0 ? f->noise * f->noise / all : 0;
-    d->fits = f->onsets > 0 ? fmax(1 - loud, 0) : NAN;
+    d->fits = f->onsets > 0 && !d->table ? f->fits : NAN;
     if (f->correlated)
         note(d, "nowhere does the object ring freely for 10 ms: modes are those of the recording's autocorrelation, "
                 "which takes "
@@ -259,7 +254,7 @@ static bool options(struct decompose *d, struct err *e)
     long most = 40;
     *o = (struct source_filter_options){.low = NAN, .high = NAN, .fastest = 600, .rise = 6, .snr = NAN};
     d->channel = 1;
-    d->quantity = MODES_ACCELERATION;
+    d->quantity = MODES_VELOCITY; /* to which a scene adds nothing: the click has what sounds at once */
     d->table = args_value(a, "table");
     o->both = args_given(a, "signed");
     if (!args_word(a, "method", methods, &o->method, e) || !args_word(a, "source", sources, &d->source, e) ||

@@ -26,7 +26,8 @@ static void put_modes(FILE *f, const struct decompose *d)
     int places = s->places > 0 ? s->places : 1;
     fprintf(f, "# poles: shared\n# quantity: %s\n", modes_quantity_name((enum modes_quantity)d->quantity));
     fprintf(f, "# normalisation: relative: %s\n",
-            d->table ? "that of the table" : "a recording does not say how hard was struck");
+            d->table ? "that of the table"
+                     : "a recording does not say how hard was struck; gains are in what it holds, whatever that is");
     fprintf(f, "# source: %s, %.6g to %.6g s, by rasp decompose --method %s\n", d->shown, d->begin,
             d->begin + d->seconds, d->options.method == SOURCE_FILTER_LEE ? "lee" : "lagrange");
     for (int i = 0; i < s->m; i++)
@@ -67,27 +68,27 @@ static void put_scene(FILE *f, const struct decompose *d, bool impacts)
             impacts ? "impacts like those that were found" : "the force that was found");
     if (impacts) fputs("include: [impacts.yaml]\n", f);
     fprintf(f, "surface: {response: modes.csv%s}\n", moves ? ", moving: launch, extrapolate: nearest" : "");
+    if (!d->table && d->found.clicks > 0)
+        fputs("scraper: {response: click.wav}  # what sounds at once, and is in no mode\n", f);
     if (moves)
         fprintf(f, "motion: {path: line, law: constant, to: [%.9g, 0], duration: %.9g s}\n", d->seconds, d->seconds);
     else
         fprintf(f, "motion: {path: still, at: [%.9g, 0], duration: %.9g s}\n",
                 d->found.places > 0 ? d->found.place_time[0] : 0, d->seconds);
-    if (!impacts)
-        fputs("contact: {model: given, given: {file: source.wav, scale: 1}}\n"
-              "load: {approach: 0, release: 0}\n",
-              f);
+    if (!impacts) fputs("contact: {model: given, given: {file: source.wav, scale: 1}}\n", f);
     fprintf(f, "output: {sample_rate: %.9g, ramp: 0, tail: 0.2 s}\n", d->rate);
 }
 
-static bool put_source(const struct decompose *d, const char *file, struct err *e)
+static bool put_sound(const struct decompose *d, const char *file, const double *x, double scale, long n, struct err *e)
 {
-    struct wav_format w = {.rate = d->rate, .channels = 1, .bits = -32, .comment = "rasp: by rasp decompose, N"};
+    struct wav_format w = {.rate = d->rate, .channels = 1, .bits = -32, .comment = "rasp: by rasp decompose"};
     struct wav_out *o = wav_create(file, &w, e);
-    double *x = ARENA_TAKE(d->arena, double, d->n);
+    double *y = ARENA_TAKE(d->arena, double, n);
     if (!o) return false;
-    for (long i = 0; i < d->n; i++) /* what pushes for a sample */
-        x[i] = d->found.source[i] * d->rate;
-    if (wav_write(o, x, (size_t)d->n, e) && wav_commit(o, e)) return true;
+    for (long i = 0; i < n; i++)
+        y[i] = x[i] * scale;
+    if (wav_write(o, y, (size_t)n, e)) return wav_commit(o, e);
+    wav_drop(o);
     return false;
 }
 
@@ -187,7 +188,10 @@ bool decompose_write(struct decompose *d, const char *folder, struct err *e)
         files[k].put(o.stream, d);
         if (!outfile_commit(&o, e)) return false;
     }
-    if (!put_source(d, in_folder(d, folder, "source.wav"), e)) return false;
+    const struct source_filter *s = &d->found; /* a push of a sample in newtons, a response per N s */
+    if (!put_sound(d, in_folder(d, folder, "source.wav"), s->source, d->rate, d->n, e) ||
+        (!d->table && s->clicks > 0 && !put_sound(d, in_folder(d, folder, "click.wav"), s->click, 1, s->clicks, e)))
+        return false;
     if (d->series->counted) {
         struct analyse_files *all = ARENA_TAKE(d->arena, struct analyse_files, 1);
         bool ok = analyse_report_part(d->series, in_folder(d, folder, "impacts.yaml"), all, e);
