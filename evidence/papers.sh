@@ -1,6 +1,6 @@
 #!/bin/bash
 # Makes evidence/papers.md and its pictures: for each experiment, figure, table and equation of the papers what they print, what rasp gives, and the command. About
-# TIME of one core; SETS=FOLDER keeps the rendered sets for the next time. Needs python3 and gnuplot.
+# seven minutes of one core; SETS=FOLDER keeps the rendered sets for the next time. Needs python3 and gnuplot.
 #     evidence/papers.sh
 set -euo pipefail
 ROOT=$(realpath "$(dirname "$0")/..")
@@ -178,7 +178,7 @@ END
     row '000, experiment 3' '33 listeners; 7 sounds, MUSHRA; 3 balls, 3 surfaces, up and down' "$(asked 000_experiment_3 33)" '`rasp export`'
     row '002, section III-B' '17 listeners; 36 sounds, 6 others before them; a slider' "$(asked 002_rolling 17)" '`rasp export`'
     row '002, section VI-B' '14 listeners; 3 sessions, each of one control, 3 blocks of 10 pairs, 3 trials of training' "$(asked 002_controls 14)" '`rasp export`'
-    row '003, section F' '24 clips, 8 of them recorded; one of five materials; listeners: not printed' "$(asked 003_materials 1)" '`rasp export`'
+    row '003, section F' '24 clips, 8 of them recorded; one of five materials; listeners: not printed' "$(asked 003_materials 41)" '`rasp export`'
     row '004, figure 3' '35 listeners; 30 sounds in random order; rubbing or scratching' "$(asked 004_continuum 35)" '`rasp export`'
     row '000, figures 4B and 7B' 'mean and SEM of each method' 'means and standard errors' '`rasp judge ratings`'
     row '000, eq. 14' 'similarity of confusion matrices; the norm is not named' 'both norms; a program that listens: `evidence/judge.md`' '`rasp judge similarity`, `rasp judge listen`'
