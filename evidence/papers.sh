@@ -1,6 +1,6 @@
 #!/bin/bash
 # Makes evidence/papers.md and its pictures: for each experiment, figure, table and equation of the papers what they print, what rasp gives, and the command. About
-# seven minutes of one core; SETS=FOLDER keeps the rendered sets for the next time. Needs python3 and gnuplot.
+# six minutes of one core; SETS=FOLDER keeps the rendered sets for the next time. Needs python3 and gnuplot.
 #     evidence/papers.sh
 set -euo pipefail
 ROOT=$(realpath "$(dirname "$0")/..")
