@@ -144,7 +144,7 @@ END
     cat << 'END'
 
 By how fast they fade and how bright they are wood is taken for plastic and porcelain for glass, as by listeners; and metal for glass, which they do less often: at 5 kHz the fitted
-metal fades by 11 1/s, rasp's steel by 4 and its glass by 16. Neither column of features is as near to listeners as their two tables are to each other.
+metal fades by 11 1/s, rasp's steel by 4 and its glass by 16. Neither pair of features comes as near to listeners as their two tables are to each other.
 
 END
     for cue in motion material; do
