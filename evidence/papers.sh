@@ -1,6 +1,6 @@
 #!/bin/bash
 # Makes evidence/papers.md and its pictures: for each experiment, figure, table and equation of the papers what they print, what rasp gives, and the command. About
-# two minutes of one core; SETS=FOLDER keeps the rendered sets for the next time. Needs python3 and gnuplot.
+# six minutes of one core; SETS=FOLDER keeps the rendered sets for the next time. Needs python3 and gnuplot.
 #     evidence/papers.sh
 set -euo pipefail
 ROOT=$(realpath "$(dirname "$0")/..")
@@ -21,9 +21,39 @@ number() { python3 -c "import json; d = json.load(open('$1')); print('%.3g' % ($
 # per_row TABLE AWK: awk over a table's rows by the columns' order
 per_row() { awk -F, "NR > 1 { $2 } END { $3 }" "$1"; }
 
-for n in 2 3; do
-    [ -s "$SETS/experiment_$n/manifest.csv" ] || rasp batch "scenes/experiments/000_experiment_$n.yaml" -o "$SETS/experiment_$n" --quiet 2> /dev/null
+# asked DESIGN LISTENERS: its lists for so many, and what is in the first of each session
+asked() {
+    rasp export "scenes/experiments/$1.yaml" "$SETS/$1" --for psychopy -o "$WORK/asked_$1" --participants "$2" > /dev/null 2>&1
+    python3 - "$WORK/asked_$1" << 'END'
+import csv, glob, sys
+lists = [list(csv.DictReader(open(f))) for f in sorted(glob.glob(sys.argv[1] + "/conditions_*.csv"))]
+sessions = len({r["session"] for l in lists for r in l})
+training = sum(r["training"] == "1" for r in lists[0])
+sounds = sum(k.startswith("file_") for k in lists[0][0])
+print(f"{len(lists) // sessions} listeners: " + (f"{sessions} sessions of " if sessions > 1 else "") + f"{len(lists[0]) - training} trials of {sounds} sound" + "s" * (sounds > 1)
+      + (f", {training} before them for training" if training else ""))
+END
+    rm -r "$WORK/asked_$1"
+}
+
+# degrees FIGURES.json NAME...: F's degrees of freedom
+degrees() {
+    python3 -c 'import json, sys
+of = {p["figure"]: p["ours"] for p in json.load(open(sys.argv[1]))["paper"]}
+print("%d listeners: " % of["listeners"] + ", ".join("F(%d, %d) of %s" % (of["df(%s)" % n], of["df_error(%s)" % n], n.replace(":", " x ")) for n in sys.argv[2:]))' "$@"
+}
+
+for design in 000_experiment_1 000_experiment_2 000_experiment_3 002_rolling 002_controls 003_materials 004_continuum; do
+    [ -s "$SETS/$design/manifest.csv" ] || rasp batch "scenes/experiments/$design.yaml" -o "$SETS/$design" --quiet 2> /dev/null
 done
+# Answers that are drawn, as in the tests of rasp judge: the study's size is the paper's, its figures are nobody's.
+. tests/cli/judge-make.inc
+ratings > "$WORK/ratings.csv"
+rasp judge ratings "$WORK/ratings.csv" --factors resonator,surface,kappa,mu --paper evidence/papers.csv --item 002_III --json > "$WORK/ratings.json"
+pairs > "$WORK/pairs.csv"
+rasp judge pairs "$WORK/pairs.csv" --paper evidence/papers.csv --item 002_VI --json > "$WORK/pairs.json"
+rasp judge choices scenes/answers/003_study.csv --paper evidence/papers.csv --item 003_F --json > "$WORK/study.json"
+rasp judge similarity scenes/answers/003_study.csv --reference recorded --json > "$WORK/like.json"
 render scenes/limited_trajectory.yaml -o "$WORK/figure_2.wav"
 rasp plot "$WORK/figure_2.wav" -o evidence/papers_trajectory.png -f png --force --panels trajectory --from 0.03 --to 0.06 --title 'papers/000, figure 2' > /dev/null
 for what in scratching rubbing; do
@@ -79,13 +109,13 @@ END
 
 ![figure 2](papers_trajectory.png)
 
-Experiments 2 and 3 (1 has the conditions of 2): what they are like, before anybody listens. The gain says how loud the force was: without the non-linearity it is "unrealistically high", and the sound brighter, "unrealistically rough".
+The three experiments: what they are like, before anybody listens. The gain says how loud the force was: without the non-linearity it is "unrealistically high", and the sound brighter, "unrealistically rough".
 "Our model" is `full`; `physical`, `signal`, `noise`, `coupled` are the paper's baselines, of which it prints names (the designs' heads say what is ours).
 
 END
-    for n in 2 3; do
+    for n in 1 2 3; do
         printf 'Experiment %s:\n\n' $n
-        python3 evidence/papers.py "$SETS/experiment_$n" condition
+        python3 evidence/papers.py "$SETS/000_experiment_$n" condition
         echo
     done
     cat << 'END'
@@ -103,6 +133,7 @@ END
     row 'section II-B, modulated recordings' 'artificial modulation of recorded rolling' 'the same, of a WAV' '`contact.model: given`, `output.quantity: force`, `contact.modulation`'
     row 'section VI-B' '45 stimuli: 3 controls, 3 sets, 5 levels' "$(scenes 002_controls)" '`rasp render scenes/experiments/002_controls/*.yaml`'
     row 'section VII, comb filter' '"the amplitude variation of the modes over time when the ball is rolling on a finite surface"; no formula' 'the modes themselves, by place; or a comb filter, the formula ours' '`surface.object`, or a table with places; `contact.comb`'
+    row 'section VII, rolling water drops' 'an action and an object that never meet' 'a scene' '`rasp render scenes/rolling_drops.yaml`'
     cat << 'END'
 
 ## 003
@@ -133,6 +164,27 @@ Figure 2 has recordings, which the paper does not give; ours are synthesised, 0.
 ![scratching](papers_scratching.png)
 
 ![rubbing](papers_rubbing.png)
+
+## Listening tests
+
+What listeners said is theirs; what they are given, and what is made of their answers, are commands. `rasp export DESIGN FOLDER --participants N` gives each of N listeners a list in an order of their own, here counted in
+those for PsychoPy (`--for psychopy`; `webmushra`, `jspsych`, `page` have the same). The papers' recordings are theirs: 5 of experiment 2, 8 of 003.
+
+| experiment | the paper prints | rasp gives | command |
+|---|---|---|---|
 END
-} > "$WORK/papers.md"
+    row '000, experiment 1' '40 listeners; 30 trials of 7 sounds, MUSHRA' "$(asked 000_experiment_1 40)" '`rasp export`'
+    row '000, experiment 2' '41 listeners; one sound, one of five paths' "$(asked 000_experiment_2 41)" '`rasp export`'
+    row '000, experiment 3' '33 listeners; 7 sounds, MUSHRA; 3 balls, 3 surfaces, up and down' "$(asked 000_experiment_3 33)" '`rasp export`'
+    row '002, section III-B' '17 listeners; 36 sounds, 6 others before them; a slider' "$(asked 002_rolling 17)" '`rasp export`'
+    row '002, section VI-B' '14 listeners; 3 sessions, each of one control, 3 blocks of 10 pairs, 3 trials of training' "$(asked 002_controls 14)" '`rasp export`'
+    row '003, section F' '24 clips, 8 of them recorded; one of five materials; listeners: not printed' "$(asked 003_materials 41)" '`rasp export`'
+    row '004, figure 3' '35 listeners; 30 sounds in random order; rubbing or scratching' "$(asked 004_continuum 35)" '`rasp export`'
+    row '000, figures 4B and 7B' 'mean and SEM of each method' 'means and standard errors' '`rasp judge ratings`'
+    row '000, eq. 14' 'similarity of confusion matrices; the norm is not named' 'both norms; a program that listens: `evidence/judge.md`' '`rasp judge similarity`, `rasp judge listen`'
+    row '002, section III-D' 'F(1, 16) of resonator, F(4, 64) of kappa x mu, 17 listeners' "$(degrees "$WORK/ratings.json" resonator kappa:mu)" '`rasp judge ratings --paper evidence/papers.csv --item 002_III`, of drawn answers'
+    row '002, section VI-D' 'F(4, 52) of size, velocity and roughness, 14 listeners' "$(degrees "$WORK/pairs.json" size velocity)" '`rasp judge pairs --paper evidence/papers.csv --item 002_VI`, of drawn answers'
+    row '003, tables 1 and 2' '50 percentages' "the fewest answers that give them: all within $(python3 -c 'import json, sys; print("%.2g" % max(abs(float(p["paper"]) - p["ours"]) for p in json.load(open(sys.argv[1]))["paper"]))' "$WORK/study.json")" '`rasp judge choices scenes/answers/003_study.csv --paper evidence/papers.csv --item 003_F`'
+    row '003, tables 1 and 2' 'synthesised "compares favorably" to recorded' "$(python3 -c 'import json, sys; c = json.load(open(sys.argv[1]))["compared"][0]; print("alike by %.2f (spectral), %.2f (Frobenius)" % (c["spectral"], c["frobenius"]))' "$WORK/like.json")" '`rasp judge similarity scenes/answers/003_study.csv --reference recorded`'
+}  > "$WORK/papers.md"
 mv "$WORK/papers.md" evidence/papers.md

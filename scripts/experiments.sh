@@ -51,7 +51,8 @@ done
 
 cat > "$to/002_rolling.yaml" << 'END'
 # Conan et al. 2014, section III: is it rolling? The 36 stimuli of 002_rolling/ (3 kappa x 3 mu x 2 exponents, raw and through metal), each rated on five
-# words; 17 listeners. Six others come first, for training: the paper does not say which, ours have another mu. Equal loudness is ours.
+# words; 17 listeners. Six others come first, for training: the paper does not say which, ours have another mu. Peaks are alike, as in
+# those scenes: a raw force has the ball's weight in it, which nobody hears, and which at the loudness of the metal would be far beyond full scale.
 rasp-design: 1
 title: Conan et al. 2014, how much like rolling
 base: 002_rolling/parts/ball.yaml
@@ -65,7 +66,7 @@ factors:
     - {label: metal, set: {surface.space: {from: [-0.5, 0.866], dimension: 2, fundamental: 400 Hz}}}
 exclude: [{contact.roll.mu: 3, surface.fractal.exponent: -1}]
 name: "kappa_{contact.roll.kappa}_mu_{contact.roll.mu}_beta_{surface.fractal.exponent}_{sound}"
-level: {each: {lufs: -26}}
+level: {each: {peak: -3 dB}}
 length: own
 trials:
   task: rate

@@ -175,7 +175,8 @@ static const struct action actions[] = {
      "SET",
      1,
      1,
-     {"templates", "where", "factor", "spread", "column", "reference", "output", "force", "paper", "item", "json"},
+     {"templates", "where", "factor", "by", "spread", "column", "reference", "output", "force", "paper", "item",
+      "json"},
      listen},
     {NULL, NULL, 0, 0, {NULL}, NULL},
 };
@@ -202,6 +203,9 @@ static const struct args_option options[] = {
      "listen: sounds whose class is known, a folder of rasp batch or a table with file_name"},
     {"where", 0, "COLUMN=VALUE", true, "listen: only these of the templates"},
     {"factor", 0, "COLUMN", false, "listen: the classes (default motion)"},
+    {"by", 0, "motion|material", false,
+     "listen: what is compared: how level and brightness change over time (the default), or how fast a sound fades and "
+     "how bright it is"},
     {"spread", 0, "X", false, "listen: how far apart takes of one class are; default: as the templates' are"},
     {"output", 'o', "FILE.csv", false, "choices, listen: writes the matrices, too"},
     {"force", 'f', NULL, false, "replaces that file if it exists"},
@@ -230,10 +234,11 @@ const struct command judge_command = {
         "rasp judge pairs ANSWERS: paired comparisons (participant, a, b, answer A>B, A=B or B>A; set and condition "
         "may be missing): scores as of Conan and others (2014), analysis of variance of each condition's, Tukey's "
         "comparisons.\n"
-        "rasp judge listen SET --templates SET: a program listens. By level and brightness over time it compares "
-        "each sound of a set (rasp batch) with templates whose class it knows, and gives shares of answers: "
-        "exp(-d/(2 spread)), d the distance to the nearest template of a class. A template among the sounds is "
-        "judged without itself. It is no model of a person.\n"
+        "rasp judge listen SET --templates SET: a program listens. It compares each sound of a set (rasp batch) with "
+        "templates whose class it knows, and gives shares of answers: exp(-d/(2 spread)), d the distance to the "
+        "nearest template of a class. By motion, it compares level and brightness over time, each without its mean; by "
+        "material (--by material --factor material), how fast a struck object fades and how bright it is, in octaves. "
+        "A template among the sounds is judged without itself. It is no model of a person.\n"
         "What is missing, unbalanced, unknown or twice there is an error with its place: nothing is left out or "
         "filled in.",
     .operands = "ACTION FILE...",

@@ -9,6 +9,7 @@
 #include "cmd/judge.h"
 
 struct sounds { /* of one or several sets */
+    int cue;    /* enum machine_listener_cue */
     int n, *condition;
     const char **file;
     struct machine_listener_sound *sound;
@@ -77,6 +78,7 @@ static bool add(struct judge *j, const char *set, bool templates, struct judge_c
         h->sound = arena_more(a, h->sound, h->n, sizeof *h->sound);
         h->file[h->n] = sound;
         if (!listen(j, sound, &h->sound[h->n], e)) return err_at(e, "%s:%d", file, t.lines[i]);
+        h->sound[h->n].cue = h->cue;
         if (templates)
             h->sound[h->n].class = judge_add(a, &m->class_name, &m->classes, word);
         else if ((h->sound[h->n].class = judge_place(m->class_name, m->classes, word)) < 0)
@@ -143,6 +145,8 @@ bool judge_listen_run(struct judge *j, struct err *e)
     int n;
     const char **sets = args_values(&j->call->args, "templates", &n);
     if (!n) return err_set(e, ERR_USAGE, "--templates SET is needed: sounds whose class the listener knows");
+    if (!args_word(&j->call->args, "by", machine_listener_cues, &t.cue, e)) return false;
+    s.cue = t.cue;
     for (int i = 0; i < n; i++)
         if (!add(j, sets[i], true, &m, &t, e)) return false;
     if (!add(j, m.file, false, &m, &s, e) || !judge_table_open(j, &m, e) || !spread_of(j, &t, &spread, e) ||

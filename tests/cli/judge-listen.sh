@@ -17,6 +17,16 @@ done
 try rasp judge listen sounds --templates sounds --where condition=clear --reference clear -o heard.csv
 cut -c1-40 heard.csv
 try rasp judge similarity heard.csv --reference clear --paper "$ROOT/evidence/papers.csv" --item 000_2 | tail -n 8
+# what is struck: tones that fade, the dull ones faster; those of one material are not quite alike
+echo file_name,material > sounds/struck.csv
+# shellcheck disable=SC2046
+for tone in wood,400,20 wood,500,28 glass,1500,3 glass,1700,4; do
+    IFS=, read -r material f d <<< "$tone"
+    wav 8000 1 $(draw "BEGIN { for (i = 0; i < 8000; i++) printf \"%d \", 30000 * exp(-$d * i / 8000) * sin(6.2831853 * $f * i / 8000) }") > "sounds/struck_$f.wav"
+    echo "struck_$f.wav,$material" >> sounds/struck.csv
+done
+try rasp judge listen sounds/struck.csv --templates sounds/struck.csv --factor material --by material
+try rasp judge listen sounds --templates sounds --by ear
 # by one take of each there is no telling how far apart takes are
 try rasp judge listen sounds --templates sounds --where condition=clear --where note=t1
 try rasp judge listen sounds --templates sounds --where condition=clear --where note=t1 --spread 0.3

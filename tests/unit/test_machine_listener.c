@@ -50,6 +50,34 @@ START_TEST(test_distance)
 }
 END_TEST
 
+/* A tone that decays by `decay` 1/s. */
+static struct machine_listener_sound struck(struct arena *a, double f, double decay)
+{
+    struct wav w = {RATE, 1, FRAMES, ARENA_TAKE(a, double, FRAMES), 0};
+    struct machine_listener_sound s = {0};
+    struct err e = {0};
+    for (int i = 0; i < FRAMES; i++)
+        w.x[i] = exp(-decay * i / RATE) * sin(2 * acos(-1) * f * i / RATE);
+    ck_assert(machine_listener_hear("x.wav", &w, a, &s, &e));
+    s.cue = MACHINE_LISTENER_MATERIAL;
+    return s;
+}
+
+/* By material: twice as fast is an octave, twice as bright too. Hann's window spreads a tone over its side lobes. */
+START_TEST(test_material)
+{
+    struct arena *a = arena_open();
+    struct machine_listener_sound s = struck(a, 400, 8), fast = struck(a, 400, 16), bright = struck(a, 800, 8),
+                                  held = struck(a, 400, 0);
+    ck_assert_double_eq_tol(s.fade, log2(8 * 20 / log(10)), 1e-3);
+    ck_assert_double_eq_tol(s.colour, log2(400), 0.01);
+    ck_assert_double_eq_tol(machine_listener_distance(&s, &fast), 1, 1e-2);
+    ck_assert_double_eq_tol(machine_listener_distance(&s, &bright), 1, 0.02);
+    ck_assert_double_eq_tol(held.fade, 0, 1e-9); /* 1 dB/s at least */
+    arena_close(a);
+}
+END_TEST
+
 START_TEST(test_chooses)
 {
     struct arena *a = arena_open();
@@ -90,4 +118,4 @@ START_TEST(test_silence)
 }
 END_TEST
 
-UNIT("machine_listener", test_distance, test_chooses, test_silence)
+UNIT("machine_listener", test_distance, test_material, test_chooses, test_silence)
