@@ -165,6 +165,9 @@ struct stage_run { /* one stage at work */
     long offset, done; /* the runner's: lead, and frames done         */
     long limit;        /* the runner's: until when it works (run.c) */
     double seconds;    /* CPU time spent                              */
+    double opened;     /* of it, on opening                           */
+    double once;       /* predicted cycles of opening                 */
+    double work;       /* predicted cycles per audio sample while it works: the plan's, unless open knows better */
     size_t bytes;      /* memory taken                                */
     long blocks;       /* calls of run                                */
 };

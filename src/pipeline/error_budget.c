@@ -568,7 +568,7 @@ bool error_budget_apply(const struct scene *asked, struct arena *a, struct scene
 {
     struct error_budget own;
     struct budgeting m = {.asked = asked, .chosen = chosen, .arena = a, .to = p ? p : &own};
-    double start = stopwatch_cpu();
+    double start = stopwatch_cpu(), spent = stopwatch_cycles();
     bool strict = !isnan(asked->accuracy.error);
     *m.to = (struct error_budget){
         .asked = strict, .error = strict ? asked->accuracy.error : accuracy_target(&asked->accuracy), .predicted = NAN};
@@ -597,5 +597,6 @@ bool error_budget_apply(const struct scene *asked, struct arena *a, struct scene
     chosen->accuracy.by_user = (1u << KNOBS) - 1;
     m.to->text = budget_text(a, asked->accuracy.preset, m.to);
     m.to->cpu = stopwatch_cpu() - start;
+    m.to->cycles = stopwatch_cycles() - spent;
     return true;
 }

@@ -60,6 +60,10 @@ static void run_signal(struct run *r, enum item item)
     s->x = ARENA_TAKE(r->arena, double, s->capacity *per_frame + 8);
 }
 
+#define OPENING 3000.0 /* cycles of any stage's */
+#define TOUCHED 0.5    /* a byte of memory that is new */
+#define BLOCK 300.0    /* a stage and block: its clock, its signals */
+
 static bool run_open_stages(struct run *r, struct err *e)
 {
     for (int i = 0; i < r->plan.n; i++) {
@@ -71,13 +75,17 @@ static bool run_open_stages(struct run *r, struct err *e)
                                   .contact = r->plan.contact,
                                   .board = &r->board,
                                   .arena = r->arena,
+                                  .work = r->plan.rows[i].work,
                                   .ends = LONG_MAX};
         size_t before = arena_bytes(r->arena);
-        double start = stopwatch_cpu();
+        double start = stopwatch_cpu(), spent = stopwatch_cycles();
         r->board.n_stages = ++r->n;
         if (!st->open(one, e)) return false;
         one->seconds += stopwatch_cpu() - start; /* open may have put to it what was done for the stage before */
+        one->opened = one->seconds;
         one->bytes = arena_bytes(r->arena) - before;
+        stopwatch_spend(OPENING + TOUCHED * (double)one->bytes);
+        one->once = stopwatch_cycles() - spent;
     }
     return true;
 }
@@ -282,12 +290,17 @@ static bool stage_block(struct stage_run *st, long to, double *clock, struct err
 
 bool run_block(struct run *r, long to, struct err *e)
 {
-    double clock = stopwatch_cpu();
-    for (int i = 0; i < r->n; i++) {
+    double clock = stopwatch_cpu(), spent = stopwatch_cycles();
+    bool ok = true;
+    for (int i = 0; ok && i < r->n; i++) {
         struct stage_run *st = &r->stages[i];
-        if (st->stage->run && !stage_block(st, to + st->offset, &clock, e)) return false;
+        long end = to + st->offset, until = st->limit < end ? st->limit : end;
+        if (!st->stage->run) continue;
+        spent += BLOCK + (until > st->done ? st->work * (double)(until - st->done) : 0);
+        ok = stage_block(st, end, &clock, e);
     }
-    return true;
+    stopwatch_spend(spent - stopwatch_cycles()); /* what its stages told of is theirs */
+    return ok;
 }
 
 void run_skip(struct run *r, long frame, long fade)
