@@ -166,8 +166,10 @@ struct stage_run { /* one stage at work */
     long limit;        /* the runner's: until when it works (run.c) */
     double seconds;    /* CPU time spent                              */
     double opened;     /* of it, on opening                           */
-    double once;       /* predicted cycles of opening                 */
-    double work;       /* predicted cycles per audio sample while it works: the plan's, unless open knows better */
+    double once;       /* predicted cycles of opening, and of whatever else is done once */
+    double work;       /* predicted cycles per audio sample while it works; NAN until all are open: .work says */
+    long works;        /* frames from the first for which it costs that, as predicted; LONG_MAX, unless open sets it */
+    double counted, ran; /*DEBUG*/
     size_t bytes;      /* memory taken                                */
     long blocks;       /* calls of run                                */
 };

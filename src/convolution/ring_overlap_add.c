@@ -201,6 +201,7 @@ static bool ring_overlap_open(struct stage_run *r, enum ring_body body, struct e
         return false;
     int ahead = s->outputs[0].stays ? OVERLAP_ADD_BLOCK - 1 : overlap_add_moving_ahead(s->outputs[0].moves);
     r->ahead = r->ahead > ahead ? r->ahead : ahead;
+    r->works = r->board->moving + ahead + 1; /* then force is zero, and what rings is there */
     return true;
 }
 

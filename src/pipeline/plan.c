@@ -249,10 +249,10 @@ static void estimate(const struct render_parts *p, struct arena *a, struct plan_
         for (int k = 0, at = 0; k < plans[i].n; k++) {
             struct plan_row *r = &plans[i].rows[k];
             if (r->verdict != PLAN_RUNS || !one->open) continue;
-            const struct stage_run *st = &one->run.stages[at++];
+            const struct stage_run *st = &one->run.stages[at];
             r->work = st->work;
             r->once = st->once;
-            r->frames = st->stage->run ? fmax(0, fmin((double)st->limit, (double)(x->length.frames - one->start))) : 0;
+            r->frames = fmax(0, fmin((double)run_works(&one->run, at++), (double)(x->length.frames - one->start)));
             x->cycles += plan_row_cycles(r);
         }
     }

@@ -17,7 +17,9 @@
 #include "base/stopwatch.h"
 #include "num/lanes.h"
 #include "num/real.h"
+#include "pipeline/stages.h"
 #include "response/listener.h"
+#include "surface/relief.h"
 
 /* The set of items that a stage reads. */
 static unsigned run_reads(const struct stage_run *r)
@@ -75,7 +77,8 @@ static bool run_open_stages(struct run *r, struct err *e)
                                   .contact = r->plan.contact,
                                   .board = &r->board,
                                   .arena = r->arena,
-                                  .work = r->plan.rows[i].work,
+                                  .work = NAN,
+                                  .works = LONG_MAX,
                                   .ends = LONG_MAX};
         size_t before = arena_bytes(r->arena);
         double start = stopwatch_cpu(), spent = stopwatch_cycles();
@@ -150,6 +153,21 @@ static void run_limits(struct run *r)
     }
 }
 
+/* What the stages cost a sample, where they have not said so themselves, now that the motion is known; at this run's
+ * knobs, which need not be the plan's. */
+static void run_work(struct run *r)
+{
+    struct contact own = *r->plan.contact;
+    own.motion.made = r->board.trajectory ? r->board.trajectory : own.motion.made;
+    if (r->board.relief && isfinite(relief_finest(r->board.relief)))
+        own.surface.finest = relief_finest(r->board.relief);
+    for (int i = 0, k = 0; i < r->plan.n; i++) {
+        if (r->plan.rows[i].verdict != PLAN_RUNS) continue;
+        struct stage_run *st = &r->stages[k++];
+        if (isnan(st->work)) st->work = r->plan.rows[i].work > 0 ? stages_work(st->stage, &own, r->scene) : 0;
+    }
+}
+
 bool run_open(struct run *r, const struct plan *p, const struct scene *s, const struct run_sinks *sinks, struct err *e)
 {
     static const struct run_sinks none = {NULL, NULL};
@@ -174,6 +192,7 @@ bool run_open(struct run *r, const struct plan *p, const struct scene *s, const 
                 r->stages[i].offset = lead > r->stages[i].offset ? lead : r->stages[i].offset;
             }
     run_limits(r);
+    run_work(r);
     for (int i = 0; i < ITEM_COUNT; i++)
         run_signal(r, (enum item)i);
     return true;
@@ -288,18 +307,21 @@ static bool stage_block(struct stage_run *st, long to, double *clock, struct err
     return true;
 }
 
+/* Spends what is predicted; of what reads the surface with what that has cost, as it is made where it is read. */
 bool run_block(struct run *r, long to, struct err *e)
 {
-    double clock = stopwatch_cpu(), spent = stopwatch_cycles();
+    double clock = stopwatch_cpu();
     bool ok = true;
     for (int i = 0; ok && i < r->n; i++) {
         struct stage_run *st = &r->stages[i];
-        long end = to + st->offset, until = st->limit < end ? st->limit : end;
+        long end = to + st->offset, until = run_works(r, i) < end ? run_works(r, i) : end;
+        double spent = stopwatch_cycles(), work = until > st->done ? st->work * (double)(until - st->done) : 0;
         if (!st->stage->run) continue;
-        spent += BLOCK + (until > st->done ? st->work * (double)(until - st->done) : 0);
         ok = stage_block(st, end, &clock, e);
+        if (run_reads(st) & ITEM_BIT(ITEM_SURFACE)) work += stopwatch_cycles() - spent;
+        stopwatch_spend(BLOCK + work + spent - stopwatch_cycles());
+        st->counted += work;
     }
-    stopwatch_spend(spent - stopwatch_cycles()); /* what its stages told of is theirs */
     return ok;
 }
 
@@ -320,8 +342,23 @@ void run_skip(struct run *r, long frame, long fade)
     }
 }
 
+long run_works(const struct run *r, int i)
+{
+    const struct stage_run *st = &r->stages[i];
+    long limit = st->stage->run ? st->limit : r->board.moving;
+    return st->works < limit ? st->works : limit;
+}
+
+#include <stdio.h>
+#include <stdlib.h>
 void run_close(struct run *r)
 {
+    if (getenv("RASP_COUNT"))
+        for (int i = 0; i < r->n; i++) {
+            struct stage_run *s = &r->stages[i];
+            fprintf(stderr, "RUN %s %.0f %.0f %.0f %.0f\n", s->stage->name, s->once, s->opened * 4.1e9, s->counted,
+                    (s->seconds - s->opened) * 4.1e9);
+        }
     for (int i = r->n - 1; i >= 0; i--)
         if (r->stages[i].stage->close) r->stages[i].stage->close(&r->stages[i]);
     arena_close(r->arena);

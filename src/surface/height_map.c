@@ -205,6 +205,7 @@ struct relief_part *height_map_part(struct arena *a, const struct height_map_spl
         .from = {origin[0], origin[1]},
         .to = {origin[0] + pitch[0] * (double)(spline->columns - 1), origin[1] + pitch[1] * (double)(spline->rows - 1)},
         .add = map_add,
+        .reading = 40,
         .state = m};
     return part;
 }

@@ -252,6 +252,7 @@ struct relief_part *heights_part(struct arena *a, struct relief_part *g, const s
     *part = *g;
     part->linear = false;
     part->add = shaped_add;
+    part->reading += 60;
     part->close = shaped_close;
     part->state = s;
     return part;

@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "base/stopwatch.h"
 #include "surface/block_cache.h"
 
 #define INLINE static inline __attribute__((always_inline))
@@ -526,6 +527,7 @@ static void blocks_fill(void *self, long column, long row, double *out)
     bool points = g->plan.points;
     rolling_envelope_set(g->envelope, &(struct envelope_ground){z, points ? NULL : z + n, points ? NULL : z + 2 * n}, n,
                          first);
+    stopwatch_spend(400 * (double)n);
     long stretches = rolling_envelope_between(g->envelope, from, to, &found);
     out[0] = (double)stretches;
     memcpy(out + 1, found, (size_t)(stretches * STRETCH_NUMBERS) * sizeof *out);
@@ -602,5 +604,7 @@ struct relief_part *rolling_envelope_part(struct arena *a, const struct relief *
     g->heights = block_cache_make(a, (size_t)(LINE * g->kinds),
                                   (size_t)(heights > HEIGHTS_LEAST ? heights : HEIGHTS_LEAST), heights_fill, g);
     g->blocks = block_cache_make(a, (size_t)size, (size_t)blocks, blocks_fill, g);
-    return relief_endless(a, "crest", p->pitch, underlying_add, g);
+    struct relief_part *part = relief_endless(a, "crest", p->pitch, underlying_add, g);
+    part->reading = 400;
+    return part;
 }
