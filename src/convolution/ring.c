@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/stopwatch.h"
 #include "convolution/alias.h"
 #include "convolution/gammatone.h"
 #include "num/lanes.h"
@@ -356,6 +357,11 @@ static bool note_quantity(const struct ring *g, struct board *b, struct err *e)
     return true;
 }
 
+/* Predicted cycles of opening: a listening place, what moves, a mode. */
+#define OPENED 1e5
+#define FOLLOWED 5e5
+#define MODE 6e3
+
 bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct err *e)
 {
     bool surface = body == RING_SURFACE;
@@ -376,6 +382,7 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
     g->outputs = ARENA_TAKE(r->arena, struct ring_output, g->channels);
     g->y = ARENA_TAKE(r->arena, double, STAGE_BLOCK);
     if (g->choice->recorded) return true;
+    stopwatch_spend(OPENED * g->channels + (g->moves ? FOLLOWED : 0) + MODE * g->choice->modes.n);
     for (int k = 0; k < g->channels; k++)
         if (!voice_open(g, r, k, e)) return err_about(e, r->contact->name, ring_choice_about(r->contact, body));
     double ring =

@@ -136,6 +136,8 @@ static struct accuracy turned(const struct budgeting *m, int knob, double value)
     return set;
 }
 
+#define SHOWN 60.0 /* predicted cycles of a sample of a channel that is compared or measured */
+
 /* Share of a contact's sound, in energy and to 40 dB after the motion's end, that output.ramp leaves. */
 static bool shown_share(struct budgeting *m, int i, double *share, struct err *e)
 {
@@ -152,6 +154,7 @@ static bool shown_share(struct budgeting *m, int i, double *share, struct err *e
     for (long from = 0, to; ok && from < frames; from = to) {
         to = from + STAGE_BLOCK < frames ? from + STAGE_BLOCK : frames;
         ok = run_block(&r, to, e);
+        stopwatch_spend(SHOWN * (double)((to - from) * b->channels));
         const double *x = ok ? board_at(b, ITEM_SOUND, from) : NULL;
         for (long k = 0; ok && k < (to - from) * b->channels; k++) {
             double shown = error_pilot_shown(&scene, m->pilot[i].start + from + k / b->channels) * x[k];
@@ -227,6 +230,7 @@ static bool compare_ramps(const struct budgeting *m, int contact, const double r
         to = from + STAGE_BLOCK < first + frames ? from + STAGE_BLOCK : first + frames;
         ok = (!open[0] || run_block(&r[0], to, e)) && run_block(&r[1], to, e);
         if (!ok) break;
+        stopwatch_spend(SHOWN * (double)((to - from) * b->channels));
         const double *y = board_at(b, ITEM_SOUND, from), *x = open[0]   ? board_at(&r[0].board, ITEM_SOUND, from)
                                                               : depends ? finer->x + (from - first) * b->channels
                                                                         : y;

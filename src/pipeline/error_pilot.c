@@ -18,6 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/stopwatch.h"
 #include "convolution/ring_choice.h"
 #include "force/strike.h"
 #include "num/fft.h"
@@ -372,6 +373,8 @@ static double weighted(const struct error_pilot *p, long block, const double *sq
     return p->gain * p->gain * sum / p->window;
 }
 
+#define SPECTRUM 10.0 /* predicted cycles of a sample, beside the transform */
+
 static bool spectrum(struct hearing *h, double *square)
 {
     double any = 0;
@@ -379,6 +382,7 @@ static bool spectrum(struct hearing *h, double *square)
         h->x[i] *= h->taper[i];
         any = fmax(any, fabs(h->x[i]));
     }
+    stopwatch_spend(SPECTRUM * (double)h->window);
     if (any == 0) return false;
     fft_forward(h->fft, h->x, h->re, h->im);
     for (int k = 0; k <= h->window / 2; k++)
