@@ -186,7 +186,7 @@ static void blocks_fill(void *self, long index, long row, double *c)
 {
     const struct blocks *g = self;
     (void)row;
-    stopwatch_spend(25 * (double)g->n);
+    stopwatch_spend(90 * (double)g->n);
     noise_normal(g->stream, (uint64_t)index, (size_t)g->n, g->normal);
     for (long j = 0; j < g->n / 2; j++) {
         g->re[j] = g->normal[2 * j] * g->spread[j];
