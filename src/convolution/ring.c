@@ -301,6 +301,7 @@ static bool voice_open(struct ring *g, struct stage_run *r, int channel, struct 
     struct ring_made here = {NULL, NULL}, *made = ask.output->listen.given ? &g->choice->made[channel] : &here;
     if (!made->modes) {
         const struct modes *modes = voice_modes(g, &ask);
+        if (channel == 0) stopwatch_spend(listener_cost(ask.output, &g->choice->modes, origin)); /* of all */
         if (!(made->listener = listener_make(g->choice->arena, &ask, modes, e)))
             return err_at(e, "contact '%s': %s", r->contact->name, g->key);
         made->modes = modes;

@@ -212,10 +212,6 @@ static bool choose_modal(struct ring_choosing *c, enum ring_body body, struct er
     if (!gammatone_fits(c, e))
         return err_about(e, c->contact->name, gammatones[body == RING_SURFACE ? 0 : contact_rolls(c->contact) ? 2 : 1]);
     if (!choose_engine(c, e)) return false;
-    const struct output *o = &c->scene->output;
-    double moving = isnan(c->contact->motion.duration) ? 1 : c->contact->motion.duration,
-           ring = isnan(o->tail) ? fmin(modes_ring_time(&c->to->modes, 80), 60) : o->tail;
-    c->to->listening = listener_cost(o, &c->to->modes, c->given->object.origin) / ((moving + ring) * o->sample_rate);
     return true;
 }
 
@@ -308,7 +304,8 @@ static double place_work(const struct contact *own, const struct ring_choice *c,
 {
     double n = c->modes.n, lanes = LANES * ceil(n / LANES), rate = s->output.sample_rate, length = c->seconds * rate,
            force = under_force(own, c, s);
-    double point = PLACED + n * (c->modes.shared ? SHARED : SEPARATE), hop = ring_choice_hop(c, &s->accuracy);
+    double shapes = c->modes.object && c->moves ? c->modes.object->terms : 0,
+           point = PLACED + n * (c->modes.shared ? SHARED : SEPARATE) + shapes, hop = ring_choice_hop(c, &s->accuracy);
     if (c->engine == RING_LAUNCH)
         return 20 + 4 * lanes * RESONATOR +
                force * (FORCED + (point + FREED * n) / hop + LAUNCHED * alive(c, rate, hop));
@@ -322,8 +319,8 @@ static double work_of(const struct contact *c, const struct scene *s, enum ring_
 {
     const struct ring_choice *choice = given_of(c, body)->choice;
     if (!choice) return 0;
-    if (choice->recorded) return recorded_work((choice->folder ? 8 : 1) * choice->seconds * s->output.sample_rate);
-    return place_work(c, choice, s) * listener_channels(&s->output) + choice->listening;
+    if (choice->recorded) return recorded_work((choice->folder ? 2 : 1) * choice->seconds * s->output.sample_rate);
+    return place_work(c, choice, s) * listener_channels(&s->output);
 }
 
 double ring_choice_surface_work(const struct contact *c, const struct scene *s) { return work_of(c, s, RING_SURFACE); }

@@ -2,6 +2,7 @@
    between which the force is shared linearly. Modes: each place's response is computed, at nodes along the motion,
    launched from there (`launch`, `fixed`) or read out at the present place (`readout`). A response of modes is followed
    for response_length (papers/000 equation 10's t0) or, without, until every mode has decayed by 140 dB. */
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -217,7 +218,11 @@ static bool ring_overlap_open(struct stage_run *r, enum ring_body body, struct e
     int ahead = s->outputs[0].stays ? OVERLAP_ADD_BLOCK - 1 : overlap_add_moving_ahead(s->outputs[0].moves);
     r->ahead = r->ahead > ahead ? r->ahead : ahead;
     spend_once(s, r);
-    r->works = r->board->moving + ahead + 1; /* then force is zero, and what rings is there */
+    r->works = r->board->moving + ahead + 1; /* then force is zero, and what rings is there; but for a readout */
+    if (r->board->lingers)
+        r->works = LONG_MAX;
+    else if (s->ring.choice->reading == MOVING_READOUT)
+        r->works += (long)(s->ring.choice->seconds * r->board->rate);
     return true;
 }
 

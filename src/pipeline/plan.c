@@ -233,19 +233,23 @@ const char *const plan_beside_does[PLAN_BESIDE] = {
 
 double plan_row_cycles(const struct plan_row *r) { return r->once + r->work * r->frames; }
 
-#define FILES 1e6    /* cycles of making, hashing and naming the files of a render */
+#define FILES 1.6e6  /* cycles of making, hashing and naming the files of a render */
+#define ROW 2000.0   /* a row of a table that is hashed and written              */
 #define CHANNEL 40.0 /* a sample of a channel that is summed, measured and written   */
 
 /* What the parts, which are open, will do: what works on zeros does not work (run.c). */
 static void estimate(const struct render_parts *p, struct arena *a, struct plan_scene_estimate *x)
 {
     struct plan *plans = ARENA_TAKE(a, struct plan, p->scene->n_contacts);
+    const struct output *o = &p->scene->output;
     x->sounds = p->asked & ITEM_BIT(ITEM_SOUND);
     x->once[PLAN_WRITES] = FILES;
     x->work[PLAN_WRITES] = x->sounds * CHANNEL * listener_channels(&p->scene->output);
     for (int i = 0; i < p->scene->n_contacts; i++) {
         const struct render_part *one = &p->parts[i];
         plans[i] = one->plan;
+        if (plans[i].targets & ITEM_BIT(ITEM_TABLE))
+            x->once[PLAN_WRITES] += ROW * (double)one->run.board.moving * o->diagnostics.rate / o->sample_rate;
         for (int k = 0, at = 0; k < plans[i].n; k++) {
             struct plan_row *r = &plans[i].rows[k];
             if (r->verdict != PLAN_RUNS || !one->open) continue;
