@@ -87,8 +87,8 @@ static bool measure(const struct scene *s, const struct plan_scene_estimate *x, 
             if (x->plans[i].targets && x->plans[i].rows[k].verdict == PLAN_RUNS) stages += t++->all;
     m->given = true;
     m->clock = core_clock();
-    m->beside[PLAN_CHOOSES] = m->report.error_budget.cpu;
-    m->beside[PLAN_READS] = m->report.planned;
+    m->beside[PLAN_CHOOSES] = m->report.error_budget.cpu - m->report.error_budget.read[0];
+    m->beside[PLAN_READS] = m->report.planned + m->report.error_budget.read[0];
     m->beside[PLAN_WRITES] = fmax(0, m->report.cpu - m->beside[PLAN_CHOOSES] - m->beside[PLAN_READS] - stages);
     return true;
 }
@@ -181,7 +181,8 @@ static bool plan_one(struct cmd_call *c, const char *file, struct report *r, str
     for (int i = 0; ok && i < s.n_contacts; i++)
         if (!plan_known(&x.plans[i], e)) return false;
     if (!ok) return scene_places_report(&s, e);
-    x.once[PLAN_CHOOSES] = error_budget.cycles;
+    x.once[PLAN_CHOOSES] = error_budget.cycles - error_budget.read[1];
+    x.once[PLAN_READS] += error_budget.read[1];
     x.cycles += error_budget.cycles;
     for (int i = 0; x.warnings[i]; i++)
         message_warning(c, file, x.warnings[i]);

@@ -248,6 +248,7 @@ bool ring_reach(const struct modes *m, const struct stage_run *r, struct err *e)
     bool one = contact_one_place(r->contact);
     struct modes_where first = ring_first_place(r->contact, tr);
     long steps = one ? 0 : tr->straight ? 1 : tr->detail;
+    if (given->extrapolate == EXTRAPOLATE_ERROR) stopwatch_spend((double)steps * (400 + 80.0 * m->n));
     for (long i = 0; i <= steps && given->extrapolate == EXTRAPOLATE_ERROR; i++) {
         double t = one ? 0 : tr->duration * (double)i / (double)steps, p[2] = {first.x, first.y};
         if (tr->straight && !one)

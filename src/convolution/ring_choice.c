@@ -266,19 +266,19 @@ enum ring_engine ring_choice_engine(const struct contact *c, enum ring_body body
 /* ------------------------------------------------------------------ cost: cycles of one core with 256-bit vectors, by
    tests/bench and whole renders, within a factor of 3 */
 
-#define RESONATOR 0.8         /* a mode and sample, poles fixed                   */
-#define GLIDING 1.2           /* ... poles ramped                                 */
-#define RAMPED 6.0            /* a mode and ramp                                  */
-#define PLACED 400.0          /* a place of the contact                           */
-#define TURNED 1400.0         /* ... and a run of resonators to there             */
-#define FORCED 45.0           /* a sample of force: what its modes beyond the band leave (alias.c) */
-#define SHARED 28.0           /* a mode there, poles shared                       */
-#define SEPARATE 80.0         /* ... poles separate                               */
-#define FREED 250.0           /* a node that leaves the force                     */
-#define LAUNCHED 0.22         /* a node that rings and sample                     */
-#define TRANSFORM 65.0        /* three FFTs, per sample of them                   */
-#define SAMPLED 0.7           /* a mode and sample of an impulse response         */
-#define PARTITION (1 / 200.0) /* a sample of a response that is convolved as it is */
+#define RESONATOR 0.8          /* a mode and sample, poles fixed                   */
+#define GLIDING 1.2            /* ... poles ramped                                 */
+#define RAMPED 6.0             /* a mode and ramp                                  */
+#define PLACED 400.0           /* a place of the contact                           */
+#define TURNED 1400.0          /* ... and a run of resonators to there             */
+#define FORCED 45.0            /* a sample of force: what its modes beyond the band leave (alias.c) */
+#define SHARED 28.0            /* a mode there, poles shared                       */
+#define SEPARATE 80.0          /* ... poles separate                               */
+#define FREED 250.0            /* a node that leaves the force                     */
+#define LAUNCHED 0.22          /* a node that rings and sample                     */
+#define TRANSFORM 65.0         /* three FFTs, per sample of them                   */
+#define SAMPLED 0.7            /* a mode and sample of an impulse response         */
+#define PARTITION (1 / 2500.0) /* a sample of a response that is convolved as it is */
 
 static double recorded_work(double samples) { return 70 + samples * PARTITION; }
 

@@ -191,7 +191,7 @@ static void open_modes(struct ring_overlap *s, struct stage_run *r)
 
 /* ------------------------------------------------------------------ the stages */
 
-#define PART 300000.0 /* cycles of a block of a response: its transform, and that of what rings at last */
+#define PART 250000.0 /* cycles of a block of a response: its transform, and that of what rings at last */
 #define SAMPLED 3.5   /* of a sample of a mode of a response that stays                                 */
 
 /* Of what stays, the work that does not go with the length of the force. */

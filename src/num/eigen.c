@@ -55,7 +55,7 @@ static bool sweep(int n, double *a, double *row)
 
 bool eigen_inverse(int n, double *a)
 {
-    stopwatch_spend(1.0 * n * n * n);
+    stopwatch_spend(0.15 * n * n * n);
     struct arena *room = arena_open();
     bool good = sweep(n, a, ARENA_TAKE(room, double, n));
     arena_close(room);
@@ -223,7 +223,7 @@ static void turn_back(int n, const double *a, const double *h, double *z)
 
 int eigen_above(int n, double *a, double least, struct arena *arena, double *value, double **vector)
 {
-    stopwatch_spend(8.0 * n * n * n);
+    stopwatch_spend(0.7 * n * n * n);
     struct arena *room = arena_open();
     struct tridiagonal t = {ARENA_TAKE(room, double, n), ARENA_TAKE(room, double, n), ARENA_TAKE(room, double, n)};
     double *z = ARENA_TAKE(room, double, (size_t)n *(n + WIDE)),

@@ -146,7 +146,7 @@ static void even_times(const double rates[2], size_t least, size_t *in, size_t *
     *out = (size_t)(times * p[1]);
 }
 
-#define WEIGHED 150.0 /* predicted cycles of a sample that goes in or comes out */
+#define WEIGHED 85.0 /* predicted cycles of a sample that goes in or comes out */
 
 bool resample(struct arena *a, const double *x, size_t n, double rate_in, double rate_out, double **y, size_t *m,
               struct err *e)

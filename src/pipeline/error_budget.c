@@ -523,7 +523,10 @@ static bool make(struct budgeting *m, struct err *e)
     for (int k = 0; k < KNOBS; k++)
         if (open & 1u << k && !ball) accuracy_turn(&m->chosen->accuracy, (enum knob)k, keys_knobs[k].preset[0]);
     m->parts = render_parts_make(m->chosen, m->arena);
+    double start = stopwatch_cpu(), spent = stopwatch_cycles();
     if (!render_parts_plan(&m->parts, e)) return false;
+    m->to->read[0] = stopwatch_cpu() - start;
+    m->to->read[1] = stopwatch_cycles() - spent;
     m->sounds = m->parts.asked & ITEM_BIT(ITEM_SOUND);
     m->pilot = ARENA_TAKE(m->arena, struct error_pilot, m->chosen->n_contacts);
     m->ramps = ARENA_TAKE(m->arena, struct ramp_sound, m->chosen->n_contacts);

@@ -250,6 +250,20 @@ static bool tip_smoothed(const struct stage_run *r, const struct relief *under, 
                                                   c->name);
 }
 
+/* m of new surface per audio sample: going over it again costs nothing. */
+static double fresh(const struct motion *m, double speed, double rate)
+{
+    double times = m->path == PATH_CIRCLE           ? fabs(m->turns)
+                   : m->path == PATH_BACK_AND_FORTH ? 2 * m->rate * m->duration
+                                                    : 1;
+    return speed / fmax(times, 1) / rate;
+}
+
+/* Cycles of a piece of ground in one coordinate, which is looked at twice, and of the patch's spline. */
+#define PIECE 4000.0
+#define PLAIN 300.0 /* a piece that is a point alone */
+#define KNOT 300.0
+
 static bool tip_open(struct stage_run *r, struct err *e)
 {
     struct relief *relief = r->board->relief, *under = ARENA_TAKE(r->arena, struct relief, 1);
@@ -259,6 +273,9 @@ static bool tip_open(struct stage_run *r, struct err *e)
     struct rolling_plan p = tip_plan(r, under);
     under->origin[0] = under->origin[1] = 0; /* the tip's own lattice lies in the surface's coordinates too */
     if (!tip_affordable(r, &p, under, e)) return false;
+    if (under->along != ALONG_PLANE)
+        r->work = fresh(&r->contact->motion, r->board->trajectory->mean_speed, r->board->rate) *
+                  ((p.points ? PLAIN : PIECE) / p.pitch + (p.patch > 0 ? KNOT * PATCH_POINTS / p.patch : 0));
     relief->first = NULL;
     relief->under = under;
     relief_add(relief,
@@ -296,14 +313,9 @@ static bool tip_wanted(const struct contact *c, const struct scene *s)
     return relief_tipped(c);
 }
 
-/* Going over it again costs nothing. */
 static double tip_work(const struct contact *c, const struct scene *s)
 {
-    const struct motion *m = &c->motion;
-    double times = m->path == PATH_CIRCLE           ? fabs(m->turns)
-                   : m->path == PATH_BACK_AND_FORTH ? 2 * m->rate * m->duration
-                                                    : 1;
-    double length = motion_speed(m) / fmax(times, 1) / s->output.sample_rate; /* m of new surface per audio sample */
+    double length = fresh(&c->motion, motion_speed(&c->motion), s->output.sample_rate);
     double dense = s->accuracy.tip_heights, patch = c->scraper.patch;
     double metre = patch == 0                       ? 2e2 * dense / likely_pitch(c)
                    : relief_along(c) == ALONG_PLANE ? plane_metre(c, dense)
