@@ -124,6 +124,7 @@ static double left_over_end(double beta)
 static void add_bands(struct strikes *s, const double *sound, long first, long frames, bool rises, double *power)
 {
     long step = (rises ? 2 : 1) * s->n / frames;
+    stopwatch_spend(20.0 * (double)s->n);
     memset(s->x, 0, (size_t)s->n * sizeof *s->x);
     for (long i = 0; i < frames; i++)
         s->x[first + i] = sound[first + i] * s->fade[rises ? labs(step * i - s->n) : step * i];
@@ -231,6 +232,7 @@ static bool audible_power(const struct scene *s, const struct contact *c, double
         double x = real_sinpi(0.5 + 0.5 * (double)i / (double)n);
         k.fade[i] = x * x;
     }
+    stopwatch_spend(60.0 * (double)n);
     bool ok = force_power(&k, place[0], false, k.pushed, e); /* it is the same at all places */
     if (ok && enhanced) {
         double *plain = ARENA_TAKE(a, double, half), *full = ARENA_TAKE(a, double, half);
@@ -373,7 +375,7 @@ static double weighted(const struct error_pilot *p, long block, const double *sq
     return p->gain * p->gain * sum / p->window;
 }
 
-#define SPECTRUM 10.0 /* predicted cycles of a sample, beside the transform */
+#define SPECTRUM 25.0 /* predicted cycles of a sample, beside the transform */
 
 static bool spectrum(struct hearing *h, double *square)
 {
@@ -407,6 +409,7 @@ static bool fade_block(const struct error_pilot *p, long block, double *x)
     if (error_pilot_shown(&p->scene, first) == 1 && error_pilot_shown(&p->scene, last) == 1) return false;
     for (int i = 0; i < p->window; i++)
         x[i] *= error_pilot_shown(&p->scene, first + i);
+    stopwatch_spend(60.0 * p->window);
     return true;
 }
 

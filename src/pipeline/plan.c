@@ -243,7 +243,7 @@ static void estimate(const struct render_parts *p, struct arena *a, struct plan_
     struct plan *plans = ARENA_TAKE(a, struct plan, p->scene->n_contacts);
     const struct output *o = &p->scene->output;
     x->sounds = p->asked & ITEM_BIT(ITEM_SOUND);
-    x->once[PLAN_WRITES] = FILES;
+    x->once[PLAN_WRITES] += FILES;
     x->work[PLAN_WRITES] = x->sounds * CHANNEL * listener_channels(&p->scene->output);
     for (int i = 0; i < p->scene->n_contacts; i++) {
         const struct render_part *one = &p->parts[i];
@@ -256,6 +256,7 @@ static void estimate(const struct render_parts *p, struct arena *a, struct plan_
             const struct stage_run *st = &one->run.stages[at];
             r->work = st->work;
             r->once = st->once;
+            x->once[PLAN_WRITES] -= st->once;
             r->frames = fmax(0, fmin((double)run_works(&one->run, at++), (double)(x->length.frames - one->start)));
             x->cycles += plan_row_cycles(r);
         }
@@ -274,6 +275,7 @@ static bool open_parts(struct render_parts *p, struct arena *a, struct plan_scen
     *x = (struct plan_scene_estimate){.quantity = -1};
     if (!inputs_check(p->scene, a, e) || !render_parts_plan(p, e)) return false;
     x->once[PLAN_READS] = stopwatch_cycles() - start;
+    start = stopwatch_cycles();
     FILE *nowhere = memory_fopen("/dev/null", "w");
     bool ok = nowhere || err_set(e, ERR_IO, "/dev/null cannot be opened");
     for (int i = 0; ok && i < p->scene->n_contacts; i++) {
@@ -290,6 +292,7 @@ static bool open_parts(struct render_parts *p, struct arena *a, struct plan_scen
         for (int k = 0; p->parts[i].open && k < b->n_warnings && k < MOST; k++)
             x->warnings[n++] = arena_text(a, b->warnings[k]); /* the text ends with its run */
     }
+    x->once[PLAN_WRITES] = stopwatch_cycles() - start; /* with what the stages have opened, which is taken off */
     if (ok) estimate(p, a, x);
     render_parts_close(p);
     if (nowhere) fclose(nowhere);

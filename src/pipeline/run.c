@@ -63,7 +63,6 @@ static void run_signal(struct run *r, enum item item)
 }
 
 #define OPENING 3000.0 /* cycles of any stage's */
-#define TOUCHED 0.5    /* a byte of memory that is new */
 #define BLOCK 300.0    /* a stage and block: its clock, its signals */
 
 static bool run_open_stages(struct run *r, struct err *e)
@@ -87,7 +86,7 @@ static bool run_open_stages(struct run *r, struct err *e)
         one->seconds += stopwatch_cpu() - start; /* open may have put to it what was done for the stage before */
         one->opened = one->seconds;
         one->bytes = arena_bytes(r->arena) - before;
-        stopwatch_spend(OPENING + TOUCHED * (double)one->bytes);
+        stopwatch_spend(OPENING);
         one->once = stopwatch_cycles() - spent;
     }
     return true;

@@ -143,7 +143,7 @@ static void build_add(struct build *b, const struct piece *w, const double c[6])
     b->p->end = b->inverse ? b->sum + b->lost : w->x1;
 }
 
-#define PIECE 4000.0 /* predicted cycles of one that is measured */
+#define PIECE 2500.0 /* predicted cycles of one that is measured */
 
 static bool build_between(struct build *b, double x0, double x1)
 {
