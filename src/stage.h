@@ -169,7 +169,6 @@ struct stage_run { /* one stage at work */
     double once;       /* predicted cycles of opening, and of whatever else is done once */
     double work;       /* predicted cycles per audio sample while it works; NAN until all are open: .work says */
     long works;        /* frames from the first for which it costs that, as predicted; LONG_MAX, unless open sets it */
-    double counted, ran; /*DEBUG*/
     size_t bytes;      /* memory taken                                */
     long blocks;       /* calls of run                                */
 };

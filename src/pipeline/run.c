@@ -319,7 +319,6 @@ bool run_block(struct run *r, long to, struct err *e)
         ok = stage_block(st, end, &clock, e);
         if (run_reads(st) & ITEM_BIT(ITEM_SURFACE)) work += stopwatch_cycles() - spent;
         stopwatch_spend(BLOCK + work + spent - stopwatch_cycles());
-        st->counted += work;
     }
     return ok;
 }
@@ -348,16 +347,8 @@ long run_works(const struct run *r, int i)
     return st->works < limit ? st->works : limit;
 }
 
-#include <stdio.h>
-#include <stdlib.h>
 void run_close(struct run *r)
 {
-    if (getenv("RASP_COUNT"))
-        for (int i = 0; i < r->n; i++) {
-            struct stage_run *s = &r->stages[i];
-            fprintf(stderr, "RUN %s %.0f %.0f %.0f %.0f\n", s->stage->name, s->once, s->opened * 4.1e9, s->counted,
-                    (s->seconds - s->opened) * 4.1e9);
-        }
     for (int i = r->n - 1; i >= 0; i--)
         if (r->stages[i].stage->close) r->stages[i].stage->close(&r->stages[i]);
     arena_close(r->arena);

@@ -259,6 +259,12 @@ static double fresh(const struct motion *m, double speed, double rate)
     return speed / fmax(times, 1) / rate;
 }
 
+/* Cycles of what is there already: 40 a point. */
+static double read_again(const struct contact *c, const struct scene *s, double pitch)
+{
+    return 40 * relief_readings(c, s, pitch);
+}
+
 /* Cycles of a piece of ground in one coordinate, which is looked at twice, and of the patch's spline. */
 #define PIECE 4000.0
 #define PLAIN 300.0 /* a piece that is a point alone */
@@ -274,8 +280,9 @@ static bool tip_open(struct stage_run *r, struct err *e)
     under->origin[0] = under->origin[1] = 0; /* the tip's own lattice lies in the surface's coordinates too */
     if (!tip_affordable(r, &p, under, e)) return false;
     if (under->along != ALONG_PLANE)
-        r->work = fresh(&r->contact->motion, r->board->trajectory->mean_speed, r->board->rate) *
-                  ((p.points ? PLAIN : PIECE) / p.pitch + (p.patch > 0 ? KNOT * PATCH_POINTS / p.patch : 0));
+        r->work = read_again(r->contact, r->scene, p.patch > 0 ? p.patch / PATCH_POINTS : p.pitch) +
+                  fresh(&r->contact->motion, r->board->trajectory->mean_speed, r->board->rate) *
+                      ((p.points ? PLAIN : PIECE) / p.pitch + (p.patch > 0 ? KNOT * PATCH_POINTS / p.patch : 0));
     relief->first = NULL;
     relief->under = under;
     relief_add(relief,
@@ -320,7 +327,7 @@ static double tip_work(const struct contact *c, const struct scene *s)
     double metre = patch == 0                       ? 2e2 * dense / likely_pitch(c)
                    : relief_along(c) == ALONG_PLANE ? plane_metre(c, dense)
                                                     : 8e2 * dense / (patch / PATCH_POINTS);
-    return length > 0 ? length * metre : 0;
+    return read_again(c, s, patch > 0 ? patch / PATCH_POINTS : likely_pitch(c)) + (length > 0 ? length * metre : 0);
 }
 
 const struct stage tip_stage = {
