@@ -69,9 +69,9 @@ static void *or_end(void *p, size_t n)
     return p;
 }
 
-/* Predicted cycles of a real transform of n points, and of planning it. */
+/* Predicted cycles of a real transform of n points, and of opening one, whose plan may be there. */
 #define TRANSFORM(n) (2 * (double)(n)*real_log((double)(n)))
-#define PLANNED 60000.0
+#define OPENED 20000.0
 
 /* One direction, when it is first wanted: who looks at spectra needs one. Wisdom, which FFTW gathers even when it
    estimates, is forgotten first: a plan must not depend on those made before it. */
@@ -83,7 +83,6 @@ static fftw_plan plan_of(const struct fft *f, double *x, bool forward)
     pthread_mutex_lock(&planner);
     fftw_plan *p = forward ? &f->plans->forward : &f->plans->inverse;
     if (!*p) {
-        stopwatch_spend(PLANNED);
         fftw_forget_wisdom();
         *p = or_end(fftw_plan_guru64_r2r(1, &dim, 0, NULL, in, out, &kind,
                                          FLAGS | (forward ? FFTW_PRESERVE_INPUT : FFTW_DESTROY_INPUT)),
@@ -117,6 +116,7 @@ struct fft *fft_open(size_t n)
 {
     struct fft *f = or_end(fftw_malloc(sizeof *f), n);
     *f = (struct fft){.n = n, .bins = n / 2 + 1};
+    stopwatch_spend(OPENED);
     f->half = or_end(fftw_malloc(n * sizeof(double)), n);
     pthread_mutex_lock(&planner);
     for (f->plans = keeping.first; f->plans && f->plans->n != n;)
