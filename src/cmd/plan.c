@@ -11,6 +11,7 @@
 #include "cmd/message.h"
 #include "cmd/plan_without.h"
 #include "cmd/report.h"
+#include "num/real.h"
 #include "pipeline/error_budget.h"
 #include "pipeline/plan.h"
 #include "pipeline/render.h"
@@ -132,6 +133,13 @@ static const struct render_time *contact_report(struct report *r, const struct p
     return time;
 }
 
+/* To two digits, for "%.9g". */
+static double two(double x)
+{
+    double unit = x > 0 ? real_exp10(floor(real_log10(x)) - 1) : 1;
+    return rint(x / unit) * unit;
+}
+
 static void beside_report(struct report *r, const struct plan_scene_estimate *x, const struct measured *m)
 {
     report_set(r, "$:[", "in_no_stage");
@@ -140,13 +148,13 @@ static void beside_report(struct report *r, const struct plan_scene_estimate *x,
         report_set(r, ":{ does:s cycles_once:n cycles_per_sample:n", plan_beside_does[k], x->once[k], x->work[k]);
         if (m->given) report_set(r, "measured:n", m->beside[k] * m->clock);
         report_set(r, "}");
-        report_text(r, "in no stage: %-40s %8.2g million cycles", plan_beside_does[k], whole / 1e6);
+        report_text(r, "in no stage: %-40s %8.9g million cycles", plan_beside_does[k], two(whole / 1e6));
         report_text(r, m->given ? ", measured %.3g\n" : "\n", m->beside[k] * m->clock / 1e6);
     }
     report_set(r, "] samples:l cycles:n", x->length.frames, x->cycles);
     if (m->given)
         report_set(r, "measured:{ cycles:n cpu_s:n clock_hz:n }", m->report.cpu * m->clock, m->report.cpu, m->clock);
-    report_text(r, "in all %.2g million cycles for %ld samples: %.2g s of a core of 3 GHz\n", x->cycles / 1e6,
+    report_text(r, "in all %.9g million cycles for %ld samples: %.2g s of a core of 3 GHz\n", two(x->cycles / 1e6),
                 x->length.frames, x->cycles / 3e9);
     if (m->given)
         report_text(r, "measured %.3g million: %.2g s at %.2f GHz\n", m->report.cpu * m->clock / 1e6, m->report.cpu,
