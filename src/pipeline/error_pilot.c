@@ -340,9 +340,9 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
         p->block[k].number = k == 0        ? 0
                              : k <= spread ? p->blocks * (2 * k - 1) / (2 * spread)
                                            : p->blocks - p->followed + k;
-    /* Of a response that moves, one in each third. Of the first 40 modes of a string or bar along whose length the motion
-       leads, at a steady speed, as minimum jerk or there and back, each has a tenth of its power at these or more:
-       none lies on nodes at all three. */
+    /* Of a response that moves, one in each third. Of the first 40 modes of a string or bar along whose length the
+       motion leads, at a steady speed, as minimum jerk or there and back, each has a tenth of its power at these or
+       more: none lies on nodes at all three. */
     static const double places_at[PILOT_PLACES] = {0.2 / 3, 1.736 / 3, 2.538 / 3};
     double place[PILOT_PLACES][2];
     for (int k = 0; k < p->places; k++) {
