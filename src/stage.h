@@ -165,6 +165,10 @@ struct stage_run { /* one stage at work */
     long offset, done; /* the runner's: lead, and frames done         */
     long limit;        /* the runner's: until when it works (run.c) */
     double seconds;    /* CPU time spent                              */
+    double opened;     /* of it, on opening                           */
+    double once;       /* predicted cycles of opening, and of whatever else is done once */
+    double work;       /* predicted cycles per audio sample while it works; NAN until all are open: .work says */
+    long works;        /* frames from the first for which it costs that, as predicted; LONG_MAX, unless open sets it */
     size_t bytes;      /* memory taken                                */
     long blocks;       /* calls of run                                */
 };

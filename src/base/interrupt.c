@@ -18,7 +18,7 @@
     SIGRTMIN /* wakes the thread that waits; not pthread_cancel, whose unwinding the address sanitizer takes for a     \
                 fault */
 #define GRACE 250000000 /* ns */
-enum { AGAIN = 20 }; /* passes over a folder in which another thread still makes files */
+enum { AGAIN = 20 };    /* passes over a folder in which another thread still makes files */
 #define WORDS 100000000 /* ns: for who is telling it, and ends the program then */
 
 struct temporary {

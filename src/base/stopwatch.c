@@ -13,3 +13,9 @@ static double read_clock(clockid_t clock)
 double stopwatch_wall(void) { return read_clock(CLOCK_MONOTONIC); }
 
 double stopwatch_cpu(void) { return read_clock(CLOCK_THREAD_CPUTIME_ID); }
+
+static _Thread_local double spent;
+
+double stopwatch_cycles(void) { return spent; }
+
+void stopwatch_spend(double cycles) { spent += cycles; }

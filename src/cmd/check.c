@@ -112,7 +112,8 @@ static int check_run(struct cmd_call *c, struct err *e)
         struct err mine = {0};
         const char *remark = NULL, *name = text_shown(c->arena, c->args.operands[i]);
         if (r.json) message_collect(c);
-        const char *file = c->args.operands[i], **warnings = NULL;
+        const char *file = c->args.operands[i];
+        struct plan_scene_estimate x = {.warnings = NULL};
         struct scene s, chosen;
         if (design_is(file))
             check_design(c, file, &remark, &mine);
@@ -120,11 +121,11 @@ static int check_run(struct cmd_call *c, struct err *e)
             bool asked = !isnan(s.accuracy.error);
             if (!asked) chosen = accuracy_coarsest(&s);
             if ((asked && !error_budget_apply(&s, c->arena, &chosen, NULL, &mine)) ||
-                !plan_scene(&chosen, c->arena, &warnings, &mine))
+                !plan_scene(&chosen, c->arena, &x, &mine))
                 scene_places_report(&s, &mine);
         }
-        for (int k = 0; !mine.kind && warnings && warnings[k]; k++)
-            message_warning(c, file, warnings[k]);
+        for (int k = 0; !mine.kind && x.warnings && x.warnings[k]; k++)
+            message_warning(c, file, x.warnings[k]);
         if (mine.kind)
             message_error(c, "check", &mine);
         else

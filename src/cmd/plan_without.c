@@ -72,13 +72,13 @@ struct variant {
 
 static bool predicted(struct variant *v, struct arena *a, struct err *e)
 {
-    const char **warnings;
-    const struct plan *plans = plan_scene(&v->scene, a, &warnings, e);
+    struct plan_scene_estimate x;
+    bool ok = plan_scene(&v->scene, a, &x, e);
     v->cycles = 0.0;
-    for (int i = 0; plans && i < v->scene.n_contacts; i++)
-        for (int k = 0; k < plans[i].n; k++)
-            v->cycles += plans[i].rows[k].verdict == PLAN_RUNS ? plans[i].rows[k].work : 0.0;
-    return plans != NULL;
+    for (int i = 0; ok && i < v->scene.n_contacts; i++)
+        for (int k = 0; k < x.plans[i].n; k++)
+            v->cycles += x.plans[i].rows[k].verdict == PLAN_RUNS ? x.plans[i].rows[k].work : 0.0;
+    return ok;
 }
 
 /* CPU time of the stages of all contacts, of what runs block by block: to the motion's end, and `longest` at most. */

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/stopwatch.h"
 #include "convolution/alias.h"
 #include "convolution/gammatone.h"
 #include "num/lanes.h"
@@ -247,6 +248,7 @@ bool ring_reach(const struct modes *m, const struct stage_run *r, struct err *e)
     bool one = contact_one_place(r->contact);
     struct modes_where first = ring_first_place(r->contact, tr);
     long steps = one ? 0 : tr->straight ? 1 : tr->detail;
+    if (given->extrapolate == EXTRAPOLATE_ERROR) stopwatch_spend((double)steps * (400 + 80.0 * m->n));
     for (long i = 0; i <= steps && given->extrapolate == EXTRAPOLATE_ERROR; i++) {
         double t = one ? 0 : tr->duration * (double)i / (double)steps, p[2] = {first.x, first.y};
         if (tr->straight && !one)
@@ -300,6 +302,7 @@ static bool voice_open(struct ring *g, struct stage_run *r, int channel, struct 
     struct ring_made here = {NULL, NULL}, *made = ask.output->listen.given ? &g->choice->made[channel] : &here;
     if (!made->modes) {
         const struct modes *modes = voice_modes(g, &ask);
+        if (channel == 0) stopwatch_spend(listener_cost(ask.output, &g->choice->modes, origin)); /* of all */
         if (!(made->listener = listener_make(g->choice->arena, &ask, modes, e)))
             return err_at(e, "contact '%s': %s", r->contact->name, g->key);
         made->modes = modes;
@@ -356,6 +359,11 @@ static bool note_quantity(const struct ring *g, struct board *b, struct err *e)
     return true;
 }
 
+/* Predicted cycles of opening: a listening place, what moves, a mode. */
+#define OPENED 1e5
+#define FOLLOWED 5e5
+#define MODE 6e3
+
 bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct err *e)
 {
     bool surface = body == RING_SURFACE;
@@ -376,6 +384,7 @@ bool ring_open(struct ring *g, struct stage_run *r, enum ring_body body, struct 
     g->outputs = ARENA_TAKE(r->arena, struct ring_output, g->channels);
     g->y = ARENA_TAKE(r->arena, double, STAGE_BLOCK);
     if (g->choice->recorded) return true;
+    stopwatch_spend(OPENED * g->channels + (g->moves ? FOLLOWED : 0) + MODE * g->choice->modes.n);
     for (int k = 0; k < g->channels; k++)
         if (!voice_open(g, r, k, e)) return err_about(e, r->contact->name, ring_choice_about(r->contact, body));
     double ring =

@@ -34,6 +34,7 @@
 #include "stage.h"
 #include "trajectory/contact.h"
 #include "trajectory/motion.h"
+#include "trajectory/trajectory.h"
 
 #define COMPUTED_DB 140.0  /* how far a computed response is followed down */
 #define COMPUTED_MOST 60.0 /* s, and how long */
@@ -211,10 +212,6 @@ static bool choose_modal(struct ring_choosing *c, enum ring_body body, struct er
     if (!gammatone_fits(c, e))
         return err_about(e, c->contact->name, gammatones[body == RING_SURFACE ? 0 : contact_rolls(c->contact) ? 2 : 1]);
     if (!choose_engine(c, e)) return false;
-    const struct output *o = &c->scene->output;
-    double moving = isnan(c->contact->motion.duration) ? 1 : c->contact->motion.duration,
-           ring = isnan(o->tail) ? fmin(modes_ring_time(&c->to->modes, 80), 60) : o->tail;
-    c->to->listening = listener_cost(o, &c->to->modes, c->given->object.origin) / ((moving + ring) * o->sample_rate);
     return true;
 }
 
@@ -269,17 +266,19 @@ enum ring_engine ring_choice_engine(const struct contact *c, enum ring_body body
 /* ------------------------------------------------------------------ cost: cycles of one core with 256-bit vectors, by
    tests/bench and whole renders, within a factor of 3 */
 
-#define RESONATOR 0.8         /* a mode and sample, poles fixed                   */
-#define GLIDING 1.2           /* ... poles ramped                                 */
-#define RAMPED 6.0            /* a mode and ramp                                  */
-#define PLACED 400.0          /* a place of the contact                           */
-#define SHARED 28.0           /* a mode there, poles shared                       */
-#define SEPARATE 80.0         /* ... poles separate                               */
-#define FREED 250.0           /* a node that leaves the force                     */
-#define LAUNCHED 0.22         /* a node that rings and sample                     */
-#define TRANSFORM 90.0        /* three FFTs, per sample of them                   */
-#define SAMPLED 0.7           /* a mode and sample of an impulse response         */
-#define PARTITION (1 / 200.0) /* a sample of a response that is convolved as it is */
+#define RESONATOR 0.8          /* a mode and sample, poles fixed                   */
+#define GLIDING 1.2            /* ... poles ramped                                 */
+#define RAMPED 6.0             /* a mode and ramp                                  */
+#define PLACED 400.0           /* a place of the contact                           */
+#define TURNED 1400.0          /* ... and a run of resonators to there             */
+#define FORCED 45.0            /* a sample of force: what its modes beyond the band leave (alias.c) */
+#define SHARED 28.0            /* a mode there, poles shared                       */
+#define SEPARATE 80.0          /* ... poles separate                               */
+#define FREED 250.0            /* a node that leaves the force                     */
+#define LAUNCHED 0.22          /* a node that rings and sample                     */
+#define TRANSFORM 65.0         /* three FFTs, per sample of them                   */
+#define SAMPLED 0.7            /* a mode and sample of an impulse response         */
+#define PARTITION (1 / 2500.0) /* a sample of a response that is convolved as it is */
 
 static double recorded_work(double samples) { return 70 + samples * PARTITION; }
 
@@ -292,25 +291,36 @@ static double alive(const struct ring_choice *c, double rate, double hop)
     return sum;
 }
 
-/* Under force, at one listening place. */
-static double place_work(const struct ring_choice *c, const struct scene *s)
+/* Share of the sound in which there is force: none in the tail. */
+static double under_force(const struct contact *own, const struct ring_choice *c, const struct scene *s)
 {
-    double n = c->modes.n, lanes = LANES * ceil(n / LANES), rate = s->output.sample_rate, length = c->seconds * rate;
-    double point = PLACED + n * (c->modes.shared ? SHARED : SEPARATE), hop = ring_choice_hop(c, &s->accuracy);
+    double moving = own->motion.made ? own->motion.made->duration : own->motion.duration,
+           tail = isnan(s->output.tail) ? fmin(modes_ring_time(&c->modes, 80), COMPUTED_MOST) : s->output.tail;
+    return moving > 0 ? moving / (moving + tail) : 1;
+}
+
+/* At one listening place. */
+static double place_work(const struct contact *own, const struct ring_choice *c, const struct scene *s)
+{
+    double n = c->modes.n, lanes = LANES * ceil(n / LANES), rate = s->output.sample_rate, length = c->seconds * rate,
+           force = under_force(own, c, s);
+    double shapes = c->modes.object && c->moves ? c->modes.object->terms : 0,
+           point = PLACED + n * (c->modes.shared ? SHARED : SEPARATE) + shapes, hop = ring_choice_hop(c, &s->accuracy);
     if (c->engine == RING_LAUNCH)
-        return 20 + 4 * lanes * RESONATOR + (point + FREED * n) / hop + LAUNCHED * alive(c, rate, hop);
+        return 20 + 4 * lanes * RESONATOR +
+               force * (FORCED + (point + FREED * n) / hop + LAUNCHED * alive(c, rate, hop));
     if (c->engine == RING_OVERLAP_ADD)
         return c->moves ? (TRANSFORM * (length + 4 * hop) + SAMPLED * n * length + point) / hop : recorded_work(length);
-    return 10 + lanes * (ring_choice_glides(c) ? GLIDING : RESONATOR * gammatone_cost(c->gamma)) +
-           (c->moves ? (point + lanes * RAMPED) / s->accuracy.gain_ramp : 0);
+    return 10 + FORCED * force + lanes * (ring_choice_glides(c) ? GLIDING : RESONATOR * gammatone_cost(c->gamma)) +
+           (c->moves ? (TURNED + point + lanes * RAMPED) / s->accuracy.gain_ramp : 0);
 }
 
 static double work_of(const struct contact *c, const struct scene *s, enum ring_body body)
 {
     const struct ring_choice *choice = given_of(c, body)->choice;
     if (!choice) return 0;
-    if (choice->recorded) return recorded_work((choice->folder ? 8 : 1) * choice->seconds * s->output.sample_rate);
-    return place_work(choice, s) * listener_channels(&s->output) + choice->listening;
+    if (choice->recorded) return recorded_work((choice->folder ? 2 : 1) * choice->seconds * s->output.sample_rate);
+    return place_work(c, choice, s) * listener_channels(&s->output);
 }
 
 double ring_choice_surface_work(const struct contact *c, const struct scene *s) { return work_of(c, s, RING_SURFACE); }

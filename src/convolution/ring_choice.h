@@ -31,7 +31,6 @@ struct ring_choice {
     bool moves;         /* the response changes on the way                          */
     int gamma;          /* of the modes' onset (gammatone.h); 1: at once            */
     double seconds;     /* of an impulse response that is computed                  */
-    double listening;   /* cycles per audio sample of making what listens           */
 };
 
 /* The contact retunes what rings; poles that are the same everywhere stay where they are. */

@@ -2,9 +2,11 @@
    between which the force is shared linearly. Modes: each place's response is computed, at nodes along the motion,
    launched from there (`launch`, `fixed`) or read out at the present place (`readout`). A response of modes is followed
    for response_length (papers/000 equation 10's t0) or, without, until every mode has decayed by 140 dB. */
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
+#include "base/stopwatch.h"
 #include "convolution/gammatone.h"
 #include "convolution/overlap_add.h"
 #include "convolution/ring.h"
@@ -189,6 +191,20 @@ static void open_modes(struct ring_overlap *s, struct stage_run *r)
 
 /* ------------------------------------------------------------------ the stages */
 
+#define PART 250000.0 /* cycles of a block of a response: its transform, and that of what rings at last */
+#define SAMPLED 3.5   /* of a sample of a mode of a response that stays                                 */
+
+/* Of what stays, the work that does not go with the length of the force. */
+static void spend_once(const struct ring_overlap *s, const struct stage_run *r)
+{
+    double length = (s->ring.choice->recorded ? (double)s->set.ir[0].length : s->ring.choice->seconds * r->board->rate),
+           parts = ceil(length / OVERLAP_ADD_BLOCK) + 1;
+    for (int k = 0; k < s->n; k++)
+        if (s->outputs[k].stays)
+            stopwatch_spend(PART * parts * (s->mix ? 2 : 1) +
+                            (s->outputs[k].voice ? SAMPLED * s->outputs[k].voice->n * length : 0));
+}
+
 static bool ring_overlap_open(struct stage_run *r, enum ring_body body, struct err *e)
 {
     struct ring_overlap *s = ARENA_TAKE(r->arena, struct ring_overlap, 1);
@@ -201,6 +217,12 @@ static bool ring_overlap_open(struct stage_run *r, enum ring_body body, struct e
         return false;
     int ahead = s->outputs[0].stays ? OVERLAP_ADD_BLOCK - 1 : overlap_add_moving_ahead(s->outputs[0].moves);
     r->ahead = r->ahead > ahead ? r->ahead : ahead;
+    spend_once(s, r);
+    r->works = r->board->moving + ahead + 1; /* then force is zero, and what rings is there; but for a readout */
+    if (r->board->lingers)
+        r->works = LONG_MAX;
+    else if (s->ring.choice->reading == MOVING_READOUT)
+        r->works += (long)(s->ring.choice->seconds * r->board->rate);
     return true;
 }
 

@@ -6,6 +6,7 @@
    for each listening place, from the modes as they are heard there where the motion begins; of a contact that moves
    from their mean squares over the way, as a residual has no nodes. */
 #include <jansson.h>
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -141,6 +142,7 @@ static void response(void *self, long k, double *h, size_t length)
 
 static bool open_stage(struct stage_run *r, struct err *e)
 {
+    r->works = r->board->lingers ? LONG_MAX : r->board->moving;
     const struct surface_residual *given = given_of(r->contact);
     struct residual_run *s = ARENA_TAKE(r->arena, struct residual_run, 1);
     const struct ring *g = r->board->surface_ring;

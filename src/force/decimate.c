@@ -13,6 +13,7 @@
    is heard of them before. */
 #include <string.h>
 
+#include "base/stopwatch.h"
 #include "force/given.h"
 #include "force/smooth.h"
 #include "num/filter.h"
@@ -69,6 +70,7 @@ static bool decimate_open(struct stage_run *r, struct err *e)
     int over = r->board->over;
     struct filter f = r->board->bspline ? filter_decimator_bspline(scratch, over) : filter_decimator(scratch, over);
     (void)e;
+    stopwatch_spend(60000 + 150.0 * f.taps);
     if (s) {
         s->taken = true;
         f = filter_joined(scratch, &s->kernel, &f, JOINED_LEFT);

@@ -8,6 +8,7 @@
 
 #include <math.h>
 
+#include "base/stopwatch.h"
 #include "file/csv.h"
 #include "num/real.h"
 #include "num/special.h"
@@ -317,6 +318,7 @@ double impact_density_mixed(const struct impact_mixture *m, double w)
 {
     struct root r = {m, w > 0.5, w > 0.5 ? 1 - w : w, HUGE_VAL, -HUGE_VAL};
     double start = 0, mean, variance, at[2];
+    stopwatch_spend(2200); /* predicted cycles of Newton's method */
     for (int k = 0; k < m->n; k++) {
         double q = impact_density_quantile(m->part[k], w);
         r.low = fmin(r.low, q);

@@ -483,7 +483,9 @@ unsigned path_cells_asks(const struct contact *c, const struct scene *s)
 
 double path_cells_work(const struct contact *c, const struct scene *s)
 {
-    double rough = roughness_scale(c), finest = isnan(rough) ? height_map_pitch(c) : rough;
+    double rough = roughness_scale(c), finest = c->surface.finest > 0 ? c->surface.finest
+                                                : isnan(rough)         ? height_map_pitch(c)
+                                                                       : rough;
     bool halves = relief_along(c) == ALONG_PLANE;
     return (halves ? 2 : 1) * (s->accuracy.oversampling + motion_speed(&c->motion) / (s->output.sample_rate * finest));
 }

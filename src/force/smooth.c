@@ -44,6 +44,7 @@
 #include "surface/relief.h"
 #include "trajectory/contact.h"
 #include "trajectory/load.h"
+#include "trajectory/motion.h"
 
 #define WIDEST 0.1 /* s: a wider sigma leaves nothing to hear, and its kernels cost minutes per second of sound */
 
@@ -271,7 +272,8 @@ static double smooth_work(const struct contact *c, const struct scene *s)
     bool varies = smooth_varies(c);
     double over = s->accuracy.oversampling,
            alpha = varies ? limiter_of(c)->alpha_max : smooth_alpha(c, limiter_constant(c));
-    double sigma = width_of(c)->length > 0 ? slowest : smooth_width(c) * alpha / 0.03,
+    double mean = width_of(c)->length / motion_speed(&c->motion), /* s, of a length; at rest it is the slowest */
+        sigma = width_of(c)->length > 0 ? (mean < slowest ? mean : slowest) : smooth_width(c) * alpha / 0.03,
            taps = 13 * sigma * s->output.sample_rate * over + 1;
     return taps * over * (varies ? 0.65 : 0.35);
 }

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "base/stopwatch.h"
 #include "num/lanes.h"
 
 enum { SWEEPS = 60 }; /* most QL steps for an eigenvalue; 1.7 are usual */
@@ -54,6 +55,7 @@ static bool sweep(int n, double *a, double *row)
 
 bool eigen_inverse(int n, double *a)
 {
+    stopwatch_spend(0.15 * n * n * n);
     struct arena *room = arena_open();
     bool good = sweep(n, a, ARENA_TAKE(room, double, n));
     arena_close(room);
@@ -221,6 +223,7 @@ static void turn_back(int n, const double *a, const double *h, double *z)
 
 int eigen_above(int n, double *a, double least, struct arena *arena, double *value, double **vector)
 {
+    stopwatch_spend(0.7 * n * n * n);
     struct arena *room = arena_open();
     struct tridiagonal t = {ARENA_TAKE(room, double, n), ARENA_TAKE(room, double, n), ARENA_TAKE(room, double, n)};
     double *z = ARENA_TAKE(room, double, (size_t)n *(n + WIDE)),

@@ -20,6 +20,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/stopwatch.h"
 #include "num/real.h"
 
 /* FFTW_UNALIGNED: callers' x may lie anywhere; without SIMD it costs nothing. */
@@ -68,6 +69,10 @@ static void *or_end(void *p, size_t n)
     return p;
 }
 
+/* Predicted cycles of a real transform of n points, and of opening one, whose plan may be there. */
+#define TRANSFORM(n) (2 * (double)(n)*real_log((double)(n)))
+#define OPENED 20000.0
+
 /* One direction, when it is first wanted: who looks at spectra needs one. Wisdom, which FFTW gathers even when it
    estimates, is forgotten first: a plan must not depend on those made before it. */
 static fftw_plan plan_of(const struct fft *f, double *x, bool forward)
@@ -111,6 +116,7 @@ struct fft *fft_open(size_t n)
 {
     struct fft *f = or_end(fftw_malloc(sizeof *f), n);
     *f = (struct fft){.n = n, .bins = n / 2 + 1};
+    stopwatch_spend(OPENED);
     f->half = or_end(fftw_malloc(n * sizeof(double)), n);
     pthread_mutex_lock(&planner);
     for (f->plans = keeping.first; f->plans && f->plans->n != n;)
@@ -135,6 +141,7 @@ void fft_close(struct fft *f)
 void fft_forward(struct fft *f, const double *x, double *re, double *im)
 {
     double *in = (double *)(uintptr_t)x; /* is preserved */
+    stopwatch_spend(TRANSFORM(f->n));
     fftw_execute_r2r(plan_of(f, in, true), in, f->half);
     memcpy(re, f->half, f->bins * sizeof *re);
     im[0] = im[f->bins - 1] = 0;
@@ -144,6 +151,7 @@ void fft_forward(struct fft *f, const double *x, double *re, double *im)
 
 void fft_inverse(struct fft *f, const double *re, const double *im, double *x)
 {
+    stopwatch_spend(TRANSFORM(f->n));
     memcpy(f->half, re, f->bins * sizeof *re);
     for (size_t k = 1; 2 * k < f->n; k++)
         f->half[f->n - k] = im[k];
@@ -175,6 +183,7 @@ struct fft_plane *fft_plane_open(size_t n)
 {
     struct fft_plane *f = or_end_plane(fftw_malloc(sizeof *f), n);
     size_t half = n / 2 + 1;
+    f->n = n;
     f->re = or_end_plane(fftw_malloc(2 * n * half * sizeof(double)), n);
     f->im = f->re + n * half;
     f->x = or_end_plane(fftw_malloc(n * n * sizeof(double)), n);
@@ -200,4 +209,8 @@ void fft_plane_close(struct fft_plane *f)
     fftw_free(f);
 }
 
-void fft_plane_inverse(struct fft_plane *f) { fftw_execute(f->inverse); }
+void fft_plane_inverse(struct fft_plane *f)
+{
+    stopwatch_spend(TRANSFORM(f->n * f->n));
+    fftw_execute(f->inverse);
+}

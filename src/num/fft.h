@@ -27,6 +27,7 @@ size_t fft_good_size(size_t n);
    each time anew, then transform to x[n][n], unnormalised. The lines (j, 0) and (-j, 0) must be conjugate to each
    other, so those at n/2. */
 struct fft_plane {
+    size_t n;
     double *re, *im, *x;
     struct fftw_plan_s *inverse;
 };

@@ -34,6 +34,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/stopwatch.h"
 #include "num/filter.h"
 #include "num/real.h"
 
@@ -145,6 +146,8 @@ static void even_times(const double rates[2], size_t least, size_t *in, size_t *
     *out = (size_t)(times * p[1]);
 }
 
+#define WEIGHED 85.0 /* predicted cycles of a sample that goes in or comes out */
+
 bool resample(struct arena *a, const double *x, size_t n, double rate_in, double rate_out, double **y, size_t *m,
               struct err *e)
 {
@@ -167,6 +170,7 @@ bool resample(struct arena *a, const double *x, size_t n, double rate_in, double
     double *late = ARENA_TAKE(scratch, double, still + n), *out = ARENA_TAKE(scratch, double, before + *m);
     double *lead = ARENA_TAKE(scratch, double, leads);
     memcpy(late + still, x, n * sizeof *x);
+    stopwatch_spend(WEIGHED * (double)(still + n + before + *m));
     bool ok = convert_alone(late, still + n, rates, out, before + *m, e);
     memcpy(*y, out + before, *m * sizeof *out);
     for (size_t k = 1; k <= leads; k++)

@@ -136,6 +136,8 @@ static struct accuracy turned(const struct budgeting *m, int knob, double value)
     return set;
 }
 
+#define SHOWN 60.0 /* predicted cycles of a sample of a channel that is compared or measured */
+
 /* Share of a contact's sound, in energy and to 40 dB after the motion's end, that output.ramp leaves. */
 static bool shown_share(struct budgeting *m, int i, double *share, struct err *e)
 {
@@ -152,6 +154,7 @@ static bool shown_share(struct budgeting *m, int i, double *share, struct err *e
     for (long from = 0, to; ok && from < frames; from = to) {
         to = from + STAGE_BLOCK < frames ? from + STAGE_BLOCK : frames;
         ok = run_block(&r, to, e);
+        stopwatch_spend(SHOWN * (double)((to - from) * b->channels));
         const double *x = ok ? board_at(b, ITEM_SOUND, from) : NULL;
         for (long k = 0; ok && k < (to - from) * b->channels; k++) {
             double shown = error_pilot_shown(&scene, m->pilot[i].start + from + k / b->channels) * x[k];
@@ -227,6 +230,7 @@ static bool compare_ramps(const struct budgeting *m, int contact, const double r
         to = from + STAGE_BLOCK < first + frames ? from + STAGE_BLOCK : first + frames;
         ok = (!open[0] || run_block(&r[0], to, e)) && run_block(&r[1], to, e);
         if (!ok) break;
+        stopwatch_spend(SHOWN * (double)((to - from) * b->channels));
         const double *y = board_at(b, ITEM_SOUND, from), *x = open[0]   ? board_at(&r[0].board, ITEM_SOUND, from)
                                                               : depends ? finer->x + (from - first) * b->channels
                                                                         : y;
@@ -519,7 +523,10 @@ static bool make(struct budgeting *m, struct err *e)
     for (int k = 0; k < KNOBS; k++)
         if (open & 1u << k && !ball) accuracy_turn(&m->chosen->accuracy, (enum knob)k, keys_knobs[k].preset[0]);
     m->parts = render_parts_make(m->chosen, m->arena);
+    double start = stopwatch_cpu(), spent = stopwatch_cycles();
     if (!render_parts_plan(&m->parts, e)) return false;
+    m->to->read[0] = stopwatch_cpu() - start;
+    m->to->read[1] = stopwatch_cycles() - spent;
     m->sounds = m->parts.asked & ITEM_BIT(ITEM_SOUND);
     m->pilot = ARENA_TAKE(m->arena, struct error_pilot, m->chosen->n_contacts);
     m->ramps = ARENA_TAKE(m->arena, struct ramp_sound, m->chosen->n_contacts);
@@ -568,7 +575,7 @@ bool error_budget_apply(const struct scene *asked, struct arena *a, struct scene
 {
     struct error_budget own;
     struct budgeting m = {.asked = asked, .chosen = chosen, .arena = a, .to = p ? p : &own};
-    double start = stopwatch_cpu();
+    double start = stopwatch_cpu(), spent = stopwatch_cycles();
     bool strict = !isnan(asked->accuracy.error);
     *m.to = (struct error_budget){
         .asked = strict, .error = strict ? asked->accuracy.error : accuracy_target(&asked->accuracy), .predicted = NAN};
@@ -597,5 +604,6 @@ bool error_budget_apply(const struct scene *asked, struct arena *a, struct scene
     chosen->accuracy.by_user = (1u << KNOBS) - 1;
     m.to->text = budget_text(a, asked->accuracy.preset, m.to);
     m.to->cpu = stopwatch_cpu() - start;
+    m.to->cycles = stopwatch_cycles() - spent;
     return true;
 }

@@ -31,6 +31,8 @@ struct error_budget {
     struct error_budget_part parts[KNOBS];
     int n;            /* knobs that leave an error                */
     double cpu;       /* s that it took to choose                 */
+    double cycles;    /* that it was predicted to take            */
+    double read[2];   /* of these, s and cycles before it began: of responses and objects */
     const char *text; /* one line of all this; NULL: not asked    */
 };
 

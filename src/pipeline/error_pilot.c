@@ -18,6 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/stopwatch.h"
 #include "convolution/ring_choice.h"
 #include "force/strike.h"
 #include "num/fft.h"
@@ -123,6 +124,7 @@ static double left_over_end(double beta)
 static void add_bands(struct strikes *s, const double *sound, long first, long frames, bool rises, double *power)
 {
     long step = (rises ? 2 : 1) * s->n / frames;
+    stopwatch_spend(20.0 * (double)s->n);
     memset(s->x, 0, (size_t)s->n * sizeof *s->x);
     for (long i = 0; i < frames; i++)
         s->x[first + i] = sound[first + i] * s->fade[rises ? labs(step * i - s->n) : step * i];
@@ -230,6 +232,7 @@ static bool audible_power(const struct scene *s, const struct contact *c, double
         double x = real_sinpi(0.5 + 0.5 * (double)i / (double)n);
         k.fade[i] = x * x;
     }
+    stopwatch_spend(60.0 * (double)n);
     bool ok = force_power(&k, place[0], false, k.pushed, e); /* it is the same at all places */
     if (ok && enhanced) {
         double *plain = ARENA_TAKE(a, double, half), *full = ARENA_TAKE(a, double, half);
@@ -337,9 +340,9 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
         p->block[k].number = k == 0        ? 0
                              : k <= spread ? p->blocks * (2 * k - 1) / (2 * spread)
                                            : p->blocks - p->followed + k;
-    /* Of a response that moves, one in each third. Of the first 40 modes of a string or bar along whose length the motion
-       leads, at a steady speed, as minimum jerk or there and back, each has a tenth of its power at these or more:
-       none lies on nodes at all three. */
+    /* Of a response that moves, one in each third. Of the first 40 modes of a string or bar along whose length the
+       motion leads, at a steady speed, as minimum jerk or there and back, each has a tenth of its power at these or
+       more: none lies on nodes at all three. */
     static const double places_at[PILOT_PLACES] = {0.2 / 3, 1.736 / 3, 2.538 / 3};
     double place[PILOT_PLACES][2];
     for (int k = 0; k < p->places; k++) {
@@ -372,6 +375,8 @@ static double weighted(const struct error_pilot *p, long block, const double *sq
     return p->gain * p->gain * sum / p->window;
 }
 
+#define SPECTRUM 25.0 /* predicted cycles of a sample, beside the transform */
+
 static bool spectrum(struct hearing *h, double *square)
 {
     double any = 0;
@@ -379,6 +384,7 @@ static bool spectrum(struct hearing *h, double *square)
         h->x[i] *= h->taper[i];
         any = fmax(any, fabs(h->x[i]));
     }
+    stopwatch_spend(SPECTRUM * (double)h->window);
     if (any == 0) return false;
     fft_forward(h->fft, h->x, h->re, h->im);
     for (int k = 0; k <= h->window / 2; k++)
@@ -403,6 +409,7 @@ static bool fade_block(const struct error_pilot *p, long block, double *x)
     if (error_pilot_shown(&p->scene, first) == 1 && error_pilot_shown(&p->scene, last) == 1) return false;
     for (int i = 0; i < p->window; i++)
         x[i] *= error_pilot_shown(&p->scene, first + i);
+    stopwatch_spend(60.0 * p->window);
     return true;
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/stopwatch.h"
 #include "convolution/ring_choice.h"
 #include "output/impact_rows.h"
 #include "output/sound.h"
@@ -11,6 +12,7 @@
 #include "pipeline/inputs.h"
 #include "pipeline/render.h"
 #include "pipeline/stages.h"
+#include "response/listener.h"
 #include "response/response.h"
 #include "scene/accuracy.h"
 #include "scene/keys.h"
@@ -189,22 +191,26 @@ static void names_text(unsigned items, char *out, size_t size)
 void plan_print(const struct plan *p, FILE *out)
 {
     char targets[200];
-    double whole = 0;
+    double whole = 0, once = 0, work = 0;
     names_text(p->targets, targets, sizeof targets);
-    for (int i = 0; i < p->n; i++)
-        whole += p->rows[i].work;
+    for (int i = 0; i < p->n; i++) {
+        whole += plan_row_cycles(&p->rows[i]);
+        once += p->rows[i].once;
+        work += p->rows[i].work;
+    }
     fprintf(out, "contact '%s': %s\n", p->contact->name, p->targets ? targets : "nothing, its gain is 0");
     for (const struct plan_row *r = p->rows; r < p->rows + p->n; r++) {
         char from[200], to[200];
         if (r->verdict != PLAN_RUNS) continue;
         names_text(r->reads & p->alive, from, sizeof from);
         names_text(r->stage->gives & p->alive, to, sizeof to);
-        fprintf(out, "  %-20s %5.1f %%  %s%s-> %s\n", r->stage->name, whole > 0 ? 100 * r->work / whole : 0, from,
-                from[0] ? " " : "", to);
+        fprintf(out, "  %-20s %5.1f %%  %s%s-> %s\n", r->stage->name, whole > 0 ? 100 * plan_row_cycles(r) / whole : 0,
+                from, from[0] ? " " : "", to);
         fprintf(out, "  %-20s          %s%s%s%s\n", "", r->stage->does, r->stage->paper[0] ? " [" : "", r->stage->paper,
                 r->stage->paper[0] ? "]" : "");
     }
-    fprintf(out, "  about %.0f cycles per audio sample%s\n", whole, whole > REAL_TIME ? ": slower than real time" : "");
+    fprintf(out, "  about %.0f cycles per audio sample%s, and once %.2g million\n", work,
+            work > REAL_TIME ? ": slower than real time" : "", once / 1e6);
     struct arena *a = arena_open();
     fprintf(out, "  turned by accuracy: %s\n", plan_knobs_text(plan_knobs(p), a));
     if (p->alive & ITEM_BIT(ITEM_SURFACE) && roughness_bytes(p->contact) > 0) /* the ground is kept as it is made */
@@ -219,11 +225,57 @@ void plan_print(const struct plan *p, FILE *out)
             fprintf(out, "  not run: %-20s nothing that is asked for needs it\n", p->rows[i].stage->name);
 }
 
-/* The parts of a render are opened and closed again; what they write into their tables goes nowhere. What is found of
-   all parts goes into x, but for the cost. */
+const char *const plan_beside_does[PLAN_BESIDE] = {
+    [PLAN_CHOOSES] = "choosing the knobs",
+    [PLAN_READS] = "reading responses, and objects' modes",
+    [PLAN_WRITES] = "summing contacts, level, files",
+};
+
+double plan_row_cycles(const struct plan_row *r) { return r->once + r->work * r->frames; }
+
+#define FILES 1.6e6  /* cycles of making, hashing and naming the files of a render */
+#define ROW 2000.0   /* a row of a table that is hashed and written              */
+#define CHANNEL 40.0 /* a sample of a channel that is summed, measured and written   */
+
+/* What the parts, which are open, will do: what works on zeros does not work (run.c). */
+static void estimate(const struct render_parts *p, struct arena *a, struct plan_scene_estimate *x)
+{
+    struct plan *plans = ARENA_TAKE(a, struct plan, p->scene->n_contacts);
+    const struct output *o = &p->scene->output;
+    x->sounds = p->asked & ITEM_BIT(ITEM_SOUND);
+    x->once[PLAN_WRITES] += FILES;
+    x->work[PLAN_WRITES] = x->sounds * CHANNEL * listener_channels(&p->scene->output);
+    for (int i = 0; i < p->scene->n_contacts; i++) {
+        const struct render_part *one = &p->parts[i];
+        plans[i] = one->plan;
+        if (plans[i].targets & ITEM_BIT(ITEM_TABLE))
+            x->once[PLAN_WRITES] += ROW * (double)one->run.board.moving * o->diagnostics.rate / o->sample_rate;
+        for (int k = 0, at = 0; k < plans[i].n; k++) {
+            struct plan_row *r = &plans[i].rows[k];
+            if (r->verdict != PLAN_RUNS || !one->open) continue;
+            const struct stage_run *st = &one->run.stages[at];
+            r->work = st->work;
+            r->once = st->once;
+            x->once[PLAN_WRITES] -= st->once;
+            r->frames = fmax(0, fmin((double)run_works(&one->run, at++), (double)(x->length.frames - one->start)));
+            x->cycles += plan_row_cycles(r);
+        }
+    }
+    for (int k = 0; k < PLAN_BESIDE; k++)
+        x->cycles += x->once[k] + x->work[k] * (double)x->length.frames;
+    x->plans = plans;
+}
+
+/* The parts of a render are planned, opened and closed again; what they write into their tables goes nowhere. What is
+   found of all parts goes into x. */
 static bool open_parts(struct render_parts *p, struct arena *a, struct plan_scene_estimate *x, struct err *e)
 {
     enum { MOST = (int)(sizeof((struct board *)0)->warnings / sizeof((struct board *)0)->warnings[0]) };
+    double start = stopwatch_cycles();
+    *x = (struct plan_scene_estimate){.quantity = -1};
+    if (!inputs_check(p->scene, a, e) || !render_parts_plan(p, e)) return false;
+    x->once[PLAN_READS] = stopwatch_cycles() - start;
+    start = stopwatch_cycles();
     FILE *nowhere = memory_fopen("/dev/null", "w");
     bool ok = nowhere || err_set(e, ERR_IO, "/dev/null cannot be opened");
     for (int i = 0; ok && i < p->scene->n_contacts; i++) {
@@ -240,37 +292,22 @@ static bool open_parts(struct render_parts *p, struct arena *a, struct plan_scen
         for (int k = 0; p->parts[i].open && k < b->n_warnings && k < MOST; k++)
             x->warnings[n++] = arena_text(a, b->warnings[k]); /* the text ends with its run */
     }
+    x->once[PLAN_WRITES] = stopwatch_cycles() - start; /* with what the stages have opened, which is taken off */
+    if (ok) estimate(p, a, x);
     render_parts_close(p);
     if (nowhere) fclose(nowhere);
     return ok;
 }
 
-const struct plan *plan_scene(const struct scene *s, struct arena *a, const char ***warnings, struct err *e)
-{
-    struct render_parts p = render_parts_make(s, a);
-    struct plan *plans = ARENA_TAKE(a, struct plan, s->n_contacts);
-    struct plan_scene_estimate x;
-    if (!inputs_check(s, a, e) || !render_parts_plan(&p, e) || !open_parts(&p, a, &x, e) ||
-        (p.asked & ITEM_BIT(ITEM_SOUND) && !sound_long_enough(s, x.length.frames, e)))
-        return NULL;
-    for (int i = 0; i < s->n_contacts; i++)
-        plans[i] = p.parts[i].plan;
-    *warnings = x.warnings;
-    return plans;
-}
-
 bool plan_scene_estimate(const struct scene *s, struct arena *a, struct plan_scene_estimate *x, struct err *e)
 {
     struct render_parts p = render_parts_make(s, a);
-    if (!inputs_check(s, a, e) || !render_parts_plan(&p, e) || !open_parts(&p, a, x, e)) return false;
-    x->cycles = 0;
-    x->sounds = p.asked & ITEM_BIT(ITEM_SOUND);
-    for (int i = 0; i < s->n_contacts; i++)
-        for (int k = 0; k < p.parts[i].plan.n; k++)
-            x->cycles += p.parts[i].plan.rows[k].verdict == PLAN_RUNS
-                             ? p.parts[i].plan.rows[k].work * (double)x->length.frames
-                             : 0;
-    return true;
+    return open_parts(&p, a, x, e);
+}
+
+bool plan_scene(const struct scene *s, struct arena *a, struct plan_scene_estimate *x, struct err *e)
+{
+    return plan_scene_estimate(s, a, x, e) && (!x->sounds || sound_long_enough(s, x->length.frames, e));
 }
 
 static bool add_knobs(const struct scene *s, struct arena *a, unsigned *knobs, struct err *e)

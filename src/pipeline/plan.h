@@ -14,7 +14,9 @@ struct plan_row {
     enum plan_verdict verdict;
     unsigned reads; /* items, when it runs                                             */
     unsigned knobs; /* of scene/accuracy.def that it depends on, when it runs          */
-    double work;    /* predicted cycles per audio sample (one core with 256-bit vectors) */
+    double work;    /* predicted cycles per audio sample while it works (one core with 256-bit vectors) */
+    double once;    /* and of opening it; plan_scene                                   */
+    double frames;  /* for which it works; plan_scene                                  */
 };
 
 struct plan {
@@ -44,6 +46,9 @@ unsigned plan_knobs(const struct plan *p);
 /* "oversampling, gain_ramp", in the table's order; "none". */
 const char *plan_knobs_text(unsigned knobs, struct arena *a);
 
+/* Predicted cycles of a stage in the whole render. */
+double plan_row_cycles(const struct plan_row *r);
+
 /* The plan as text: what runs, from what to what, at what share of the predicted cost; what does not run, and why not.
  */
 void plan_print(const struct plan *p, FILE *out);
@@ -57,21 +62,27 @@ struct render_length { /* frames of the whole                                   
     long frames;       /* as output.duration wants it; without it the natural length       */
 };
 
-/* The plans of all contacts, [s->n_contacts], as a render would have them, after all that it does before its first
-   sample: every file is there (pipeline/inputs.h), every stage can begin; with what it warns of by then, which ends
-   with NULL. ERR_INPUT, ERR_SCENE and what stages give; NULL then. Nothing is written. */
-const struct plan *plan_scene(const struct scene *s, struct arena *a, const char ***warnings, struct err *e);
+/* What a render does in no stage. */
+enum plan_beside { PLAN_CHOOSES, PLAN_READS, PLAN_WRITES, PLAN_BESIDE };
+extern const char *const plan_beside_does[PLAN_BESIDE];
 
 struct plan_scene_estimate {
+    const struct plan *plans; /* [s->n_contacts] */
     struct render_length length;
-    double cycles;         /* predicted, of the whole render: of one core with 256-bit vectors */
-    bool sounds;           /* there is a WAV */
-    int quantity;          /* of the sound, enum modes_quantity; -1: not stated */
-    const char **warnings; /* what the render warns of before its first sample; ends with NULL */
+    double once[PLAN_BESIDE], work[PLAN_BESIDE]; /* predicted cycles, and those per audio sample, in no stage */
+    double cycles;                               /* predicted, of the whole render: of one core with 256-bit vectors */
+    bool sounds;                                 /* there is a WAV */
+    int quantity;                                /* of the sound, enum modes_quantity; -1: not stated */
+    const char **warnings;                       /* what the render warns of before its first sample; ends with NULL */
 };
 
+/* The plans of all contacts as a render would have them, after all that it does before its first sample: every file is
+   there (pipeline/inputs.h), every stage can begin; and what it will cost. ERR_INPUT, ERR_SCENE and what stages give.
+   Nothing is written. */
+bool plan_scene(const struct scene *s, struct arena *a, struct plan_scene_estimate *x, struct err *e);
+
 /* How long the render will be and what it will cost; as plan_scene otherwise, but a sound that is too short for its
- * level is none of its errors. */
+ * level is none of its errors. What it takes to choose knobs is not known here, and counts as 0. */
 bool plan_scene_estimate(const struct scene *s, struct arena *a, struct plan_scene_estimate *x, struct err *e);
 
 /* The knobs of scene/accuracy.def that some contact's plan depends on: as the scene stands, or in one of the presets

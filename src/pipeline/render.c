@@ -38,8 +38,10 @@ struct render {
 
 static bool render_open(struct render *r, struct err *e)
 {
-    if (!inputs_check(r->scene, r->arena, e) || !render_parts_plan(&r->parts, e) ||
-        (!r->waits && !outfile_open(&r->effective, r->scene_path, e)) ||
+    double start = stopwatch_cpu();
+    if (!inputs_check(r->scene, r->arena, e) || !render_parts_plan(&r->parts, e)) return false;
+    r->report->planned = stopwatch_cpu() - start;
+    if ((!r->waits && !outfile_open(&r->effective, r->scene_path, e)) ||
         (!r->set && !outfile_open(&r->summary, r->summary_path, e)))
         return false;
     for (struct render_part *one = r->parts.parts; one < r->parts.parts + r->scene->n_contacts; one++) {
@@ -172,8 +174,15 @@ static bool render_finish(struct render *r, double start[2], struct err *e)
     report->cpu = stopwatch_cpu() - start[1];
     report->older = r->set ? ARENA_TAKE(r->arena, const char *, 1) : outputs_older(r->scene, r->base, r->arena);
     const struct run **runs = ARENA_TAKE(r->arena, const struct run *, r->scene->n_contacts);
-    for (int i = 0; i < r->scene->n_contacts; i++)
+    int n = 0;
+    for (int i = 0; i < r->scene->n_contacts; i++) {
         runs[i] = r->parts.parts[i].open ? &r->parts.parts[i].run : NULL;
+        n += runs[i] ? runs[i]->n : 0;
+    }
+    struct render_time *time = report->times = ARENA_TAKE(r->arena, struct render_time, n);
+    for (int i = 0; i < r->scene->n_contacts; i++)
+        for (int k = 0; runs[i] && k < runs[i]->n; k++)
+            *time++ = (struct render_time){runs[i]->stages[k].opened, runs[i]->stages[k].seconds};
     const char *effective = outputs_effective(r->scene, r->scene_path, r->arena);
     if (!render_list(r, effective, e)) return false;
     summary_notes(r->scene, runs, report, r->arena);

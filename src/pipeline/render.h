@@ -61,8 +61,14 @@ struct render_file {
     struct track *track;               /* likewise; NULL: no WAV           */
 };
 
+struct render_time { /* CPU s of a stage */
+    double opened, all;
+};
+
 struct render_report {
     long frames;
+    double planned;            /* CPU s until the plans were made, once the knobs were chosen */
+    struct render_time *times; /* of the stages that ran, contact by contact               */
     struct render_length length;
     double seconds, cpu; /* wall clock and CPU time of the whole render */
     struct sound_report sound;

@@ -17,7 +17,9 @@
 #include "base/stopwatch.h"
 #include "num/lanes.h"
 #include "num/real.h"
+#include "pipeline/stages.h"
 #include "response/listener.h"
+#include "surface/relief.h"
 
 /* The set of items that a stage reads. */
 static unsigned run_reads(const struct stage_run *r)
@@ -60,6 +62,9 @@ static void run_signal(struct run *r, enum item item)
     s->x = ARENA_TAKE(r->arena, double, s->capacity *per_frame + 8);
 }
 
+#define OPENING 3000.0 /* cycles of any stage's */
+#define BLOCK 300.0    /* a stage and block: its clock, its signals */
+
 static bool run_open_stages(struct run *r, struct err *e)
 {
     for (int i = 0; i < r->plan.n; i++) {
@@ -71,13 +76,18 @@ static bool run_open_stages(struct run *r, struct err *e)
                                   .contact = r->plan.contact,
                                   .board = &r->board,
                                   .arena = r->arena,
+                                  .work = NAN,
+                                  .works = LONG_MAX,
                                   .ends = LONG_MAX};
         size_t before = arena_bytes(r->arena);
-        double start = stopwatch_cpu();
+        double start = stopwatch_cpu(), spent = stopwatch_cycles();
         r->board.n_stages = ++r->n;
         if (!st->open(one, e)) return false;
         one->seconds += stopwatch_cpu() - start; /* open may have put to it what was done for the stage before */
+        one->opened = one->seconds;
         one->bytes = arena_bytes(r->arena) - before;
+        stopwatch_spend(OPENING);
+        one->once = stopwatch_cycles() - spent;
     }
     return true;
 }
@@ -142,6 +152,21 @@ static void run_limits(struct run *r)
     }
 }
 
+/* What the stages cost a sample, where they have not said so themselves, now that the motion is known; at this run's
+ * knobs, which need not be the plan's. */
+static void run_work(struct run *r)
+{
+    struct contact own = *r->plan.contact;
+    own.motion.made = r->board.trajectory ? r->board.trajectory : own.motion.made;
+    if (r->board.relief && isfinite(relief_finest(r->board.relief)))
+        own.surface.finest = relief_finest(r->board.relief);
+    for (int i = 0, k = 0; i < r->plan.n; i++) {
+        if (r->plan.rows[i].verdict != PLAN_RUNS) continue;
+        struct stage_run *st = &r->stages[k++];
+        if (isnan(st->work)) st->work = r->plan.rows[i].work > 0 ? stages_work(st->stage, &own, r->scene) : 0;
+    }
+}
+
 bool run_open(struct run *r, const struct plan *p, const struct scene *s, const struct run_sinks *sinks, struct err *e)
 {
     static const struct run_sinks none = {NULL, NULL};
@@ -166,6 +191,7 @@ bool run_open(struct run *r, const struct plan *p, const struct scene *s, const 
                 r->stages[i].offset = lead > r->stages[i].offset ? lead : r->stages[i].offset;
             }
     run_limits(r);
+    run_work(r);
     for (int i = 0; i < ITEM_COUNT; i++)
         run_signal(r, (enum item)i);
     return true;
@@ -280,14 +306,21 @@ static bool stage_block(struct stage_run *st, long to, double *clock, struct err
     return true;
 }
 
+/* Spends what is predicted; of what reads the surface with what that has cost, as it is made where it is read. */
 bool run_block(struct run *r, long to, struct err *e)
 {
     double clock = stopwatch_cpu();
-    for (int i = 0; i < r->n; i++) {
+    bool ok = true;
+    for (int i = 0; ok && i < r->n; i++) {
         struct stage_run *st = &r->stages[i];
-        if (st->stage->run && !stage_block(st, to + st->offset, &clock, e)) return false;
+        long end = to + st->offset, until = run_works(r, i) < end ? run_works(r, i) : end;
+        double spent = stopwatch_cycles(), work = until > st->done ? st->work * (double)(until - st->done) : 0;
+        if (!st->stage->run) continue;
+        ok = stage_block(st, end, &clock, e);
+        if (run_reads(st) & ITEM_BIT(ITEM_SURFACE)) work += stopwatch_cycles() - spent;
+        stopwatch_spend(BLOCK + work + spent - stopwatch_cycles());
     }
-    return true;
+    return ok;
 }
 
 void run_skip(struct run *r, long frame, long fade)
@@ -305,6 +338,13 @@ void run_skip(struct run *r, long frame, long fade)
         s->first = s->worked = frame - run_behind(r, (enum item)i);
         memset(s->x, 0, (size_t)(s->capacity * s->per_frame) * sizeof *s->x);
     }
+}
+
+long run_works(const struct run *r, int i)
+{
+    const struct stage_run *st = &r->stages[i];
+    long limit = st->stage->run ? st->limit : r->board.moving;
+    return st->works < limit ? st->works : limit;
 }
 
 void run_close(struct run *r)

@@ -30,6 +30,10 @@ bool run_block(struct run *r, long to, struct err *e);
    least, are not yet as they would be. fade: frames over which the force rises from 0 there. */
 void run_skip(struct run *r, long frame, long fade);
 
+/* Frames for which stage i, which is open, costs what is predicted; of one without a block to run, such as a part of
+   the surface, which costs where it is read, while the motion lasts. */
+long run_works(const struct run *r, int i);
+
 void run_close(struct run *r);
 
 /* From now on a block in which a stage does an operation that has no result (0/0, the root of a negative number, a

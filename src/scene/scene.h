@@ -135,6 +135,7 @@ struct surface {
     const char *recipe; /* YAML of surface keys, already merged under the scene's own        */
     int along;          /* enum along                                                        */
     double origin[2];   /* m: where the surface's own x = y = 0 lies in the scene              */
+    double finest;      /* m, no key: its finest scale, where it has been read; 0: it is not known */
     struct response response;
 };
 

@@ -18,6 +18,7 @@
 
 #include <math.h>
 
+#include "base/stopwatch.h"
 #include "num/lanes.h"
 #include "num/real.h"
 #include "surface/block_cache.h"
@@ -136,6 +137,7 @@ static void lattice_square(void *self, long column, long row, double *out)
     double x[READ], y[READ], d[READ][2], step[READ][2];
     struct reading r;
     envelope_square(w->envelope, column, row, out, places);
+    stopwatch_spend((double)(POINTS * POINTS) * 2000);
     for (long at = 0; at < POINTS * POINTS; at += READ) {
         for (long k = 0; k < READ; k++) {
             long *place = places[at + k], i = (column * POINTS + (at + k) % POINTS) * finer,
@@ -240,6 +242,7 @@ static void splines_fill(void *self, long column, long row, double *out)
     long size[2] = {nx + 2 * KERNEL, ny + 2 * below};
     long from[2] = {column * w->splines.side[0] - 1 - KERNEL, w->plane ? row * w->splines.side[1] - 1 - KERNEL : 0};
     block_cache_gather(&w->envelope, from, size, w->window, size[0]);
+    stopwatch_spend(0.5 * KERNEL * (double)(nx * (w->plane ? size[1] + ny : 1)));
     for (long j = 0; j < size[1]; j++)
         kernel_run(w->kernel, w->window + j * size[0], 1, nx, w->plane ? w->half + j * nx : out);
     for (long j = 0; j < ny && w->plane; j++)
@@ -328,6 +331,7 @@ struct relief_part *contact_patch_part(struct arena *a, const struct relief *und
                                         {SQUARE, SQUARE}}
                      : (struct lattice){block_cache_make(a, LINE + EDGE, 512, splines_fill, w), {LINE, 1}};
     struct relief_part *part = relief_endless(a, "tip", h, rolling_add, w);
+    part->reading = 40;
     part->pitch[0] = h;
     part->pitch[1] = w->plane ? h : 0;
     part->linear = !w->plane;

@@ -126,7 +126,7 @@ static double continuation_work(const struct contact *c, const struct scene *s)
 {
     double finest = likely_finest(continuation_of(c)),
            cells = motion_speed(&c->motion) / (s->output.sample_rate * finest);
-    if (c->surface.along != ALONG_PLANE) return 8 * relief_readings(s, finest);
+    if (c->surface.along != ALONG_PLANE) return 8 * relief_readings(c, s, finest);
     return relief_tipped(c) ? 1 : 800 * cells + 50 * s->accuracy.oversampling;
 }
 

@@ -19,6 +19,7 @@
                                      either */
 #include "surface/fractal.h"
 
+#include "base/stopwatch.h"
 #include "num/fft.h"
 #include "num/real.h"
 #include "scene/rows.h"
@@ -117,6 +118,7 @@ void fractal_heights(const struct fractal *f, struct noise stream, double *z)
     double *re = ARENA_TAKE(a, double, n / 2 + 1), *im = ARENA_TAKE(a, double, n / 2 + 1), most = 0;
     struct fft *fft = fft_open((size_t)n);
     lines_draw(f, stream, n, re, im);
+    stopwatch_spend(120 * (double)n);
     fft_inverse(fft, re, im, z);
     fft_close(fft);
     arena_close(a);
@@ -185,7 +187,7 @@ struct relief_part *fractal_part(struct arena *a, const struct fractal *f, struc
 
 static double fractal_work(const struct contact *c, const struct scene *s)
 {
-    return 8 * relief_readings(s, fractal_of(c)->pitch);
+    return 8 * relief_readings(c, s, fractal_of(c)->pitch);
 }
 
 static bool surface_fits(const struct stage_run *r, struct err *e)

@@ -2,6 +2,7 @@
 #include "surface/height_map.h"
 
 #include "base/file_cache.h"
+#include "base/stopwatch.h"
 #include "file/heightfile.h"
 #include "num/lanes.h"
 #include "num/real.h"
@@ -163,6 +164,7 @@ static void map_add(struct relief_part *part, const struct relief_points *p, con
 /* Along rows into c, then along columns in place, one column at a time; then above the first. */
 static void map_coefficients(struct height_map_spline *m, const double *z, struct arena *a)
 {
+    stopwatch_spend(60 * (double)(m->rows * m->columns));
     double *column = ARENA_TAKE(a, double, m->rows), *smooth = ARENA_TAKE(a, double, m->rows);
     for (long j = 0; j < m->rows; j++)
         profile_coefficients(z + j * m->columns, m->c + j * m->columns, (size_t)m->columns, m->off_map);
@@ -205,6 +207,7 @@ struct relief_part *height_map_part(struct arena *a, const struct height_map_spl
         .from = {origin[0], origin[1]},
         .to = {origin[0] + pitch[0] * (double)(spline->columns - 1), origin[1] + pitch[1] * (double)(spline->rows - 1)},
         .add = map_add,
+        .reading = 40,
         .state = m};
     return part;
 }

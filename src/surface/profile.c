@@ -13,6 +13,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/stopwatch.h"
 #include "num/lanes.h"
 #include "scene/scene.h"
 
@@ -69,6 +70,7 @@ struct profile *profile_from_samples(struct arena *a, const double *z, size_t n,
 {
     double *c = ARENA_TAKE(a, double, n);
     profile_coefficients(z, c, n, off_map);
+    stopwatch_spend(25 * (double)n);
     return profile_from_coefficients(a, c, n, pitch, off_map);
 }
 
@@ -176,6 +178,7 @@ struct relief_part *profile_part(struct arena *a, struct profile *p, const char 
                                  .from = {p->from + origin, -HUGE_VAL},
                                  .to = {p->to + origin, HUGE_VAL},
                                  .add = window_add,
+                                 .reading = 20,
                                  .close = window_close,
                                  .state = w};
     return part;

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/stopwatch.h"
 #include "scene/rows.h"
 #include "stage.h"
 
@@ -25,6 +26,7 @@ struct relief_part *relief_endless(struct arena *a, const char *name, double fin
                                  .finest = finest,
                                  .from = {-HUGE_VAL, -HUGE_VAL},
                                  .to = {HUGE_VAL, HUGE_VAL},
+                                 .reading = 20,
                                  .add = add,
                                  .state = state};
     return part;
@@ -65,6 +67,10 @@ static void relief_shifted(const struct relief *r, const struct relief_points *p
 
 void relief_at(const struct relief *r, const struct relief_points *p, const struct relief_values *v)
 {
+    double reading = 5;
+    for (const struct relief_part *part = r->first; part; part = part->next)
+        reading += part->reading;
+    stopwatch_spend(reading * (double)p->n);
     double *all[6] = {v->z, v->x, v->y, v->xx, v->xy, v->yy};
     for (int k = 0; k < 6; k++)
         if (all[k]) memset(all[k], 0, p->n * sizeof(double));

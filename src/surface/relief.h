@@ -39,6 +39,7 @@ struct relief_part {
     void (*add)(struct relief_part *, const struct relief_points *,
                 const struct relief_values *); /* adds its values to those there */
     void (*close)(struct relief_part *);       /* may be NULL */
+    double reading;                            /* predicted cycles of a point that is read */
     void *state;
     struct relief_part *next;
 };
@@ -110,10 +111,10 @@ static inline bool relief_plane(const struct contact *c)
 #define RELIEF_MAP_PITCH 5e-6 /* m, of a map whose file says it */
 #define RELIEF_MAP_SPAN 20e-6 /* m between greatest and least height, of any map */
 
-/* Points per audio sample: both ends and the middle of each sub-interval, and of each cell crossed at 0.2 m/s. */
-static inline double relief_readings(const struct scene *s, double finest)
+/* Points per audio sample: both ends and the middle of each sub-interval, and of each cell crossed. */
+static inline double relief_readings(const struct contact *c, const struct scene *s, double finest)
 {
-    return 2 * (s->accuracy.oversampling + 0.2 / (s->output.sample_rate * finest));
+    return 2 * (s->accuracy.oversampling + motion_speed(&c->motion) / (s->output.sample_rate * finest));
 }
 
 #endif

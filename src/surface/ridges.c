@@ -165,14 +165,16 @@ struct relief_part *ridges_part(struct arena *a, const struct ridges *recipe, in
         s->ey = -real_cos(recipe->direction);
     }
     double finest = recipe->shape == RIDGE_SINE ? recipe->spacing / 8 : s->radius / 4;
-    return relief_endless(a, "ridges", finest, ridges_add, s);
+    struct relief_part *part = relief_endless(a, "ridges", finest, ridges_add, s);
+    part->reading = 90;
+    return part;
 }
 
 /* ------------------------------------------------------------------ the stage */
 
 static double ridges_work(const struct contact *c, const struct scene *s)
 {
-    return 90 * relief_readings(s, ridges_of(c)->spacing / 8);
+    return 90 * relief_readings(c, s, ridges_of(c)->spacing / 8);
 }
 
 static bool ridges_open(struct stage_run *r, struct err *e)

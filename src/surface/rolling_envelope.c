@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "base/stopwatch.h"
 #include "surface/block_cache.h"
 
 #define INLINE static inline __attribute__((always_inline))
@@ -301,10 +302,15 @@ static long sieve(struct rolling_envelope *c, long n)
 
 /* ------------------------------------------------------------------ stretches */
 
+/* Predicted cycles: of the disc at rest at a place, which takes Newton's method, and of a piece of ground. */
+#define REST 620.0
+#define PIECE 60.0
+
 /* Of the disc on a stretch's piece; out of reach: a height of -HUGE_VAL. */
 static struct height_jet stretch_rest(const struct rolling_envelope *c, const double *s, double x)
 {
     double y = x - s[STRETCH_AT];
+    stopwatch_spend(REST);
     return fabs(y) <= c->reach ? rolling_envelope_rest(&c->disc, s + STRETCH_TERMS, y)
                                : (struct height_jet){-HUGE_VAL, 0, 0};
 }
@@ -526,6 +532,7 @@ static void blocks_fill(void *self, long column, long row, double *out)
     bool points = g->plan.points;
     rolling_envelope_set(g->envelope, &(struct envelope_ground){z, points ? NULL : z + n, points ? NULL : z + 2 * n}, n,
                          first);
+    stopwatch_spend(PIECE * (double)n);
     long stretches = rolling_envelope_between(g->envelope, from, to, &found);
     out[0] = (double)stretches;
     memcpy(out + 1, found, (size_t)(stretches * STRETCH_NUMBERS) * sizeof *out);
@@ -602,5 +609,7 @@ struct relief_part *rolling_envelope_part(struct arena *a, const struct relief *
     g->heights = block_cache_make(a, (size_t)(LINE * g->kinds),
                                   (size_t)(heights > HEIGHTS_LEAST ? heights : HEIGHTS_LEAST), heights_fill, g);
     g->blocks = block_cache_make(a, (size_t)size, (size_t)blocks, blocks_fill, g);
-    return relief_endless(a, "crest", p->pitch, underlying_add, g);
+    struct relief_part *part = relief_endless(a, "crest", p->pitch, underlying_add, g);
+    part->reading = 150;
+    return part;
 }

@@ -15,6 +15,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/stopwatch.h"
 #include "file/heightfile.h"
 #include "num/fft.h"
 #include "num/real.h"
@@ -185,6 +186,7 @@ static void blocks_fill(void *self, long index, long row, double *c)
 {
     const struct blocks *g = self;
     (void)row;
+    stopwatch_spend(90 * (double)g->n);
     noise_normal(g->stream, (uint64_t)index, (size_t)g->n, g->normal);
     for (long j = 0; j < g->n / 2; j++) {
         g->re[j] = g->normal[2 * j] * g->spread[j];
@@ -239,6 +241,7 @@ struct profile *roughness_blocks(struct arena *a, const struct spectrum *s, stru
     g->cache = block_cache_make(a, (size_t)n, (size_t)cached, blocks_fill, g);
     blocks_window(g);
     blocks_spread(g, s, pitch);
+    stopwatch_spend(120 * (double)n);
     *p = (struct profile){
         .pitch = pitch, .from = -HUGE_VAL, .to = HUGE_VAL, .read = blocks_read, .state = g, .close = blocks_close};
     return p;
@@ -418,7 +421,7 @@ static double roughness_work(const struct contact *c, const struct scene *s)
 {
     const struct roughness *r = roughness_of(c);
     bool plane = relief_along(c) == ALONG_PLANE, shaped = r->like || r->skewness != 0 || r->kurtosis != 3;
-    double finest = likely_finest(r), points = relief_readings(s, finest),
+    double finest = likely_finest(r), points = relief_readings(c, s, finest),
            cells = motion_speed(&c->motion) / (s->output.sample_rate * finest);
     if (plane && relief_tipped(c)) return 1;
     return (plane ? (relief_once(c) ? 900 : 700) * cells + 50 * s->accuracy.oversampling : 8 * points) +

@@ -43,6 +43,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/stopwatch.h"
 #include "num/lanes.h"
 #include "num/real.h"
 #include "surface/bicubic.h"
@@ -136,6 +137,7 @@ void tiles_tile(const double power[TILE_LINES], struct noise stream, struct fft_
         re[(N - j) * (HALF + 1)] = re[j * (HALF + 1)];
         im[(N - j) * (HALF + 1)] = -im[j * (HALF + 1)];
     }
+    stopwatch_spend(40.0 * N * N);
     im[0] = 0;
     const double *x = fft->x;
     fft_plane_inverse(fft);
@@ -491,6 +493,7 @@ struct relief_part *tiles_part(struct arena *a, const struct spectrum *s, const 
     t->patches = bands_make(a, bands, power, stream, g->once);
     double h = t->pitch = 0.25 / spectrum_top(s);
     struct relief_part *part = relief_endless(a, "tiles", h, tiles_add, t);
+    part->reading = 60;
     part->pitch[0] = t->sin_d == 0 ? h * g->ratio : 0;
     part->pitch[1] = t->sin_d == 0 ? h : 0;
     return part;

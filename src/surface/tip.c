@@ -250,6 +250,50 @@ static bool tip_smoothed(const struct stage_run *r, const struct relief *under, 
                                                   c->name);
 }
 
+/* m of new surface per audio sample: going over it again costs nothing. */
+static double fresh(const struct motion *m, double speed, double rate)
+{
+    double times = m->path == PATH_CIRCLE           ? fabs(m->turns)
+                   : m->path == PATH_BACK_AND_FORTH ? 2 * m->rate * m->duration
+                                                    : 1;
+    return speed / fmax(times, 1) / rate;
+}
+
+/* Cycles of what is there already: 40 a point. */
+static double read_again(const struct contact *c, const struct scene *s, double pitch)
+{
+    return 40 * relief_readings(c, s, pitch);
+}
+
+/* Cycles of a piece of ground in one coordinate, which is looked at twice, and of the patch's spline. */
+#define PIECE 4000.0
+#define PLAIN 300.0 /* a piece that is a point alone */
+#define KNOT 300.0
+#define LINE_POINTS 1024.0 /* of a block of the patch's splines */
+
+static double tip_work(const struct contact *c, const struct scene *s)
+{
+    double length = fresh(&c->motion, motion_speed(&c->motion), s->output.sample_rate);
+    double dense = s->accuracy.tip_heights, patch = c->scraper.patch;
+    double metre = patch == 0                       ? 2e2 * dense / likely_pitch(c)
+                   : relief_along(c) == ALONG_PLANE ? plane_metre(c, dense)
+                                                    : 8e2 * dense / (patch / PATCH_POINTS);
+    return read_again(c, s, patch > 0 ? patch / PATCH_POINTS : likely_pitch(c)) + (length > 0 ? length * metre : 0);
+}
+
+/* Now that the way is known. Ground is made in blocks: the shortest way takes one, and what is within reach of it. */
+static double planned_work(const struct stage_run *r, const struct rolling_plan *p, bool plane)
+{
+    struct contact own = *r->contact;
+    double h = own.scraper.patch / PATCH_POINTS, dense = r->scene->accuracy.tip_heights,
+           metre = plane ? plane_metre(&own, dense) : (p->points ? PLAIN : PIECE) / p->pitch + (h > 0 ? KNOT / h : 0),
+           block = plane ? WIDE * h + 2 * p->reach : (double)rolling_envelope_window(p) * p->pitch + LINE_POINTS * h;
+    own.motion.made = r->board->trajectory;
+    return read_again(&own, r->scene, h > 0 ? h : p->pitch) +
+           metre * (fresh(&own.motion, motion_speed(&own.motion), r->board->rate) +
+                    block / fmax((double)r->board->moving, 1));
+}
+
 static bool tip_open(struct stage_run *r, struct err *e)
 {
     struct relief *relief = r->board->relief, *under = ARENA_TAKE(r->arena, struct relief, 1);
@@ -259,6 +303,7 @@ static bool tip_open(struct stage_run *r, struct err *e)
     struct rolling_plan p = tip_plan(r, under);
     under->origin[0] = under->origin[1] = 0; /* the tip's own lattice lies in the surface's coordinates too */
     if (!tip_affordable(r, &p, under, e)) return false;
+    r->work = planned_work(r, &p, under->along == ALONG_PLANE);
     relief->first = NULL;
     relief->under = under;
     relief_add(relief,
@@ -294,21 +339,6 @@ static bool tip_wanted(const struct contact *c, const struct scene *s)
 {
     (void)s;
     return relief_tipped(c);
-}
-
-/* Going over it again costs nothing. */
-static double tip_work(const struct contact *c, const struct scene *s)
-{
-    const struct motion *m = &c->motion;
-    double times = m->path == PATH_CIRCLE           ? fabs(m->turns)
-                   : m->path == PATH_BACK_AND_FORTH ? 2 * m->rate * m->duration
-                                                    : 1;
-    double length = motion_speed(m) / fmax(times, 1) / s->output.sample_rate; /* m of new surface per audio sample */
-    double dense = s->accuracy.tip_heights, patch = c->scraper.patch;
-    double metre = patch == 0                       ? 2e2 * dense / likely_pitch(c)
-                   : relief_along(c) == ALONG_PLANE ? plane_metre(c, dense)
-                                                    : 8e2 * dense / (patch / PATCH_POINTS);
-    return length > 0 ? length * metre : 0;
 }
 
 const struct stage tip_stage = {

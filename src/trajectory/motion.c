@@ -26,6 +26,7 @@
 #include "num/real.h"
 #include "scene/rows.h"
 #include "scene/scene_part.h"
+#include "trajectory/trajectory.h"
 
 /* Least t > 0 with t (speed + pull t / 2) = way, in the form that keeps its digits. */
 static double time_to(double distance, double speed, double pull)
@@ -160,6 +161,7 @@ double motion_speed(const struct motion *m)
 {
     double length = chord(m);
     if (m->path == PATH_STILL) return 0;
+    if (m->made) return m->made->mean_speed;
     if (m->path == PATH_INCLINE) {
         struct incline i = motion_incline(m);
         double lasts = motion_incline_lasts(&i, m), speed = motion_incline_distance(&i, lasts) / lasts;

@@ -12,6 +12,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/stopwatch.h"
+
 enum { GAUSS = 8, PARTS = 3, DEEPEST = 60 };
 
 static const double TOLERANCE = 5e-14;
@@ -141,6 +143,8 @@ static void build_add(struct build *b, const struct piece *w, const double c[6])
     b->p->end = b->inverse ? b->sum + b->lost : w->x1;
 }
 
+#define PIECE 2500.0 /* predicted cycles of one that is measured */
+
 static bool build_between(struct build *b, double x0, double x1)
 {
     double left[DEEPEST + 1], start = x0; /* right ends of the pieces that wait */
@@ -150,6 +154,7 @@ static bool build_between(struct build *b, double x0, double x1)
         struct piece w = {.x0 = x0, .x1 = left[depth]};
         double c[6];
         piece_measure(b, &w);
+        stopwatch_spend(PIECE);
         for (int k = 0; k < 2 && b->inverse; k++)
             if (!(w.g[k] > b->least) || !(w.inner[k] > b->least)) {
                 b->where = w.g[k] > b->least ? w.x0 + PART[k + 1] * (w.x1 - w.x0) : k == 0 ? w.x0 : w.x1;

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/stopwatch.h"
 #include "num/noise.h"
 #include "num/real.h"
 #include "num/vecmath.h"
@@ -475,6 +476,7 @@ struct corner_slope {
 static void corner_slope(const void *self, size_t n, const double *z, double *g, double *dg)
 {
     const struct corner_slope *c = self;
+    stopwatch_spend(300.0 * (double)n);
     for (size_t i = 0; i < n; i++) {
         double psi = c->turn * corner_psi(z[i]), sine = real_sin(psi), cosine = real_cos(psi);
         g[i] = c->sine ? sine : cosine;

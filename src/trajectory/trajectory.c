@@ -13,6 +13,7 @@
 
 #include <math.h>
 
+#include "base/stopwatch.h"
 #include "num/lanes.h"
 #include "num/noise.h"
 #include "num/real.h"
@@ -424,6 +425,7 @@ static void whole(struct making *w)
     tr->lap = w->m->path == PATH_CIRCLE ? 2 * REAL_PI * w->m->radius : HUGE_VAL;
     tr->detail = detail_of(w);
     if (!tr->straight) whole_start(tr);
+    stopwatch_spend(60000 + (tr->straight ? 0 : 1000.0 * (double)tr->detail));
     for (int xy = 0; xy < 2; xy++) {
         double a = tr->from[xy] + tr->reach[0] * tr->e[xy], b = tr->from[xy] + tr->reach[1] * tr->e[xy];
         range[0] = fmin(a, b);

@@ -27,7 +27,8 @@ SCENES = {name: scene for name, scene in SCENES.items() if os.environ.get("ONLY"
 
 
 def planned(name):
-    return json.loads(subprocess.run([BUILD + "/rasp", "plan", "--json", name], capture_output=True, text=True, check=True).stdout)[0]["contacts"][0]["cycles_per_sample"]
+    plan = json.loads(subprocess.run([BUILD + "/rasp", "plan", "--json", name], capture_output=True, text=True, check=True).stdout)[0]
+    return sum(s["cycles_once"] + s["cycles_per_sample"] * s["samples"] for s in plan["contacts"][0]["stages"] if s["runs"]) / plan["samples"]
 
 
 def measured(name):

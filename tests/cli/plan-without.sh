@@ -23,6 +23,17 @@ done
 # What is measured are times, of which nothing is held but their order.
 rasp plan --without --measure --json "$scenes/porcelain_scrape_fitted.yaml" > measured.json
 python3 -c 'import json; r = [w for w in json.load(open("measured.json"))[0]["without"] if w["effect"] == "residual"][0]; print(r["effect"], r["more_s"] < 1, r["more_quartiles_s"][0] <= r["more_s"] <= r["more_quartiles_s"][1])'
-code=0
-rasp plan --measure "$scenes/rubbing.yaml" || code=$?
-echo "exit code $code"
+# The whole scene beside its plan: once, a sample, and what is in no stage.
+rasp plan --measure --json "$scenes/basswood_scrape.yaml" > whole.json
+python3 << 'END'
+import json
+plan = json.load(open("whole.json"))[0]
+stages = [s for c in plan["contacts"] for s in c["stages"] if s["runs"]]
+print([b["does"] for b in plan["in_no_stage"]])
+print(all(s["cycles_once"] >= 0 and s["measured_once"] >= 0 and s["measured_per_sample"] >= 0 for s in stages))
+planned = sum(s["cycles_once"] + s["cycles_per_sample"] * s["samples"] for s in stages) + sum(b["cycles_once"] + b["cycles_per_sample"] * plan["samples"] for b in plan["in_no_stage"])
+measured = sum(s["measured_once"] + s["measured_per_sample"] * s["samples"] for s in stages) + sum(b["measured"] for b in plan["in_no_stage"])
+print(abs(planned / plan["cycles"] - 1) < 1e-9, abs(measured / plan["measured"]["cycles"] - 1) < 0.02, 0.1 < planned / measured < 10)
+END
+rasp plan --measure "$scenes/basswood_scrape.yaml" | grep -c '^measured\|^in no stage\|^in all\|^  measured'
+ls
