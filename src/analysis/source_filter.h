@@ -1,31 +1,32 @@
-/* A recording of rolling or scraping as what rings and what drives it: poles, gains, source, impacts (papers/002 section
-   II-C).
+/* A recording of rolling or scraping as what rings and what drives it: poles, gains, source, impacts (papers/002
+   section II-C).
 
    Both methods begin with onsets: instants at which the energy of what linear prediction does not foresee rises.
    Between them the object rings freely, as far as it does at all. The papers go by high frequencies, which a smooth
    impact has none of.
 
-   Lagrange et al. (papers/002 [18]): the poles of the longest free frames, by ESPRIT and output error (analysis/modal.h).
-   Impacts are alike in what prediction does not foresee: beside the mean of their pulses each has a time t_k and a size
-   a_k. Then the recording between them is linear in the modes' gains,
+   Lagrange et al. (papers/002 [18]): the poles of the longest free frames, by ESPRIT and output error
+   (analysis/modal.h). Impacts are alike in what prediction does not foresee: beside the mean of their pulses each
+   has a time t_k and a size a_k. Then the recording between them is linear in the modes' gains,
 
      x = sum_m Im A_m sum_k a_k e^(s_m (t - t_k))
 
-   and what is left about them is their click, which no mode is: the force itself, heard, and what decays at once. The
-   source is the recording divided by the response H of both, where that is loud enough:
+   and what is left about them is their click, which no mode is: the force itself, heard, and what decays at once.
+   The source is the recording divided by the response H of both, where that is loud enough:
 
      F = Y H* / (|H|^2 + eps)      eps: the noise's power over the source's, at least 40 dB below the greatest |H|^2
 
-   An impact in it is a pulse, IFFT(|H|^2/(|H|^2 + eps)); the greatest is taken off, and so on down to the noise. With these
-   impacts gains, click and source are found once more. 002 prints no eps, no gains and no search of impacts: ours.
+   An impact in it is a pulse, IFFT(|H|^2/(|H|^2 + eps)); the greatest is taken off, and so on down to the noise.
+   With these impacts gains, click and source are found once more. 002 prints no eps, no gains and no search of
+   impacts: ours.
 
-   Lee et al. (papers/002 [19]): the poles by linear prediction of low order in subbands, over all frames together. Each
-   impact has gains of its own, which are what the zeros of its spectrum say: modes that it excites little, or damps. So
-   there is no common H: impacts are the onsets, and the filter changes from one to the next. The paper's notches are
-   these gains; it prints no orders and no bands: ours.
+   Lee et al. (papers/002 [19]): the poles by linear prediction of low order in subbands, over all frames together.
+   Each impact has gains of its own, which are what the zeros of its spectrum say: modes that it excites little, or
+   damps. So there is no common H: impacts are the onsets, and the filter changes from one to the next. The paper's
+   notches are these gains; it prints no orders and no bands: ours.
 
-   Where no frame is free, since impacts are too many or the contact never breaks, the poles are those of the recording's
-   autocorrelation: that of what is driven by a white force falls as the object rings. */
+   Where no frame is free, since impacts are too many or the contact never breaks, the poles are those of the
+   recording's autocorrelation: that of what is driven by a white force falls as the object rings. */
 #ifndef ANALYSIS_SOURCE_FILTER_H
 #define ANALYSIS_SOURCE_FILTER_H
 #include "analysis/impact_find.h"

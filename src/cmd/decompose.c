@@ -1,5 +1,5 @@
-/* rasp decompose RECORDING... -o FOLDER: a recording of rolling or scraping as modes, a source, and its impacts; a scene
-   of them (analysis/source_filter.h). Of a recording longer than a minute the loudest minute is taken. */
+/* rasp decompose RECORDING... -o FOLDER: a recording of rolling or scraping as modes, a source, and its impacts; a
+   scene of them (analysis/source_filter.h). Of a recording longer than a minute the loudest minute is taken. */
 #include "cmd/decompose.h"
 
 #include <math.h>
@@ -8,10 +8,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "analysis/distance.h"
 #include "base/outfile.h"
 #include "base/text.h"
-#include "cmd/modes.h"
 #include "file/wav.h"
 #include "num/fft.h"
 #include "response/mode_table.h"
@@ -326,7 +324,7 @@ static bool decompose_file(struct cmd_call *c, const char *file, const char *fol
         ok = outfile_folder_close(folder, temporary, ok, a, e) && ok;
     }
     if (ok && (args_given(&c->args, "json") || !args_given(&c->args, "quiet")))
-        ok = decompose_report(d, stdout, args_given(&c->args, "json"), e);
+        ok = decompose_write_report(d, stdout, args_given(&c->args, "json"), e);
     arena_close(a);
     return ok;
 }

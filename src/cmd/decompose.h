@@ -1,4 +1,4 @@
-/* Parts of `rasp decompose`: what is found of a recording (decompose.c), and what is written of it (decompose_write.c). */
+/* Parts of `rasp decompose`: what is found of a recording (decompose.c), and what is written (decompose_write.c). */
 #ifndef CMD_DECOMPOSE_H
 #define CMD_DECOMPOSE_H
 #include "analysis/source_filter.h"
@@ -29,8 +29,6 @@ struct decompose {
     double lasts;              /* s, of an impact's raised cosine in what is written */
     struct analysis *series;   /* of the impacts; counted false: too few */
     double echo;               /* s, at which impacts repeat; NAN */
-    double thirds, modulation; /* dB: rms over third octaves, and over the modulation's, of what is given back from the
-                                  recording */
     const char *note[DECOMPOSE_NOTES];
     int notes;
 };
@@ -39,6 +37,6 @@ struct decompose {
 bool decompose_write(struct decompose *d, const char *folder, struct err *e);
 
 /* As text or JSON. */
-bool decompose_report(const struct decompose *d, FILE *to, bool json, struct err *e);
+bool decompose_write_report(const struct decompose *d, FILE *to, bool json, struct err *e);
 
 #endif

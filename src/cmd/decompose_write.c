@@ -200,7 +200,7 @@ bool decompose_write(struct decompose *d, const char *folder, struct err *e)
     }
     struct outfile o;
     if (!outfile_open(&o, in_folder(d, folder, "decompose.json"), e)) return false;
-    decompose_report(d, o.stream, true, e);
+    decompose_write_report(d, o.stream, true, e);
     return outfile_commit(&o, e) && e->kind == ERR_NONE;
 }
 
@@ -237,7 +237,7 @@ static void report_estimate(struct report *r, const char *key, const struct esti
     report_text(r, "  %-22s %.4g%s (%.4g to %.4g)\n", label, scale * x->value, unit, scale * x->low, scale * x->high);
 }
 
-bool decompose_report(const struct decompose *d, FILE *to, bool json, struct err *e)
+bool decompose_write_report(const struct decompose *d, FILE *to, bool json, struct err *e)
 {
     const struct source_filter *s = &d->found;
     const struct impact_events *v = &s->impacts;

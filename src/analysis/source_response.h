@@ -1,0 +1,34 @@
+/* Parts of source_filter.h: impacts' pulses, and the recording's response to them: gains, sizes, times, click. */
+#ifndef ANALYSIS_SOURCE_RESPONSE_H
+#define ANALYSIS_SOURCE_RESPONSE_H
+#include "analysis/source_poles.h"
+
+#define SOURCE_RESPONSE_LEAD 0.5e-3 /* s of an impact's click before its onset */
+
+struct source_response_hits { /* impacts, as they are known so far */
+    int n;
+    double *at, *size; /* [n] samples; pushes */
+};
+
+/* Between samples, by the cubic through four: x[0] u on, 0 <= u < 1. */
+static inline double source_response_between(const double *x, double u)
+{
+    return x[0] + u * (x[1] - x[-1] / 3 - x[0] / 2 - x[2] / 6 +
+                       u * ((x[-1] + x[1]) / 2 - x[0] + u * ((x[2] - x[-1]) / 6 + (x[0] - x[1]) / 2)));
+}
+
+/* Times and sizes of the onsets' pulses in y, what prediction does not foresee, which is as short as an impact: beside
+   the one pulse that most are like. Those that are not alike, two at once, say, are none. */
+void source_response_pulses(struct source_filter *f, const double *y, bool both, struct source_response_hits *h,
+                            struct arena *a);
+
+/* Gains, sizes and times in turn; then all begins SOURCE_RESPONSE_LEAD earlier, for the click, which is before the
+   onset, too. false: too little to go by, and all is as it was. */
+bool source_response_fit(struct source_filter *f, struct source_response_hits *h, struct arena *a);
+
+/* What follows an impact at once and is in no mode: the mean over the impacts of what the modes leave behind their
+   times. rest [n]: the recording without its modes. */
+void source_response_click(struct source_filter *f, const double *rest, struct source_response_hits *h,
+                           struct arena *a);
+
+#endif
