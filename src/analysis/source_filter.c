@@ -97,17 +97,16 @@ static int find_jumps(struct source_filter *f, struct source_poles_frame *frame,
             frame[k].energy >= least && state_of(f, &frame[k], state + k * f->m, &rest, &energy_all, &count);
     f->noise = count > 0 ? sqrt(rest / count) : 0;
     f->fits = energy_all > 0 ? 1 - rest / energy_all : 0;
-    for (int k = 0; k < f->onsets; k++) {
+    for (int k = 0, last = -1; k < f->onsets; last = frame[k].known ? k : last, k++) {
         struct jump *j = &jump[jumps];
-        if (!frame[k].known || (k > 0 && !frame[k - 1].known)) continue;
+        if (!frame[k].known) continue; /* what it added is in the next that is known */
         *j = (struct jump){.onset = k, .by = ARENA_TAKE(a, cplx, f->m)};
         for (int i = 0; i < f->m; i++) {
             cplx s = source_poles_of(&f->mode[i]);
             j->by[i] = cplx_mul(state[k * f->m + i], cplx_exp(s, (double)(f->onset[k] - frame[k].from) / f->rate));
-            if (k > 0)
-                j->by[i] =
-                    cplx_sub(j->by[i], cplx_mul(state[(k - 1) * f->m + i],
-                                                cplx_exp(s, (double)(f->onset[k] - frame[k - 1].from) / f->rate)));
+            if (last < 0) continue;
+            cplx rings = cplx_exp(s, (double)(f->onset[k] - frame[last].from) / f->rate);
+            j->by[i] = cplx_sub(j->by[i], cplx_mul(state[last * f->m + i], rings));
         }
         j->energy = energy_of(f, j->by);
         jumps++;
@@ -252,7 +251,7 @@ static double pulse_at(const struct pulse *pulse, double t)
     return source_response_between(p + 1, fabs(t) - (double)i);
 }
 
-/* What is less than a twentieth of another within 10 ms may be what that one left. */
+/* What is less than a twelfth of another within 10 ms may be what that one left. */
 static void leave_out_small(struct impact_events *v)
 {
     bool *stays = calloc((size_t)v->n + 1, sizeof *stays);
@@ -263,7 +262,7 @@ static void leave_out_small(struct impact_events *v)
             most = fmax(most, fabs(v->amplitude[i]));
         for (int i = k; i < v->n && v->time[i] - v->time[k] < hides; i++)
             most = fmax(most, fabs(v->amplitude[i]));
-        stays[k] = fabs(v->amplitude[k]) >= most / 20;
+        stays[k] = fabs(v->amplitude[k]) >= most / 12;
     }
     for (int k = 0; k < v->n; k++)
         if (stays[k]) {
@@ -325,8 +324,8 @@ static int merge(struct peak *peak, int n, double width)
 }
 
 /* The greatest pulse is taken off, and so on, until what is left is as the source is in between, 4.5 times its
-   deviation. Pulses within `one` are one impact. Where pulses overlap the greatest is not where an impact is: so each is
-   put back in turn, and looked for once more beside all others. */
+   deviation. Pulses within `one` are one impact. Where pulses overlap the greatest is not where an impact is: so each
+   is put back in turn, and looked for once more beside all others. */
 static void find_impacts(struct source_filter *f, bool both, const struct pulse *pulse, struct arena *a)
 {
     enum { PART = 256, SWEEPS = 3 };
@@ -491,21 +490,23 @@ bool source_filter_find(const double *x, long n, double rate, const struct sourc
         struct pulse pulse = {.x = ARENA_TAKE(a, double, REACH)};
         double loud = squares(f->x, n) / (double)n;
         struct source_response_hits h = {0};
-        if (!mode) source_response_pulses(f, y, o->both, &h, a);
-        bool known = mode || f->correlated; /* H is */
+        source_response_pulses(f, y, o->both, &h, a);
         if (f->correlated) normalise(f);
-        for (int round = known ? 2 : 0; round < 4;
-             round++) { /* with the impacts of the last; the fourth divides alone */
+        double late = 0;                          /* s, by which times are those of the onsets */
+        for (int round = 0; round < 4; round++) { /* with the impacts of the last; the fourth divides alone */
             static const double floors[] = {1e-2, 1e-2, 1e-3, 1e-4};
-            bool fitted = !known && round < 3 && source_response_fit(f, &h, a);
-            if (fitted) normalise(f);
+            struct source_filter_mode *own = mode && round < 3 ? memcpy(f->mode, mode, (size_t)m * sizeof *mode) : NULL;
+            if (round < 3 && !f->correlated && source_response_fit(f, &h, own != NULL, a)) {
+                late = SOURCE_RESPONSE_LEAD;
+                if (!mode) normalise(f);
+            }
             divide(f, o->snr, floors[round], loud, &pulse, a);
             if (round == 3) break;
             find_impacts(f, o->both, &pulse, a);
             h = (struct source_response_hits){
                 .n = f->impacts.n, .at = ARENA_TAKE(a, double, f->impacts.n + 1), .size = f->impacts.amplitude};
             for (int k = 0; k < h.n; k++)
-                h.at[k] = (f->impacts.time[k] + (known ? 0 : SOURCE_RESPONSE_LEAD)) * rate;
+                h.at[k] = (f->impacts.time[k] + late) * rate;
         }
         if (!mode) qsort(f->mode, (size_t)f->m, sizeof *f->mode, by_loudness);
     }

@@ -291,10 +291,10 @@ bool source_poles_find(struct source_filter *f, const struct source_filter_optio
                      "no onset is followed by %.3g ms of free ringing, and the method lee goes by contacts that break: "
                      "take --method lagrange",
                      1e3 * shortest);
-    else if (f->frames >= 3)
-        ok = poles_fitted(f, o, best, f->frames, a, e);
-    else
-        ok = poles_correlated(f, o, a, e);
+    else {
+        if (f->frames >= 3) ok = poles_fitted(f, o, best, f->frames, a, e);
+        if (ok && f->m == 0) ok = poles_correlated(f, o, a, e);
+    }
     if (ok && f->m == 0)
         ok = err_set(e, ERR_SCENE, "no mode stands out of the noise between %.6g and %.6g Hz", o->low, o->high);
     return ok;

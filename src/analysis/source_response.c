@@ -250,15 +250,35 @@ static void take_off(const struct source_filter *f, const struct source_response
     }
 }
 
+/* Sizes by one factor, so that modes whose gains are known are most of the recording. */
+static bool scale(struct source_filter *f, struct source_response_hits *h, double *rest, struct arena *a)
+{
+    double product = 0, own = 0, left = 0;
+    take_off(f, h, rest, a);
+    for (long t = 0; t < f->n; t++) {
+        double y = f->x[t] - rest[t];
+        product += f->x[t] * y;
+        own += y * y;
+    }
+    for (int k = 0; k < h->n && own > 0; k++)
+        h->size[k] *= product / own;
+    for (long t = 0; t < f->n && own > 0; t++) {
+        double y = f->x[t] - product / own * (f->x[t] - rest[t]);
+        left += y * y;
+    }
+    f->noise = sqrt(left / (double)f->n);
+    return product > 0;
+}
+
 /* Gains, sizes and times in turn. Then all begins SOURCE_RESPONSE_LEAD earlier, for the click, which is before the
    onset, too. */
-bool source_response_fit(struct source_filter *f, struct source_response_hits *h, struct arena *a)
+bool source_response_fit(struct source_filter *f, struct source_response_hits *h, bool known, struct arena *a)
 {
     struct arena *inner = arena_open();
     double *rest = ARENA_TAKE(inner, double, f->n);
     bool ok = h->n > 0;
     for (int turn = 0; ok && turn < TURNS; turn++) {
-        ok = fit_gains(f, h);
+        ok = known ? scale(f, h, rest, inner) : fit_gains(f, h);
         if (!ok) break;
         if (turn + 1 == TURNS) break;
         take_off(f, h, rest, inner);

@@ -22,9 +22,9 @@ static inline double source_response_between(const double *x, double u)
 void source_response_pulses(struct source_filter *f, const double *y, bool both, struct source_response_hits *h,
                             struct arena *a);
 
-/* Gains, sizes and times in turn; then all begins SOURCE_RESPONSE_LEAD earlier, for the click, which is before the
-   onset, too. false: too little to go by, and all is as it was. */
-bool source_response_fit(struct source_filter *f, struct source_response_hits *h, struct arena *a);
+/* Gains (unless they are known), sizes and times in turn; then all begins SOURCE_RESPONSE_LEAD earlier, for the click,
+   which is before the onset, too. false: too little to go by, and all is as it was. */
+bool source_response_fit(struct source_filter *f, struct source_response_hits *h, bool known, struct arena *a);
 
 /* What follows an impact at once and is in no mode: the mean over the impacts of what the modes leave behind their
    times. rest [n]: the recording without its modes. */

@@ -88,7 +88,7 @@ static void clipping(struct decompose *d)
         length = d->x[i] == top[0] || d->x[i] == top[1] ? length + 1 : 0;
         runs += length == 3;
     }
-    if (runs > 1)
+    if (runs > 5)
         note(d,
              "the recording stands still at its greatest value %ld times: it clips, and how strong those impacts were "
              "is "
@@ -142,7 +142,6 @@ static bool table_modes(struct decompose *d, struct source_filter_mode **mode, i
         note(d, "%s has %zu places: the modes are those at the first, where its gains belong", d->table, t.places);
     *mode = ARENA_TAKE(d->arena, struct source_filter_mode, t.modes + 1);
     *n = 0;
-    d->quantity = t.quantity;
     for (size_t k = t.first[0]; k < t.first[1]; k++) {
         const struct mode_slope *s = &t.entry[k].slope[0];
         if (t.entry[k].frequency < d->options.low || t.entry[k].frequency > d->options.high || s->gain == 0) continue;
@@ -252,7 +251,6 @@ static bool options(struct decompose *d, struct err *e)
     long most = 40;
     *o = (struct source_filter_options){.low = NAN, .high = NAN, .fastest = 600, .rise = 6, .snr = NAN};
     d->channel = 1;
-    d->quantity = MODES_VELOCITY; /* to which a scene adds nothing: the click has what sounds at once */
     d->table = args_value(a, "table");
     o->both = args_given(a, "signed");
     if (!args_word(a, "method", methods, &o->method, e) || !args_word(a, "source", sources, &d->source, e) ||
@@ -368,7 +366,7 @@ static const struct args_option decompose_options[] = {
     {"until", 0, "TIME", false, "where it ends; default: the end; of more than a minute the loudest is taken"},
     {"modes", 0, "N", false, "modes at most, the strongest; default: 40"},
     {"low", 0, "FREQUENCY", false, "modes are looked for from here on; default: 40 Hz"},
-    {"high", 0, "FREQUENCY", false, "... up to here; default: 0.45 of the sample rate"},
+    {"high", 0, "FREQUENCY", false, "and up to here; default: 0.45 of the sample rate"},
     {"fastest", 0, "RATE", false, "the fastest decay that is taken for a mode, in 1/s; default: 600"},
     {"rise", 0, "DECIBEL", false, "by which an onset's high frequencies rise; default: 6"},
     {"snr", 0, "DECIBEL", false,

@@ -21,14 +21,13 @@ struct decompose {
         whole; /* what is taken: its rate, from where, how long; the whole recording's length */
     double *x; /* [n] */
     long n;
-    int quantity; /* enum modes_quantity of the table */
     struct source_filter found;
-    double fits;               /* share of the free frames' energy that the modes are */
-    int source;                /* enum decompose_source, as asked */
-    bool impacts;              /* the scene draws impacts; else it has the source as its force */
-    double lasts;              /* s, of an impact's raised cosine in what is written */
-    struct analysis *series;   /* of the impacts; counted false: too few */
-    double echo;               /* s, at which impacts repeat; NAN */
+    double fits;             /* share of the free frames' energy that the modes are */
+    int source;              /* enum decompose_source, as asked */
+    bool impacts;            /* the scene draws impacts; else it has the source as its force */
+    double lasts;            /* s, of an impact's raised cosine in what is written */
+    struct analysis *series; /* of the impacts; counted false: too few */
+    double echo;             /* s, at which impacts repeat; NAN */
     const char *note[DECOMPOSE_NOTES];
     int notes;
 };

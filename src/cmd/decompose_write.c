@@ -8,7 +8,6 @@
 #include "file/csv.h"
 #include "file/wav.h"
 #include "output/gnuplot.h"
-#include "response/modes.h"
 
 #define INTERVAL 1.96 /* of a normal distribution, 95 % */
 
@@ -24,7 +23,8 @@ static void put_modes(FILE *f, const struct decompose *d)
 {
     const struct source_filter *s = &d->found;
     int places = s->places > 0 ? s->places : 1;
-    fprintf(f, "# poles: shared\n# quantity: %s\n", modes_quantity_name((enum modes_quantity)d->quantity));
+    /* velocity: to that a scene adds nothing, and the click is beside it */
+    fputs("# poles: shared\n# quantity: velocity\n", f);
     fprintf(f, "# normalisation: relative: %s\n",
             d->table ? "that of the table"
                      : "a recording does not say how hard was struck; gains are in what it holds, whatever that is");
@@ -68,8 +68,7 @@ static void put_scene(FILE *f, const struct decompose *d, bool impacts)
             impacts ? "impacts like those that were found" : "the force that was found");
     if (impacts) fputs("include: [impacts.yaml]\n", f);
     fprintf(f, "surface: {response: modes.csv%s}\n", moves ? ", moving: launch, extrapolate: nearest" : "");
-    if (!d->table && d->found.clicks > 0)
-        fputs("scraper: {response: click.wav}  # what sounds at once, and is in no mode\n", f);
+    if (d->found.clicks > 1) fputs("scraper: {response: click.wav}  # what sounds at once, and is in no mode\n", f);
     if (moves)
         fprintf(f, "motion: {path: line, law: constant, to: [%.9g, 0], duration: %.9g s}\n", d->seconds, d->seconds);
     else
@@ -190,7 +189,7 @@ bool decompose_write(struct decompose *d, const char *folder, struct err *e)
     }
     const struct source_filter *s = &d->found; /* a push of a sample in newtons, a response per N s */
     if (!put_sound(d, in_folder(d, folder, "source.wav"), s->source, d->rate, d->n, e) ||
-        (!d->table && s->clicks > 0 && !put_sound(d, in_folder(d, folder, "click.wav"), s->click, 1, s->clicks, e)))
+        (s->clicks > 1 && !put_sound(d, in_folder(d, folder, "click.wav"), s->click, 1, s->clicks, e)))
         return false;
     if (d->series->counted) {
         struct analyse_files *all = ARENA_TAKE(d->arena, struct analyse_files, 1);
