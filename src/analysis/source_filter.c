@@ -467,7 +467,7 @@ bool source_filter_find(const double *x, long n, double rate, const struct sourc
     *f = (struct source_filter){.x = x, .n = n, .rate = rate, .source = ARENA_TAKE(a, double, n)};
     double *y = source_poles_unforeseen(x, n, a);
     source_poles_onsets(f, y, o->rise, a);
-    struct source_poles_frame *frame = source_poles_frames(f, a);
+    struct source_poles_frame *frame = source_poles_frames(f, y, a);
     bool ok = true;
     if (mode) {
         f->m = m;
@@ -516,6 +516,11 @@ bool source_filter_find(const double *x, long n, double rate, const struct sourc
         for (long i = 0; i < n; i++)
             left += (x[i] - given[i]) * (x[i] - given[i]);
         f->rings = all > 0 ? 1 - left / all : 0;
+        if (lee && f->rings < 0)
+            ok = err_set(
+                e, ERR_SCENE,
+                "impacts follow each other too closely to tell the gains of each: take --method lagrange, or fewer "
+                "modes (--modes)");
     }
     gsl_set_error_handler(handler);
     return ok;

@@ -90,24 +90,48 @@ void source_poles_onsets(struct source_filter *f, const double *y, double rise, 
     arena_close(inner);
 }
 
-/* Behind each onset, until the next. */
-struct source_poles_frame *source_poles_frames(const struct source_filter *f, struct arena *a)
+/* Behind each onset, until the next, or until something comes that is not foreseen though no onset was seen: more than
+   thrice what was left of the onset in the first 2 ms, and than 8 times the median deviation. */
+struct source_poles_frame *source_poles_frames(const struct source_filter *f, const double *y, struct arena *a)
 {
     struct source_poles_frame *list = ARENA_TAKE(a, struct source_poles_frame, f->onsets + 1);
+    struct arena *inner = arena_open();
+    double *size = ARENA_TAKE(inner, double, f->n / 7 + 1);
+    size_t few = 0;
+    for (long i = 0; i < f->n; i += 7)
+        size[few++] = fabs(y[i]);
+    gsl_sort(size, 1, few);
+    double quiet = 8 * gsl_stats_median_from_sorted_data(size, 1, few) / 0.6745;
     for (int k = 0; k < f->onsets; k++) {
-        long from = f->onset[k] + (long)(SOURCE_PAST * f->rate),
+        long from = f->onset[k] + (long)(SOURCE_PAST * f->rate), first = from + (long)(2e-3 * f->rate),
              to = k + 1 < f->onsets ? f->onset[k + 1] - (long)(SOURCE_MARGIN * f->rate) : f->n,
-             most = (long)(longest * f->rate);
-        list[k] = (struct source_poles_frame){.onset = k, .from = from, .n = to - from < most ? to - from : most};
-        for (long i = from; i < from + list[k].n; i++)
-            list[k].energy += f->x[i] * f->x[i];
+             most = from + (long)(longest * f->rate);
+        double limit = quiet;
+        to = to < most ? to : most;
+        for (long i = from; i < to; i++) {
+            if (i < first)
+                limit = fmax(limit, 3 * fabs(y[i]));
+            else if (fabs(y[i]) > limit)
+                to = i - (long)(SOURCE_MARGIN * f->rate);
+        }
+        list[k] = (struct source_poles_frame){.onset = k, .from = from, .n = to - from};
+        if (to - from > (long)(0.05 * f->rate)) list[k].from += (long)(4e-3 * f->rate), list[k].n = to - list[k].from;
+        double part[2] = {0, 0};
+        for (long i = 0; i < list[k].n; i++)
+            part[2 * i >= list[k].n] += f->x[list[k].from + i] * f->x[list[k].from + i];
+        bool falls = part[1] < ((double)list[k].n > 0.02 * f->rate ? 0.7 : 1) * part[0];
+        list[k].energy = falls ? part[0] + part[1] : 0; /* what does not fall is driven by what was not seen */
     }
+    arena_close(inner);
     return list;
 }
 
-static int by_energy(const void *x, const void *y)
+/* Of a frame for its poles: their variance falls with its energy and with the square of its length. */
+static double worth(const struct source_poles_frame *f) { return f->energy * (double)f->n * (double)f->n; }
+
+static int by_worth(const void *x, const void *y)
 {
-    double a = ((const struct source_poles_frame *)x)->energy, b = ((const struct source_poles_frame *)y)->energy;
+    double a = worth(x), b = worth(y);
     return (a < b) - (a > b);
 }
 
@@ -280,8 +304,10 @@ bool source_poles_find(struct source_filter *f, const struct source_filter_optio
         best[f->frames++] = frame[k];
         f->longest = fmax(f->longest, (double)frame[k].n / f->rate);
     }
-    qsort(best, (size_t)f->frames, sizeof *best, by_energy);
+    qsort(best, (size_t)f->frames, sizeof *best, by_worth);
     f->frames = f->frames < POLES ? f->frames : POLES;
+    while (f->frames > 1 && worth(&best[f->frames - 1]) < 0.03 * worth(&best[0])) /* they would add only their noise */
+        f->frames--;
     qsort(best, (size_t)f->frames, sizeof *best, by_onset);
     bool ok = true, lee = o->method == SOURCE_FILTER_LEE;
     if (lee && f->frames > 0)
@@ -292,7 +318,7 @@ bool source_poles_find(struct source_filter *f, const struct source_filter_optio
                      "take --method lagrange",
                      1e3 * shortest);
     else {
-        if (f->frames >= 3) ok = poles_fitted(f, o, best, f->frames, a, e);
+        if (f->frames >= 3 || f->longest > 5 * shortest) ok = poles_fitted(f, o, best, f->frames, a, e);
         if (ok && f->m == 0) ok = poles_correlated(f, o, a, e);
     }
     if (ok && f->m == 0)

@@ -20,7 +20,7 @@ double *source_poles_unforeseen(const double *x, long n, struct arena *a);
 void source_poles_onsets(struct source_filter *f, const double *y, double rise, struct arena *a);
 
 /* One behind each onset. */
-struct source_poles_frame *source_poles_frames(const struct source_filter *f, struct arena *a);
+struct source_poles_frame *source_poles_frames(const struct source_filter *f, const double *y, struct arena *a);
 
 /* f->m, f->mode and how they were found. ERR_SCENE */
 bool source_poles_find(struct source_filter *f, const struct source_filter_options *o,

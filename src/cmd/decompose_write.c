@@ -177,6 +177,21 @@ bool decompose_write(struct decompose *d, const char *folder, struct err *e)
                                       {"scene.yaml", put_scene_chosen},
                                       {"force.yaml", put_scene_force}};
     struct err none = {0};
+    if (d->series->counted) { /* a series that no scene may have is no reason to write nothing */
+        struct analyse_files *all = ARENA_TAKE(d->arena, struct analyse_files, 1);
+        bool part = analyse_report_part(d->series, in_folder(d, folder, "impacts.yaml"), all, &none);
+        outfile_commit_all(all->o, all->n, &none);
+        if (!part && none.kind == ERR_SCENE && d->notes < DECOMPOSE_NOTES) {
+            d->note[d->notes++] = arena_format(
+                d->arena, "no impacts can be drawn like these, and the scene has the force itself: %s", none.text);
+            d->impacts = false;
+            none = (struct err){0};
+        }
+        if (none.kind) {
+            *e = none;
+            return false;
+        }
+    }
     if (!gnuplot_write(in_folder(d, folder, "decompose.png"), false, draw, d, &none) && none.kind != ERR_UNBUILT) {
         *e = none;
         return false;
@@ -191,12 +206,6 @@ bool decompose_write(struct decompose *d, const char *folder, struct err *e)
     if (!put_sound(d, in_folder(d, folder, "source.wav"), s->source, d->rate, d->n, e) ||
         (s->clicks > 1 && !put_sound(d, in_folder(d, folder, "click.wav"), s->click, 1, s->clicks, e)))
         return false;
-    if (d->series->counted) {
-        struct analyse_files *all = ARENA_TAKE(d->arena, struct analyse_files, 1);
-        bool ok = analyse_report_part(d->series, in_folder(d, folder, "impacts.yaml"), all, e);
-        outfile_commit_all(all->o, all->n, e);
-        if (!ok || e->kind) return false;
-    }
     struct outfile o;
     if (!outfile_open(&o, in_folder(d, folder, "decompose.json"), e)) return false;
     decompose_write_report(d, o.stream, true, e);
