@@ -296,7 +296,7 @@ static double under_force(const struct contact *own, const struct ring_choice *c
 {
     double moving = own->motion.made ? own->motion.made->duration : own->motion.duration,
            tail = isnan(s->output.tail) ? fmin(modes_ring_time(&c->modes, 80), COMPUTED_MOST) : s->output.tail;
-    return moving > 0 ? moving / (moving + tail) : 1;
+    return !isnan(moving) && moving > 0 ? moving / (moving + tail) : 1; /* of a speed it is not known here */
 }
 
 /* At one listening place. */
