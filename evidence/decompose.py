@@ -168,7 +168,7 @@ def known():
     write_wav("k.wav", x)
     row("rho 0, three reflections", "k.wav", true, rows("k.impacts.csv"), "lagrange")
     for name, text in (("a scrape", "surface: {response: m20.csv, roughness: {rms: 5 um}}\nscraper: {mass: 20 g}\nmotion: {path: line, to: [50 cm, 0], duration: 5 s}\n"),
-                       ("a coupled ball", "surface: {response: m20.csv, roughness: {rms: 0.3 um}}\nball: {radius: 1 cm, material: steel}\ncontact: {model: roll_coupled}\n"
+                       ("a coupled ball", "surface: {response: m20.csv, material: steel, roughness: {rms: 0.3 um}}\nball: {radius: 1 cm, material: steel}\ncontact: {model: roll_coupled}\n"
                         "motion: {path: line, to: [50 cm, 0], duration: 3 s}\n")):
         (WORK / "s.yaml").write_text(f"rasp: 1\n{text}output: {{encoding: float32}}\n")
         run("render", "s.yaml", "-q", "--force", "-o", "s.wav")

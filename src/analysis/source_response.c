@@ -30,7 +30,7 @@ static double align(const double *y, const double *pulse, long n, long reach, bo
     }
     double u = 0;
     if (top > -reach && top < reach && best != 0) {
-        const double *p = sum + top + reach;
+        const double *p = &sum[top + reach];
         double bend = p[-1] - 2 * p[0] + p[1], tilt = (p[1] - p[-1]) / 2;
         if (bend * best < 0) u = fmax(-0.5, fmin(-tilt / bend, 0.5));
         best += u * tilt / 2;

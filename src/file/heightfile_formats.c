@@ -132,7 +132,8 @@ static bool read_grid(struct grid *g, const char *from, double *z)
         first = first ? first : line;
         if (g->rows > 0 && n != g->columns)
             return err_set(g->e, ERR_SCENE,
-                           "%s:%d: has %zu numbers, and line %d has %zu: all rows of a height map are equally long",
+                           "%s:%d: has %zu numbers, and line %d has %zu: all rows of a height map are equally long: "
+                           "complete the row",
                            g->path, line, n, first, g->columns);
         g->columns = n;
         g->rows++;

@@ -36,7 +36,8 @@ struct scene accuracy_coarsest(const struct scene *s)
 {
     struct scene c = *s;
     for (int k = 0; k < KNOBS && !isnan(accuracy_target(&s->accuracy)); k++)
-        if (!(s->accuracy.by_user & 1u << k)) accuracy_turn(&c.accuracy, (enum knob)k, keys_knobs[k].preset[0]);
+        if (k != KNOB_contact_steps && !(s->accuracy.by_user & 1u << k)) /* no fewer of these than the preset's own */
+            accuracy_turn(&c.accuracy, (enum knob)k, keys_knobs[k].preset[0]);
     return c;
 }
 
