@@ -133,7 +133,7 @@ static bool read_grid(struct grid *g, const char *from, double *z)
         if (g->rows > 0 && n != g->columns)
             return err_set(g->e, ERR_SCENE,
                            "%s:%d: has %zu numbers, and line %d has %zu: all rows of a height map are equally long: "
-                           "complete the row",
+                           "write as many in each",
                            g->path, line, n, first, g->columns);
         g->columns = n;
         g->rows++;
