@@ -1,6 +1,7 @@
 # A recording taken apart: modes and impacts that are known come back, what is written renders, and what a recording
 # cannot say is said.
 . "$ROOT/tests/lib/test.sh"
+[ -z "${SANITIZED:-}" ] || skip "minutes under sanitizers; unit/test_source_filter runs the same"
 cat > modes.csv <<'CSV'
 # poles: shared
 # quantity: velocity
