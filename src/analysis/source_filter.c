@@ -96,7 +96,7 @@ static int find_jumps(struct source_filter *f, struct source_poles_frame *frame,
         frame[k].known =
             frame[k].energy >= least && state_of(f, &frame[k], state + k * f->m, &rest, &energy_all, &count);
     f->noise = count > 0 ? sqrt(rest / count) : 0;
-    f->fits = energy_all > 0 ? 1 - rest / energy_all : 0;
+    f->fits = energy_all > 0 ? 1 - rest / energy_all : NAN;
     for (int k = 0, last = -1; k < f->onsets; last = frame[k].known ? k : last, k++) {
         struct jump *j = &jump[jumps];
         if (!frame[k].known) continue; /* what it added is in the next that is known */
@@ -464,7 +464,7 @@ bool source_filter_find(const double *x, long n, double rate, const struct sourc
 {
     bool lee = o->method == SOURCE_FILTER_LEE;
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
-    *f = (struct source_filter){.x = x, .n = n, .rate = rate, .source = ARENA_TAKE(a, double, n)};
+    *f = (struct source_filter){.x = x, .n = n, .rate = rate, .fits = NAN, .source = ARENA_TAKE(a, double, n)};
     double *y = source_poles_unforeseen(x, n, a);
     source_poles_onsets(f, y, o->rise, a);
     struct source_poles_frame *frame = source_poles_frames(f, y, a);

@@ -197,6 +197,9 @@ static bool poles_correlated(struct source_filter *f, const struct source_filter
         for (; end < to; end++)
             most = fmax(most, fabs(x[end]));
     }
+    end = end < first + 128 ? first + 128 : end;
+    if (end > lags || end > f->n / 2)
+        return err_set(e, ERR_SCENE, "%.3g s are too short to tell what rings", (double)f->n / f->rate);
     struct source_filter r = {.x = x, .n = end, .rate = f->rate};
     struct source_poles_frame whole = {.from = first, .n = end - first};
     if (!poles_fitted(&r, o, &whole, 1, a, e)) return false;
@@ -300,7 +303,7 @@ bool source_poles_find(struct source_filter *f, const struct source_filter_optio
 {
     struct source_poles_frame *best = ARENA_TAKE(a, struct source_poles_frame, f->onsets + 1);
     for (int k = 0; k < f->onsets; k++) {
-        if ((double)frame[k].n < shortest * f->rate || frame[k].energy == 0) continue;
+        if ((double)frame[k].n < shortest * f->rate || !modal_length(frame[k].n) || frame[k].energy == 0) continue;
         best[f->frames++] = frame[k];
         f->longest = fmax(f->longest, (double)frame[k].n / f->rate);
     }

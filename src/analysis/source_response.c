@@ -120,7 +120,7 @@ static bool fit_gains(struct source_filter *f, const struct source_response_hits
     for (int k = 0, last = 0; k < h->n; k++) {
         while (last < h->n && h->at[last] < h->at[k] + (double)n)
             last++;
-        if (last - k > most) from = (long)h->at[k];
+        if (last - k > most) from = (long)fmax(h->at[k], 0);
         most = last - k > most ? last - k : most;
     }
     from = from + n > f->n ? f->n - n : from;
@@ -192,7 +192,7 @@ static void refine(const struct source_filter *f, struct source_response_hits *h
         }
     }
     for (int k = 0; k < h->n; k++) {
-        long first = (long)ceil(h->at[k]), to = first + length < f->n ? length : f->n - first;
+        long first = (long)fmax(ceil(h->at[k]), 0), to = first + length < f->n ? length : f->n - first;
         double u = (double)first - h->at[k], xx = 0, xy = 0, yy = 0, xr = 0, yr = 0;
         for (long t = 0; t < to; t++) {
             x[t] = source_response_between(unit + 1 + t, u);

@@ -111,7 +111,7 @@ static bool take(struct decompose *d, struct err *e)
     wav_stream_close(&w);
     if (!ok || !wav_stream_open(&w, d->file, e)) return false;
     long skip = (long)rint(d->begin * d->rate), at = 0, got = 1, each = (long)(chunk * w.rate);
-    double *x = ARENA_TAKE(d->arena, double, each *w.channels), loud = 0;
+    double *x = ARENA_TAKE(d->arena, double, each *w.channels);
     d->n = (long)rint(d->seconds * d->rate);
     d->n = d->n < (long)w.frames - skip ? d->n : (long)w.frames - skip;
     d->x = ARENA_TAKE(d->arena, double, d->n);
@@ -120,13 +120,21 @@ static bool take(struct decompose *d, struct err *e)
         for (long i = 0; ok && i < got; i++)
             if (at + i >= skip && at + i < skip + d->n) {
                 d->x[at + i - skip] = x[i * w.channels + d->channel - 1];
-                loud = fmax(loud, fabs(d->x[at + i - skip]));
+                if (!isfinite(d->x[at + i - skip])) {
+                    ok = err_set(e, ERR_SCENE, "%s: frame %ld is not a number: the file is damaged", d->shown, at + i);
+                    break;
+                }
             }
         at += got;
     }
     wav_stream_close(&w);
-    if (ok && loud == 0)
-        ok = err_set(e, ERR_SCENE, "%s: silent: every sample of channel %ld is 0", d->shown, d->channel);
+    double mean = 0, loud = 0;
+    for (long i = 0; ok && i < d->n; i++)
+        mean += d->x[i] / (double)d->n;
+    for (long i = 0; ok && i < d->n; i++)
+        loud = fmax(loud, fabs(d->x[i] -= mean));
+    if (ok && loud <= 1e-12 * fabs(mean))
+        ok = err_set(e, ERR_SCENE, "%s: silent: every sample of channel %ld is %.3g", d->shown, d->channel, mean);
     if (ok && w.channels > 1 && !args_given(&d->c->args, "channel"))
         note(d, "of %d channels the first is taken (--channel: another)", w.channels);
     if (ok) clipping(d);
@@ -163,7 +171,7 @@ static void echo(struct decompose *d)
     enum { LAGS = 240 };
     static const double width = 0.25e-3, first = 1e-3; /* s */
     const struct impact_events *v = &d->found.impacts;
-    double share[LAGS + 1] = {0}, weaker[LAGS + 1] = {0}, most = 0, chance = v->n / d->seconds * 2 * width;
+    double share[LAGS + 2] = {0}, weaker[LAGS + 2] = {0}, most = 0, chance = v->n / d->seconds * 2 * width;
     int at = 0;
     for (int i = 0; i < v->n; i++)
         for (int k = i + 1; k < v->n && v->time[k] - v->time[i] < LAGS * width; k++) {
@@ -175,7 +183,9 @@ static void echo(struct decompose *d)
         }
     for (int q = (int)(first / width); q < LAGS; q++)
         if (share[q] > most) most = share[at = q];
-    d->echo = v->n >= 10 && most > 0.4 && most > 6 * chance ? at * width : NAN;
+    bool follows =
+        v->n >= 10 && most > 0.4 && most > 6 * chance && weaker[at] < 0.7 * most * v->n; /* none is as strong */
+    d->echo = follows ? at * width : NAN;
     if (!isnan(d->echo))
         note(d,
              "%.0f %% of the impacts are followed by another %.3g ms later, %.0f dB weaker: a reflection of the room, "
@@ -277,6 +287,9 @@ static bool one(struct decompose *d, struct err *e)
     struct source_filter_mode *mode = NULL;
     int modes = 0;
     if (!take(d, e)) return false;
+    if (d->rate < 8000 || d->rate > 768000)
+        return err_set(e, ERR_SCENE, "%s: %g samples a second; a scene has 8 kHz to 768 kHz: resample it", d->shown,
+                       d->rate);
     o->low = isnan(o->low) ? 40 : o->low;
     o->high = fmin(isnan(o->high) ? 0.45 * d->rate : o->high, 0.49 * d->rate);
     o->fastest = fmin(o->fastest, 0.05 * d->rate);
@@ -313,8 +326,12 @@ static bool decompose_file(struct cmd_call *c, const char *file, const char *fol
     struct arena *a = arena_open();
     struct decompose *d = ARENA_TAKE(a, struct decompose, 1);
     const char *slash = strrchr(file, '/'), *temporary = NULL;
-    *d = (struct decompose){
-        .c = c, .arena = a, .file = file, .shown = slash ? slash + 1 : file, .folder = folder, .echo = NAN};
+    *d = (struct decompose){.c = c,
+                            .arena = a,
+                            .file = file,
+                            .shown = text_shown(a, slash ? slash + 1 : file),
+                            .folder = folder,
+                            .echo = NAN};
     bool ok = options(d, e) && folder_free(d, folder, e) && one(d, e) &&
               (temporary = outfile_folder_open(folder, a, e)) != NULL;
     if (temporary) {
@@ -335,16 +352,20 @@ static int decompose_run(struct cmd_call *c, struct err *e)
         n--;
     if (!n) return err_set(e, ERR_USAGE, "-o FOLDER is needed: the folder to write"), (int)e->kind;
     output = arena_format(c->arena, "%.*s", (int)n, output);
-    bool ok = true;
-    for (int k = 0; ok && k < c->args.n_operands; k++) {
+    const char **folder = ARENA_TAKE(c->arena, const char *, c->args.n_operands);
+    for (int k = 0; k < c->args.n_operands; k++) {
         const char *file = c->args.operands[k], *slash = strrchr(file, '/'), *name = slash ? slash + 1 : file,
                    *dot = strrchr(name, '.');
-        ok = decompose_file(c, file,
-                            c->args.n_operands == 1 ? output
-                                                    : arena_format(c->arena, "%s.%.*s", output,
-                                                                   dot ? (int)(dot - name) : (int)strlen(name), name),
-                            e);
+        int length = dot && dot > name ? (int)(dot - name) : (int)strlen(name);
+        folder[k] = c->args.n_operands == 1 ? output : arena_format(c->arena, "%s.%.*s", output, length, name);
+        for (int i = 0; i < k; i++)
+            if (!strcmp(folder[i], folder[k]))
+                return err_set(e, ERR_USAGE, "%s and %s would both be in %s: take one at a time", c->args.operands[i],
+                               file, folder[k]),
+                       (int)e->kind;
     }
+    for (int k = 0; k < c->args.n_operands && decompose_file(c, c->args.operands[k], folder[k], e); k++)
+        ;
     return (int)e->kind;
 }
 
