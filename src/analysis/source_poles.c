@@ -198,7 +198,9 @@ static bool poles_correlated(struct source_filter *f, const struct source_filter
             most = fmax(most, fabs(x[end]));
     }
     end = end < first + 128 ? first + 128 : end;
-    if (end > lags || end > f->n / 2)
+    end = end > lags ? lags : end;
+    end = end > f->n / 2 ? f->n / 2 : end;
+    if (end < first + 128)
         return err_set(e, ERR_SCENE, "%.3g s are too short to tell what rings", (double)f->n / f->rate);
     struct source_filter r = {.x = x, .n = end, .rate = f->rate};
     struct source_poles_frame whole = {.from = first, .n = end - first};
