@@ -5,7 +5,7 @@
    such do not count. To the deviation is added, in squares, 1 dB and a quarter of an octave: what hardly changes is not
    blown up to noise. Of sounds of different length the shorter goes on at the floor. That is for motions.
 
-   What a struck object is of is told by how fast it fades and how bright it is as such: the slope of the level (least
+   The material of a struck object is in how fast it fades and how bright it is as such: the slope of the level (least
    squares, from the loudest frame to the last that is audible, at least 1 dB/s) and the mean of the centroid's
    logarithm, weighted by power. */
 #include "analysis/machine_listener.h"

@@ -1,7 +1,6 @@
 #include "analysis/source_filter.h"
 
 #include <gsl/gsl_errno.h>
-#include <gsl/gsl_linalg.h>
 #include <gsl/gsl_sort_double.h>
 #include <gsl/gsl_statistics_double.h>
 #include <stdlib.h>
@@ -32,38 +31,16 @@ static bool state_of(const struct source_filter *f, const struct source_poles_fr
             basis[(2 * i + 1) * n + t] = z.re;
         }
     }
-    gsl_matrix *normal = gsl_matrix_alloc((size_t)all, (size_t)all);
-    gsl_vector *right = gsl_vector_alloc((size_t)all);
-    for (long p = 0; p < all; p++) {
-        for (long q = 0; q <= p; q++) {
-            double sum = 0;
-            for (long t = 0; t < n; t++)
-                sum += basis[p * n + t] * basis[q * n + t];
-            gsl_matrix_set(normal, (size_t)p, (size_t)q, p == q ? sum * (1 + 1e-9) : sum);
-            gsl_matrix_set(normal, (size_t)q, (size_t)p, p == q ? sum * (1 + 1e-9) : sum);
-        }
-        double sum = 0;
-        for (long t = 0; t < n; t++)
-            sum += basis[p * n + t] * f->x[at->from + t];
-        gsl_vector_set(right, (size_t)p, sum);
+    double *gain = ARENA_TAKE(a, double, all);
+    memcpy(left, f->x + at->from, (size_t)n * sizeof *left);
+    bool ok = source_response_solve(basis, all, n, n, left, gain);
+    for (long t = 0; ok && t < n; t++) {
+        *rest += left[t] * left[t];
+        *all_of += f->x[at->from + t] * f->x[at->from + t];
     }
-    bool ok = gsl_linalg_cholesky_decomp1(normal) == GSL_SUCCESS;
-    if (ok) {
-        gsl_linalg_cholesky_svx(normal, right);
-        memcpy(left, f->x + at->from, (size_t)n * sizeof *left);
-        for (long p = 0; p < all; p++)
-            for (long t = 0; t < n; t++)
-                left[t] -= gsl_vector_get(right, (size_t)p) * basis[p * n + t];
-        for (long t = 0; t < n; t++) {
-            *rest += left[t] * left[t];
-            *all_of += f->x[at->from + t] * f->x[at->from + t];
-        }
-        *count += (double)(n - all);
-        for (int i = 0; i < f->m; i++)
-            state[i] = (cplx){gsl_vector_get(right, 2 * (size_t)i), gsl_vector_get(right, 2 * (size_t)i + 1)};
-    }
-    gsl_vector_free(right);
-    gsl_matrix_free(normal);
+    if (ok) *count += (double)(n - all);
+    for (int i = 0; ok && i < f->m; i++)
+        state[i] = (cplx){gain[2 * i], gain[2 * i + 1]};
     arena_close(a);
     return ok;
 }
@@ -182,9 +159,11 @@ struct pulse {
     long n;
 };
 
-static void divide(struct source_filter *f, double snr, double floor, double loud, struct pulse *pulse, struct arena *a)
+/* The source, and an impact's pulse in it. snr, floor: see source_filter.h; loud: the recording's power. */
+static void divide(struct source_filter *f, double snr, double floor, double loud, struct pulse *pulse)
 {
     long size = (long)fft_good_size((size_t)(f->n + (long)fmin(f->rate, (double)f->n) + REACH)), bins = size / 2 + 1;
+    struct arena *a = arena_open();
     double *x = ARENA_TAKE(a, double, size), *re = ARENA_TAKE(a, double, bins), *im = ARENA_TAKE(a, double, bins),
            *hr = ARENA_TAKE(a, double, bins), *hi = ARENA_TAKE(a, double, bins), most = 0, mean = 0, eps;
     struct fft *fft = fft_open((size_t)size);
@@ -217,6 +196,7 @@ static void divide(struct source_filter *f, double snr, double floor, double lou
     for (pulse->n = REACH; pulse->n > 4 && fabs(x[pulse->n - 1]) < 1e-3 * x[0];)
         pulse->n--;
     fft_close(fft);
+    arena_close(a);
 }
 
 static double squares(const double *x, long n)
@@ -500,7 +480,7 @@ bool source_filter_find(const double *x, long n, double rate, const struct sourc
                 late = SOURCE_RESPONSE_LEAD;
                 if (!mode) normalise(f);
             }
-            divide(f, o->snr, floors[round], loud, &pulse, a);
+            divide(f, o->snr, floors[round], loud, &pulse);
             if (round == 3) break;
             find_impacts(f, o->both, &pulse, a);
             h = (struct source_response_hits){

@@ -11,14 +11,16 @@
 
      x = sum_m Im A_m sum_k a_k e^(s_m (t - t_k))
 
-   and what is left about them is their click, which no mode is: the force itself, heard, and what decays at once.
+   and what is left about them is their click, which no mode is: the force itself as it sounds, and what decays at once.
    The source is the recording divided by the response H of both, where that is loud enough:
 
      F = Y H* / (|H|^2 + eps)      eps: the noise's power over the source's, at least 40 dB below the greatest |H|^2
 
    An impact in it is a pulse, IFFT(|H|^2/(|H|^2 + eps)); the greatest is taken off, and so on down to the noise.
    With these impacts gains, click and source are found once more. 002 prints no eps, no gains and no search of
-   impacts: ours.
+   impacts: ours. Nor is an
+   impact's own shape told from the click (002: a Meixner window): impacts are drawn as short raised cosines, of series
+   as rasp analyse finds them (002 section IV), not of exponential amplitudes and gamma intervals as in II-C.
 
    Lee et al. (papers/002 [19]): the poles by linear prediction of low order in subbands, over all frames together.
    Each impact has gains of its own, which are what the zeros of its spectrum say: modes that it excites little, or

@@ -110,6 +110,36 @@ static void driven(const struct source_filter *f, cplx s, const struct source_re
     }
 }
 
+bool source_response_solve(const double *basis, long columns, long stride, long n, double *x, double *to)
+{
+    gsl_matrix *normal = gsl_matrix_alloc((size_t)columns, (size_t)columns);
+    gsl_vector *right = gsl_vector_alloc((size_t)columns);
+    for (long p = 0; p < columns; p++) {
+        double with = 0;
+        for (long q = 0; q <= p; q++) {
+            double sum = 0;
+            for (long t = 0; t < n; t++)
+                sum += basis[p * stride + t] * basis[q * stride + t];
+            if (p == q) sum = sum * (1 + 1e-9) + 1e-300; /* two modes may be as good as one */
+            gsl_matrix_set(normal, (size_t)p, (size_t)q, sum);
+            gsl_matrix_set(normal, (size_t)q, (size_t)p, sum);
+        }
+        for (long t = 0; t < n; t++)
+            with += basis[p * stride + t] * x[t];
+        gsl_vector_set(right, (size_t)p, with);
+    }
+    bool ok = gsl_linalg_cholesky_decomp1(normal) == GSL_SUCCESS;
+    if (ok) gsl_linalg_cholesky_svx(normal, right);
+    for (long p = 0; ok && p < columns; p++) {
+        to[p] = gsl_vector_get(right, (size_t)p);
+        for (long t = 0; t < n; t++)
+            x[t] -= to[p] * basis[p * stride + t];
+    }
+    gsl_vector_free(right);
+    gsl_matrix_free(normal);
+    return ok;
+}
+
 /* A of all modes at once, by least squares over the recording but for what is near an impact: x = sum Im A z. Of a long
    one over the part of most impacts. */
 static bool fit_gains(struct source_filter *f, const struct source_response_hits *h)
@@ -140,36 +170,14 @@ static bool fit_gains(struct source_filter *f, const struct source_response_hits
             energy += x[used] * x[used];
             used++;
         }
-    gsl_matrix *normal = gsl_matrix_alloc((size_t)all, (size_t)all);
-    gsl_vector *right = gsl_vector_alloc((size_t)all);
-    for (long p = 0; p < all; p++) {
-        for (long q = 0; q <= p; q++) {
-            double sum = 0;
-            for (long t = 0; t < used; t++)
-                sum += basis[p * n + t] * basis[q * n + t];
-            gsl_matrix_set(normal, (size_t)p, (size_t)q, p == q ? sum * (1 + 1e-9) + 1e-300 : sum);
-            gsl_matrix_set(normal, (size_t)q, (size_t)p, p == q ? sum * (1 + 1e-9) + 1e-300 : sum);
-        }
-        double sum = 0;
-        for (long t = 0; t < used; t++)
-            sum += basis[p * n + t] * x[t];
-        gsl_vector_set(right, (size_t)p, sum);
-    }
-    bool ok = used > 2 * all && gsl_linalg_cholesky_decomp1(normal) == GSL_SUCCESS;
-    if (ok) {
-        gsl_linalg_cholesky_svx(normal, right);
-        for (long p = 0; p < all; p++)
-            for (long t = 0; t < used; t++)
-                x[t] -= gsl_vector_get(right, (size_t)p) * basis[p * n + t];
-        for (long t = 0; t < used; t++)
-            left += x[t] * x[t];
-        for (int i = 0; i < f->m; i++)
-            f->mode[i].gain = (cplx){gsl_vector_get(right, 2 * (size_t)i), gsl_vector_get(right, 2 * (size_t)i + 1)};
-        f->noise = sqrt(left / (double)used);
-        f->fits = energy > 0 ? 1 - left / energy : 0;
-    }
-    gsl_vector_free(right);
-    gsl_matrix_free(normal);
+    double *gain = ARENA_TAKE(a, double, all);
+    bool ok = used > 2 * all && source_response_solve(basis, all, n, used, x, gain);
+    for (long t = 0; ok && t < used; t++)
+        left += x[t] * x[t];
+    for (int i = 0; ok && i < f->m; i++)
+        f->mode[i].gain = (cplx){gain[2 * i], gain[2 * i + 1]};
+    if (ok) f->noise = sqrt(left / (double)used);
+    if (ok) f->fits = energy > 0 ? 1 - left / energy : 0;
     arena_close(a);
     return ok;
 }

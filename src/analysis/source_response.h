@@ -22,6 +22,10 @@ static inline double source_response_between(const double *x, double u)
 void source_response_pulses(struct source_filter *f, const double *y, bool both, struct source_response_hits *h,
                             struct arena *a);
 
+/* to[columns] that makes x[n] less the sum of to[p] basis[p][0 .. n - 1] least in squares; x is then that. stride: of
+   basis, from column to column. false: there is no one solution, and x is as it was. */
+bool source_response_solve(const double *basis, long columns, long stride, long n, double *x, double *to);
+
 /* Gains (unless they are known), sizes and times in turn; then all begins SOURCE_RESPONSE_LEAD earlier, for the click,
    which is before the onset, too. false: too little to go by, and all is as it was. */
 bool source_response_fit(struct source_filter *f, struct source_response_hits *h, bool known, struct arena *a);

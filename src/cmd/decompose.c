@@ -11,7 +11,6 @@
 #include "base/outfile.h"
 #include "base/text.h"
 #include "file/wav.h"
-#include "num/fft.h"
 #include "response/mode_table.h"
 
 static const double minute = 60;    /* s that are taken at most */
