@@ -18,9 +18,9 @@
 
    An impact in it is a pulse, IFFT(|H|^2/(|H|^2 + eps)); the greatest is taken off, and so on down to the noise.
    With these impacts gains, click and source are found once more. 002 prints no eps, no gains and no search of
-   impacts: ours. Nor is an
-   impact's own shape told from the click (002: a Meixner window): impacts are drawn as short raised cosines, of series
-   as rasp analyse finds them (002 section IV), not of exponential amplitudes and gamma intervals as in II-C.
+   impacts: ours. An impact's own shape (II-C: a Meixner window) is not separated from the click. Impacts are drawn as
+   short raised cosines, of series as rasp analyse finds them (002 section IV-E), not of exponential amplitudes and
+   gamma intervals as in II-C.
 
    Lee et al. (papers/002 [19]): the poles by linear prediction of low order in subbands, over all frames together.
    Each impact has gains of its own, which are what the zeros of its spectrum say: modes that it excites little, or
