@@ -104,7 +104,16 @@ void interrupt_report(void)
         pause();
 }
 
-/* The lists are not locked: who would change them waits for `names`, or is cut off. */
+/* A file goes without an allocation, which nftw needs; the list stays locked, as the program ends. */
+void interrupt_remove(void)
+{
+    pthread_mutex_lock(&lock);
+    for (const struct temporary *t = temporaries; t; t = t->next)
+        for (int k = 0; remove(t->path) != 0 && k < AGAIN && nftw(t->path, remove_one, 16, FTW_DEPTH | FTW_PHYS) == 0;
+             k++)
+            continue; /* until it is not there: another thread may still have made a file in the folder */
+}
+
 static _Noreturn void end(void)
 {
     pthread_rwlock_wrlock(&names);
@@ -116,10 +125,7 @@ static _Noreturn void end(void)
         kill(child, SIGKILL);
         waitpid(child, NULL, 0);
     }
-    pthread_mutex_lock(&lock);
-    for (const struct temporary *t = temporaries; t; t = t->next)
-        for (int k = 0; k < AGAIN && nftw(t->path, remove_one, 16, FTW_DEPTH | FTW_PHYS) == 0; k++)
-            continue; /* until it is not there: another thread may still have made a file in the folder */
+    interrupt_remove();
     _exit(ERR_INTERRUPTED);
 }
 

@@ -23,10 +23,11 @@ bool interrupt_pass_on(void);
 void interrupt_hold(void);
 void interrupt_go(void);
 
-/* Notes a temporary file, or folder with all that is in it: it goes when the program is ended. Made and noted within
- * one hold, it is never left behind. */
+/* Notes a temporary file, or folder with all that is in it: it goes when the program is ended, by a signal or for want
+ * of memory. Made and noted within one hold, it is never left behind. */
 void interrupt_temporary(const char *path);
 void interrupt_forget(const char *path); /* it is gone, or has another name */
+void interrupt_remove(void);             /* removes all of them: the program ends next */
 
 /* The child, of which there is one at a time; begun and noted within one hold. interrupt_wait waits until it is over,
  * and returns what wait4 does. */

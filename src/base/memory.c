@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/err.h"
+#include "base/interrupt.h"
 
 _Noreturn void memory_out(const char *format, ...)
 {
@@ -17,6 +18,7 @@ _Noreturn void memory_out(const char *format, ...)
     va_end(ap);
     snprintf(text, sizeof text, "out of memory (%s)", what);
     err_last_words(ERR_MEMORY, text);
+    interrupt_remove();
     _exit(ERR_MEMORY);
 }
 
