@@ -69,7 +69,11 @@ static enum csv_ends csv_cell(struct csv_reader *r, char **cell)
     if (*r->at == '"') return csv_quoted(r, cell);
     *cell = r->at;
     r->at += strcspn(r->at, ",\r\n\"");
-    if (*r->at == '"') return csv_bad(r, r->line, "a quote inside a cell that does not begin with one"), CSV_BAD;
+    if (*r->at == '"')
+        return csv_bad(r, r->line,
+                       "a quote inside a cell that does not begin with one: put the whole cell into "
+                       "quotes, and double those in it"),
+               CSV_BAD;
     return csv_after(r, r->at);
 }
 
@@ -110,9 +114,9 @@ static bool csv_header(struct csv_reader *r, struct csv *t)
             return err_set(r->e, ERR_SCENE, "%s:%d: column %zu has no name: give it one", r->file, line,
                            t->columns + 1);
         if (csv_column(t, cell) >= 0)
-            return err_set(r->e, ERR_SCENE, "%s:%d: two columns are called '%s'", r->file, line, cell);
+            return err_set(r->e, ERR_SCENE, "%s:%d: two columns are called '%s': rename one", r->file, line, cell);
         if (t->columns == MOST_COLUMNS)
-            return err_set(r->e, ERR_SCENE, "%s:%d: more than %d columns", r->file, line, MOST_COLUMNS);
+            return err_set(r->e, ERR_SCENE, "%s:%d: more than %d columns: leave some out", r->file, line, MOST_COLUMNS);
         t->names[t->columns++] = cell;
     }
     return true;

@@ -35,9 +35,10 @@ double accuracy_target(const struct accuracy *accuracy)
 struct scene accuracy_coarsest(const struct scene *s)
 {
     struct scene c = *s;
+    for (int i = 0; i < s->n_contacts; i++)
+        if (s->contacts[i].contact.model == CONTACT_ROLL_COUPLED) return c;
     for (int k = 0; k < KNOBS && !isnan(accuracy_target(&s->accuracy)); k++)
-        if (k != KNOB_contact_steps && !(s->accuracy.by_user & 1u << k)) /* no fewer of these than the preset's own */
-            accuracy_turn(&c.accuracy, (enum knob)k, keys_knobs[k].preset[0]);
+        if (!(s->accuracy.by_user & 1u << k)) accuracy_turn(&c.accuracy, (enum knob)k, keys_knobs[k].preset[0]);
     return c;
 }
 

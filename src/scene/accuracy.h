@@ -18,7 +18,8 @@ void accuracy_turn(struct accuracy *accuracy, enum knob k, double value);
 double accuracy_target(const struct accuracy *accuracy);
 
 /* The scene that is looked at before it is rendered: a preset that aims at an error takes knobs as coarse as its
-   renders may, and refuses nothing; with those of its own, finer ones, a ground could be too fine to be held. */
+   renders may, and refuses nothing; with those of its own, finer ones, a ground could be too fine to be held. With a
+   ball of roll_coupled it has none coarser than the preset's own (pipeline/error_budget.h). */
 struct scene accuracy_coarsest(const struct scene *s);
 
 /* Is it a value that the knob can have? */
