@@ -27,7 +27,8 @@ WARN = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wvla
 PKGS = sndfile yaml-0.1 fftw3 gsl jansson libebur128 libcrypto libpng soxr
 # -fno-tree-slp-vectorize: gcc 12 turns pairs such as a c + b s, b c - a s into vfmsubadd there, in spite of -ffp-contract=off.
 # maytrap: clang divides and converts before it asks whether it should, and traps (--traps) would stop at what no line does.
-CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off $(if $(findstring clang,$(CC)),-ffp-exception-behavior=maytrap) -fno-tree-slp-vectorize -fopenmp-simd $(OPT) $(WARN) $(WERROR) $(ARCH) $(SANITIZE) -Isrc
+# -fno-math-errno: nobody asks errno about a root, and a loop with one goes in lanes.
+CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off $(if $(findstring clang,$(CC)),-ffp-exception-behavior=maytrap) -fno-math-errno -fno-tree-slp-vectorize -fopenmp-simd $(OPT) $(WARN) $(WERROR) $(ARCH) $(SANITIZE) -Isrc
 # A short scene takes less time than loading libraries does: those that the system has as archives too are linked in. ARCHIVES= loads all.
 ARCHIVES = fftw3 gsl gslcblas crypto png16 z yaml jansson
 LIBS := $(foreach l,$(shell pkg-config --libs $(PKGS)) -lz -lsleef -lm,$(if $(and $(filter $(ARCHIVES:%=-l%),$l),$(filter /%,$(shell \

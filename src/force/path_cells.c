@@ -89,8 +89,9 @@ static void cells_flush(struct path_cells *w)
 
 /* ------------------------------------------------------------------ cutting a stretch at the knots */
 
-struct hermite {                             /* Hermite curve of a curved path over one stretch */
+struct hermite {                             /* Hermite curve over one stretch */
     double x[2], y[2], ex[2], ey[2], length; /* ends, unit tangents in the direction of travel, m */
+    bool bends;                              /* else it is a straight line */
 };
 
 struct stretch {
@@ -125,7 +126,7 @@ static struct spot stretch_at(const struct stretch *s, double done)
                      .y = a * c->y[0] + b * c->y[1] + from * c->ey[0] + to * c->ey[1],
                      .ex = s->heading * c->ex[0],
                      .ey = s->heading * c->ey[0]};
-    if (d > 0) r.ex = dx * (s->heading / d), r.ey = dy * (s->heading / d);
+    if (c->bends && d > 0) r.ex = dx * (s->heading / d), r.ey = dy * (s->heading / d);
     return r;
 }
 
@@ -140,16 +141,16 @@ static double curve_along(const struct hermite *c, int axis, double w, double *r
 
 /* Where the stretch reaches the family's next knot, along the tangent; corrected once if that may be before `nearest`.
  */
-static double grid_next(const struct knot_lines *g, const struct stretch *s, double done, const struct spot *at,
+INLINE double grid_next(const struct knot_lines *g, const struct stretch *s, double done, const struct spot *at,
                         double nearest)
 {
-    double rate = s->heading * (g->axis ? at->ey : at->ex) / g->pitch;
+    double rate = s->heading * (g->axis ? at->ey : at->ex) * g->per;
     if (fabs(rate) * (s->whole - done) < 1e-9) return HUGE_VAL;
-    double q = ((g->axis ? at->y : at->x) - g->origin) / g->pitch;
+    double q = ((g->axis ? at->y : at->x) - g->origin) * g->per;
     double slack = 1e-7 * (1 + fabs(q) * 1e-6); /* a knot just reached is not the next one */
     double edge = rate > 0 ? lanes_floor(q + slack) + 1 : lanes_ceil(q - slack) - 1, next = done + (edge - q) / rate;
-    if (!(next < s->path.length) || next - done > 2 * (nearest - done)) return next;
-    double speed, left = edge - (curve_along(&s->path, g->axis, next, &speed) - g->origin) / g->pitch,
+    if (!s->path.bends || !(next < s->path.length) || next - done > 2 * (nearest - done)) return next;
+    double speed, left = edge - (curve_along(&s->path, g->axis, next, &speed) - g->origin) * g->per,
                   better = next + left * g->pitch / speed;
     return fabs(speed) > 0.1 * fabs(rate * g->pitch) && better > done ? better : next;
 }
@@ -167,11 +168,11 @@ INLINE void add_point(struct path_cells *w, double alpha, const struct spot *at)
 }
 
 /* Is the last point this very one, and of the same alpha? */
-INLINE bool last_point(const struct cells *p, const struct stretch *s, const struct spot *at)
+INLINE bool last_point(const struct cells *p, double alpha, const struct spot *at)
 {
     int k = p->points - 1;
     return k >= 0 && p->x[k] == at->x && p->y[k] == at->y && p->ex[k] == at->ex && p->ey[k] == at->ey &&
-           p->alpha[0][k] == s->alpha;
+           p->alpha[0][k] == alpha;
 }
 
 /* It begins at the last point and ends at the next. */
@@ -201,7 +202,7 @@ static void cut_stretch(struct path_cells *w, const struct stretch *s)
         if (!(next > done))
             next = done + fmax(1e-12 * s->whole, 4e-16 * fabs(done)); /* no progress in floating point */
         struct spot end = next < s->whole ? stretch_at(s, next) : stretch_end(s, 1);
-        if (!last_point(p, s, &at)) add_point(w, s->alpha, &at);
+        if (!last_point(p, s->alpha, &at)) add_point(w, s->alpha, &at);
         if (w->halves) {
             struct spot middle = stretch_at(s, 0.5 * (done + next));
             add_cell(p, s->interval, s->heading, 0.5 * (next - done));
@@ -214,135 +215,78 @@ static void cut_stretch(struct path_cells *w, const struct stretch *s)
     }
 }
 
-/* ------------------------------------------------------------------ straight ways */
-
-/* u of the knot that comes next from u on; a knot just reached is not the next one. */
-static double knot_next(const struct path_cells *w, double u, int heading)
-{
-    double next = heading * HUGE_VAL;
-    for (int k = 0; k < w->n_knots; k++) {
-        const struct knot_lines *g = &w->knots[k];
-        if (g->step == 0) continue;
-        double q = (u - g->first) / g->step, slack = 1e-7 * (1 + fabs(q) * 1e-6),
-               knot = g->first + g->step * (heading > 0 ? lanes_floor(q + slack) + 1 : lanes_ceil(q - slack) - 1);
-        next = heading * (knot - next) < 0 ? knot : next;
-    }
-    return next;
-}
-
-INLINE void straight_point(struct path_cells *w, double u, double alpha)
-{
-    add_point(w, alpha, &(struct spot){w->from[0] + u * w->e[0], w->from[1] + u * w->e[1], w->e[0], w->e[1]});
-    w->at = u;
-}
-
-/* The cells from u to `end`. */
-static void cut_straight(struct path_cells *w, double u, double end, double alpha, int interval)
-{
-    struct cells *p = &w->cells;
-    int heading = end > u ? 1 : -1;
-    if (!(heading * (u - w->gap[0]) >= 0 && heading * (w->gap[1] - u) > 0))
-        w->gap[0] = u, w->gap[1] = knot_next(w, u, heading);
-    for (double stop; heading * (end - u) > 0; u = stop) {
-        stop = heading * (w->gap[1] - end) < 0 ? w->gap[1] : end;
-        if (heading * (stop - u) > w->longest && u + heading * w->longest != u) stop = u + heading * w->longest;
-        if (p->n + 2 > LIMITER_CELLS || p->points + 3 > LIMITER_POINTS) cells_flush(w);
-        if (p->points == 0 || w->at != u || p->alpha[0][p->points - 1] != alpha) straight_point(w, u, alpha);
-        double length = heading * (stop - u);
-        if (w->halves) {
-            length *= 0.5;
-            add_cell(p, interval, heading, length);
-            straight_point(w, u + heading * length, alpha);
-        }
-        add_cell(p, interval, heading, length);
-        straight_point(w, stop, alpha);
-        if (stop == w->gap[1]) w->gap[0] = stop, w->gap[1] = knot_next(w, stop, heading);
-    }
-}
-
-/* The cells of m sub-intervals without a knot, which begin at u[0] to u[m - 1], number `first` and on. */
-LANES_CLONES
-static void clear_fill(struct path_cells *w, const double *u, double alpha, int first, int m)
-{
-    struct cells *p = &w->cells;
-    int each = w->halves ? 2 : 1, heading = u[1] > u[0] ? 1 : -1, from = p->points - 1, cell = p->n;
-    double way[2 * CELLS_CHUNK], share = w->halves ? 0.5 : 1, x = w->from[0], y = w->from[1], ex = w->e[0],
-                                 ey = w->e[1], other = alpha * w->ratio;
-    for (int j = 0; j < m; j++) {
-        double length = share * (heading * (u[j + 1] - u[j]));
-        for (int k = 0; k < each; k++) {
-            p->length[cell + j * each + k] = length;
-            way[j * each + k] = k + 1 == each ? u[j + 1] : u[j] + heading * length;
-        }
-    }
-#pragma omp simd
-    for (int i = 0; i < m * each; i++) {
-        p->at[cell + i] = from + i;
-        p->heading[cell + i] = heading;
-        p->interval[cell + i] = first + (i >> (each - 1));
-    }
-#pragma omp simd
-    for (int i = 0; i < m * each; i++) {
-        p->x[from + 1 + i] = x + way[i] * ex;
-        p->y[from + 1 + i] = y + way[i] * ey;
-        p->ex[from + 1 + i] = ex;
-        p->ey[from + 1 + i] = ey;
-        p->alpha[0][from + 1 + i] = alpha;
-        p->alpha[1][from + 1 + i] = other;
-    }
-    p->n += m * each;
-    p->points += m * each;
-    w->at = u[m];
-}
-
-/* Cuts those of n sub-intervals, from the first on, that go the same way without a knot, alpha being the same; how many
-   these are. du: velocity. */
-static int cut_clear(struct path_cells *w, const double *u, const double *du, double alpha, int first, int n)
-{
-    struct cells *p = &w->cells;
-    int m = 0, heading = u[1] > u[0] ? 1 : -1;
-    if (!(heading * (u[0] - w->gap[0]) >= 0)) return 0;
-    while (m < n && heading * (u[m + 1] - u[m]) > 0 && heading * (w->gap[1] - u[m + 1]) > 0 &&
-           heading * (u[m + 1] - u[m]) <= w->longest && du[m] * du[m + 1] >= 0)
-        m++;
-    if (m == 0) return 0;
-    if (p->n + 2 * m > LIMITER_CELLS || p->points + 2 * m + 1 > LIMITER_POINTS) cells_flush(w);
-    if (p->points == 0 || w->at != u[0] || p->alpha[0][p->points - 1] != alpha) straight_point(w, u[0], alpha);
-    clear_fill(w, u, alpha, first, m);
-    return m;
-}
-
 /* ------------------------------------------------------------------ sub-intervals */
+
+/* Where the contact is at the ends of a chunk's sub-intervals: u, place, and the direction of travel, which is 0, 0
+   where it rests. */
+struct instants {
+    double u[CELLS_CHUNK + 1], x[CELLS_CHUNK + 1], y[CELLS_CHUNK + 1], ex[CELLS_CHUNK + 1], ey[CELLS_CHUNK + 1];
+};
 
 struct instant {
     double u, x, y, ex, ey;
 };
 
-/* At the ends of n sub-intervals of a curved path, n + 1 of them. The direction is 0, 0 where the contact rests. */
-static void instants_of(const struct board *b, long first, int n, struct instant *to)
+static struct instant instants_at(const struct instants *s, int k)
+{
+    return (struct instant){s->u[k], s->x[k], s->y[k], s->ex[k], s->ey[k]};
+}
+
+LANES_CLONES
+static void instants_straight(const struct path_cells *w, const double *u, const double *du, int n, struct instants *to)
+{
+    double x = w->from[0], y = w->from[1], ex = w->e[0], ey = w->e[1];
+#pragma omp simd
+    for (int k = 0; k <= n; k++) {
+        double way = lanes_select(du[k] > 0, 1, lanes_select(du[k] < 0, -1, 0));
+        to->u[k] = u[k];
+        to->x[k] = x + u[k] * ex;
+        to->y[k] = y + u[k] * ey;
+        to->ex[k] = way * ex;
+        to->ey[k] = way * ey;
+    }
+}
+
+LANES_CLONES
+static void instants_curved(const struct board *b, long first, int n, struct instants *to)
 {
     const double *u = cells_values(b, ITEM_POSITION, first), *x = cells_values(b, ITEM_X, first),
                  *y = cells_values(b, ITEM_Y, first), *vx = cells_values(b, ITEM_VX, first),
                  *vy = cells_values(b, ITEM_VY, first);
     double slow = 1e-6 * b->trajectory->top_speed;
+#pragma omp simd
     for (int k = 0; k <= n; k++) {
-        double v = sqrt(vx[k] * vx[k] + vy[k] * vy[k]);
-        to[k] = (struct instant){.u = u[k], .x = x[k], .y = y[k]};
-        if (v > slow) to[k].ex = vx[k] / v, to[k].ey = vy[k] / v;
+        double v = sqrt(vx[k] * vx[k] + vy[k] * vy[k]),
+               per = lanes_select(v > slow, 1, 0) / lanes_select(v > slow, v, 1);
+        to->u[k] = u[k];
+        to->x[k] = x[k];
+        to->y[k] = y[k];
+        to->ex[k] = vx[k] * per;
+        to->ey[k] = vy[k] * per;
     }
 }
 
 static bool at_rest(const struct instant *i) { return i->ex == 0 && i->ey == 0; }
 
-/* From a to b on a smooth curve. Where the contact rests at one end the direction is that of the other: a chord of a
-   few last places of the coordinates points anywhere. False: they are one place. */
-static bool curve_between(const struct instant *a, const struct instant *b, struct hermite *c)
+/* From a to b, a straight line or a smooth curve. Where the contact rests at one end of a curve the direction is that
+   of the other: a chord of a few last places of the coordinates points anywhere. False: they are one place. */
+static bool stretch_between(const struct path_cells *w, const struct instant *a, const struct instant *b,
+                            struct stretch *s)
 {
-    double dx = b->x - a->x, dy = b->y - a->y, chord = sqrt(dx * dx + dy * dy), h = fabs(b->u - a->u);
+    struct hermite *c = &s->path;
+    double h = fabs(b->u - a->u);
+    s->whole = c->length = h;
+    s->heading = b->u > a->u ? 1 : -1;
+    c->bends = w->curved;
+    c->x[0] = a->x, c->x[1] = b->x, c->y[0] = a->y, c->y[1] = b->y;
+    if (!w->curved) {
+        c->ex[0] = c->ex[1] = s->heading * w->e[0], c->ey[0] = c->ey[1] = s->heading * w->e[1];
+        return h > 0;
+    }
+    double dx = b->x - a->x, dy = b->y - a->y, chord = sqrt(dx * dx + dy * dy);
     const struct instant *from = at_rest(a) ? b : a, *to = at_rest(b) ? a : b;
     if (!(h > 0 && chord > 0)) return false;
-    *c = (struct hermite){
-        .x = {a->x, b->x}, .y = {a->y, b->y}, .length = h, .ex = {from->ex, to->ex}, .ey = {from->ey, to->ey}};
+    c->ex[0] = from->ex, c->ex[1] = to->ex, c->ey[0] = from->ey, c->ey[1] = to->ey;
     if (at_rest(from)) c->ex[0] = c->ex[1] = dx / chord, c->ey[0] = c->ey[1] = dy / chord;
     if (chord < 0.9 * h) { /* the last places of x, y are coarser than those of u: straight on */
         c->x[1] = a->x + h * c->ex[0], c->y[1] = a->y + h * c->ey[0];
@@ -354,19 +298,15 @@ static bool curve_between(const struct instant *a, const struct instant *b, stru
 static void cut_between(struct path_cells *w, const struct instant *a, const struct instant *b, double alpha,
                         int interval)
 {
-    struct stretch s = {
-        .whole = fabs(b->u - a->u), .heading = b->u > a->u ? 1 : -1, .alpha = alpha, .interval = interval};
-    if (!w->curved)
-        cut_straight(w, a->u, b->u, alpha, interval);
-    else if (curve_between(a, b, &s.path))
-        cut_stretch(w, &s);
+    struct stretch s = {.alpha = alpha, .interval = interval};
+    if (stretch_between(w, a, b, &s)) cut_stretch(w, &s);
 }
 
 /* A sub-interval from t0 to t1, s, in which the motion turns round on itself: two stretches, each in its own side's
    direction. So it is on a curve where the turn is too slow or too small for its instant to be found: then that is half
    way. */
 static void cut_turning(struct path_cells *w, const struct trajectory *tr, const double t[2],
-                        const struct instant *ends, double alpha, int interval)
+                        const struct instant ends[2], double alpha, int interval)
 {
     double turn = trajectory_turning(tr, t[0], t[1]);
     struct instant middle = {0};
@@ -378,30 +318,149 @@ static void cut_turning(struct path_cells *w, const struct trajectory *tr, const
     trajectory_at(
         tr, 1, &turn,
         (struct trajectory_out){.u = &middle.u, .x = w->curved ? &middle.x : NULL, .y = w->curved ? &middle.y : NULL});
+    if (!w->curved) middle.x = w->from[0] + middle.u * w->e[0], middle.y = w->from[1] + middle.u * w->e[1];
     cut_between(w, ends, &middle, alpha, interval);
     cut_between(w, &middle, ends + 1, alpha, interval);
+}
+
+/* ------------------------------------------------------------------ sub-intervals without a knot */
+
+/* clear[i]: is sub-interval i one cell, or one pair: does the contact move from place to place without a turn, not
+   farther than the longest cell, and with no knot between? A knot that is an end, but for rounding, is none between. */
+LANES_CLONES
+static void clear_of(const struct path_cells *w, const struct instants *at, int n, int *clear)
+{
+    const double *u = at->u, *x = at->x, *y = at->y, *ex = at->ex, *ey = at->ey;
+    double longest = w->longest;
+    int straight = !w->curved;
+#pragma omp simd
+    for (int i = 0; i < n; i++) {
+        double dx = x[i + 1] - x[i], dy = y[i + 1] - y[i], h = fabs(u[i + 1] - u[i]);
+        double facing = ex[i] * ex[i + 1] + ey[i] * ey[i + 1];
+        int moves = straight | ((facing > 0) & (dx * dx + dy * dy >= 0.81 * h * h));
+        clear[i] = (h > 0) & (h <= longest) & (facing >= 0) & moves;
+    }
+    for (int k = 0; k < w->n_knots; k++) {
+        const double *c = w->knots[k].axis ? y : x;
+        double origin = w->knots[k].origin, per = w->knots[k].per;
+#pragma omp simd
+        for (int i = 0; i < n; i++) {
+            double a = (c[i] - origin) * per, b = (c[i + 1] - origin) * per, low = lanes_select(a < b, a, b),
+                   high = lanes_select(a < b, b, a), slack = 1e-7 * (1 + fabs(low) * 1e-6);
+            clear[i] &= lanes_floor(low + slack) + 1 > lanes_ceil(high - slack) - 1;
+        }
+    }
+}
+
+/* Half way of n sub-intervals from number `first` on: stretch_at for q = 1/2. */
+LANES_CLONES
+static void clear_middles(const struct instants *at, int first, int n, struct instants *to)
+{
+    const double *u = at->u + first, *x = at->x + first, *y = at->y + first, *ex = at->ex + first, *ey = at->ey + first;
+#pragma omp simd
+    for (int i = 0; i < n; i++) {
+        double h = fabs(u[i + 1] - u[i]), dx = 1.5 / h * (x[i + 1] - x[i]) - 0.25 * (ex[i] + ex[i + 1]),
+               dy = 1.5 / h * (y[i + 1] - y[i]) - 0.25 * (ey[i] + ey[i + 1]), d = sqrt(dx * dx + dy * dy),
+               per = 1 / lanes_select(d > 0, d, 1);
+        to->x[i] = 0.5 * (x[i] + x[i + 1]) + h / 8 * (ex[i] - ex[i + 1]);
+        to->y[i] = 0.5 * (y[i] + y[i + 1]) + h / 8 * (ey[i] - ey[i + 1]);
+        to->ex[i] = dx * per;
+        to->ey[i] = dy * per;
+    }
+}
+
+/* The points after the first of n cells, or of n pairs, which have points between. */
+INLINE void clear_lay(double *restrict to, double factor, const double *between, const double *ends, int n)
+{
+    if (between)
+#pragma omp simd
+        for (int i = 0; i < n; i++) {
+            to[2 * i] = factor * between[i];
+            to[2 * i + 1] = factor * ends[i];
+        }
+    else
+#pragma omp simd
+        for (int i = 0; i < n; i++)
+            to[i] = factor * ends[i];
+}
+
+/* n sub-intervals from number `first` on, which begin at the last point. */
+LANES_CLONES
+static void clear_fill(struct path_cells *w, const struct instants *at, const struct instants *middle, double alpha,
+                       int first, int n)
+{
+    struct cells *p = &w->cells;
+    int pair = w->halves ? 1 : 0, cells = n << pair, from = p->points, cell = p->n;
+    const double *u = at->u + first;
+    double share = pair ? 0.5 : 1, heading = u[1] > u[0] ? 1 : -1;
+    clear_lay(p->x + from, 1, pair ? middle->x : NULL, at->x + first + 1, n);
+    clear_lay(p->y + from, 1, pair ? middle->y : NULL, at->y + first + 1, n);
+    if (w->curved) {
+        clear_lay(p->ex + from, heading, pair ? middle->ex : NULL, at->ex + first + 1, n);
+        clear_lay(p->ey + from, heading, pair ? middle->ey : NULL, at->ey + first + 1, n);
+    }
+    for (int i = from; i < from + (w->curved ? 0 : cells); i++) {
+        p->ex[i] = w->e[0];
+        p->ey[i] = w->e[1];
+    }
+    for (int i = from; i < from + cells; i++) {
+        p->alpha[0][i] = alpha;
+        p->alpha[1][i] = alpha * w->ratio;
+    }
+#pragma omp simd
+    for (int i = 0; i < cells; i++) {
+        int k = i >> pair;
+        p->at[cell + i] = from - 1 + i;
+        p->interval[cell + i] = first + k;
+        p->heading[cell + i] = u[k + 1] > u[k] ? 1 : -1;
+        p->length[cell + i] = share * fabs(u[k + 1] - u[k]);
+    }
+    p->points += cells;
+    p->n += cells;
+}
+
+/* Cuts those of n sub-intervals, from number `first` on, that are clear, alpha being the same; how many these are. */
+static int cut_clear(struct path_cells *w, const struct instants *at, const int *clear, double alpha, int first, int n)
+{
+    struct cells *p = &w->cells;
+    struct instants middle;
+    int m = 0, each = w->halves ? 2 : 1, heading = at->u[first + 1] > at->u[first] ? 1 : -1;
+    while (m < n && clear[first + m])
+        m++;
+    if (m == 0) return 0;
+    if (p->n + each * m > LIMITER_CELLS || p->points + each * m + 1 > LIMITER_POINTS) cells_flush(w);
+    struct spot start = {at->x[first], at->y[first], w->e[0], w->e[1]};
+    if (w->curved) start.ex = heading * at->ex[first], start.ey = heading * at->ey[first];
+    if (!last_point(p, alpha, &start)) add_point(w, alpha, &start);
+    if (w->halves) clear_middles(at, first, m, &middle);
+    clear_fill(w, at, &middle, alpha, first, m);
+    return m;
 }
 
 void path_cells_run(struct path_cells *w, const struct stage_run *r, long first, int n)
 {
     const struct board *b = r->board;
-    const double *du = cells_values(b, ITEM_VELOCITY, first), dt = 1 / (b->rate * b->over);
-    const double *u = cells_values(b, ITEM_POSITION, first),
+    const double *u = cells_values(b, ITEM_POSITION, first), *du = cells_values(b, ITEM_VELOCITY, first),
                  *varies = board_has(b, ITEM_ALPHA) ? cells_values(b, ITEM_ALPHA, first) : NULL;
-    struct instant at[CELLS_CHUNK + 1];
-    double fixed = varies ? NAN : limiter_constant(r->contact);
-    if (w->curved) instants_of(b, first, n, at);
+    double dt = 1 / (b->rate * b->over), fixed = varies ? NAN : limiter_constant(r->contact);
+    struct instants at;
+    int clear[CELLS_CHUNK];
+    if (w->curved)
+        instants_curved(b, first, n, &at);
+    else
+        instants_straight(w, u, du, n, &at);
+    clear_of(w, &at, n, clear);
     for (int i = 0, m; i < n; i += m) {
         double alpha = varies ? 0.5 * (varies[i] + varies[i + 1]) : fixed;
-        m = w->curved ? 0 : cut_clear(w, u + i, du + i, alpha, i, varies ? 1 : n - i);
+        m = cut_clear(w, &at, clear, alpha, i, varies ? 1 : n - i);
         if (m > 0) continue;
         m = 1;
-        if (!w->curved) at[i].u = u[i], at[i + 1].u = u[i + 1];
-        if (w->curved ? at[i].ex * at[i + 1].ex + at[i].ey * at[i + 1].ey < 0 : du[i] * du[i + 1] < 0)
-            cut_turning(w, b->trajectory, (double[]){(double)(first + i) * dt, (double)(first + i + 1) * dt}, at + i,
+        struct instant ends[2] = {instants_at(&at, i), instants_at(&at, i + 1)};
+        if (ends[0].ex * ends[1].ex + ends[0].ey * ends[1].ey < 0)
+            cut_turning(w, b->trajectory, (double[]){(double)(first + i) * dt, (double)(first + i + 1) * dt}, ends,
                         alpha, i);
         else
-            cut_between(w, at + i, at + i + 1, alpha, i);
+            cut_between(w, ends, ends + 1, alpha, i);
     }
     cells_flush(w);
 }
@@ -419,15 +478,12 @@ static bool knots_of(struct path_cells *w, const char *contact, struct err *e)
                 known = known ||
                         (w->knots[k].axis == axis && w->knots[k].pitch == g.pitch && w->knots[k].origin == g.origin);
             if (known) continue;
+            g.per = 1 / g.pitch;
             if (w->n_knots == CELLS_KNOTS)
                 return err_set(e, ERR_SCENE,
                                "contact '%s': the surface is made of too many parts: leave out one of height_map, "
                                "roughness, ridges, grit",
                                contact);
-            if (w->e[axis] != 0) {
-                g.first = (g.origin - w->from[axis]) / w->e[axis];
-                g.step = g.pitch / fabs(w->e[axis]);
-            }
             w->knots[w->n_knots++] = g;
         }
     return true;
@@ -484,8 +540,8 @@ unsigned path_cells_asks(const struct contact *c, const struct scene *s)
 double path_cells_work(const struct contact *c, const struct scene *s)
 {
     double rough = roughness_scale(c), finest = c->surface.finest > 0 ? c->surface.finest
-                                                : isnan(rough)         ? height_map_pitch(c)
-                                                                       : rough;
+                                                : isnan(rough)        ? height_map_pitch(c)
+                                                                      : rough;
     bool halves = relief_along(c) == ALONG_PLANE;
     return (halves ? 2 : 1) * (s->accuracy.oversampling + motion_speed(&c->motion) / (s->output.sample_rate * finest));
 }

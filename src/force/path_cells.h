@@ -35,8 +35,7 @@ struct cells {
 
 struct knot_lines { /* one family of knots */
     int axis;       /* 0: x, 1: y */
-    double pitch, origin;
-    double first, step; /* of a straight path: u of one of them, m from each to the next; step 0: it meets none */
+    double pitch, origin, per; /* m; 1/pitch */
 };
 
 struct path_cells {
@@ -52,8 +51,6 @@ struct path_cells {
     double from[2], e[2]; /* a straight path in the coordinates of the relief: from + u e    */
     struct knot_lines knots[CELLS_KNOTS];
     int n_knots;
-    double gap[2]; /* of a straight path: in the way it goes no knot lies between these, and the second is one */
-    double at;     /* m, u of the last point of a straight path */
     struct relief *relief;
     struct cells cells;
     double xx[LIMITER_POINTS], xy[LIMITER_POINTS], yy[LIMITER_POINTS];

@@ -37,49 +37,43 @@
 #define PATH_LEAK 2e-3 /* m, where the scene has no contact.leak: under a ball with contact.force: paper */
 #define INLINE static inline __attribute__((always_inline))
 
-/* phi = (1 - e^-z) / z and chi = (1 - phi) / z for 0 <= z <= 1/16: the series' first term left out is z^8 / 9! < 1e-15.
- */
+/* Up to what channel 0 gains. phi = (1 - e^-z) / z and chi = (1 - phi) / z for 0 <= z <= 1/16: the series' first term
+   left out is z^8 / 9! < 1e-15. */
 LANES_CLONES
-static void terms_leak(struct path_terms *t, const double *length, double leak, int n)
+static void terms_first(struct path_terms *t, const struct cells *p, double leak)
 {
+    const double *mean_t = p->mean[0], *moment_t = p->moment[0], *limited = p->limited[0], *length = p->length;
+    const int *at = p->at;
     double per_leak = 1 / leak;
+    int n = p->n;
 #pragma omp simd
     for (int i = 0; i < n; i++) {
-        double z = length[i] * per_leak, third = z * (1.0 / 3), fifth = z * (1.0 / 5), seventh = z * (1.0 / 7);
+        double h = length[i], z = h * per_leak, third = z * (1.0 / 3), fifth = z * (1.0 / 5), seventh = z * (1.0 / 7);
         double rest = 1 - third * (1 - z / 4 * (1 - fifth * (1 - 0.5 * third * (1 - seventh * (1 - z / 8)))));
-        double phi = 1 - z / 2 * rest;
+        double phi = 1 - z / 2 * rest, chi = 0.5 * rest, moment = (1 - z / 2) * h * moment_t[i];
+        double bow = z * h * (mean_t[i] - 0.5 * (limited[at[i]] + limited[at[i] + 1])) * (1.0 / 60);
         t->z[i] = z;
         t->phi[i] = phi;
-        t->chi[i] = 0.5 * rest;
+        t->chi[i] = chi;
         t->decay[i] = 1 - z * phi;
+        t->bent[0][i] = phi * h * mean_t[i] + z * moment;
+        t->risen[i] = chi * h * mean_t[i] - moment + bow;
     }
 }
 
 LANES_CLONES
-static void terms_channel(struct path_terms *t, const struct cells *p, int channel)
+static void terms_second(struct path_terms *t, const struct cells *p)
 {
-    const double *mean_t = p->mean[channel], *moment_t = p->moment[channel], *limited = p->limited[channel],
-                 *length = p->length;
-    const int *at = p->at;
-    double *restrict bent = t->bent[channel];
     int n = p->n;
 #pragma omp simd
     for (int i = 0; i < n; i++)
-        bent[i] = t->phi[i] * length[i] * mean_t[i] + t->z[i] * ((1 - t->z[i] / 2) * length[i] * moment_t[i]);
-    n = channel == 0 ? n : 0;
-#pragma omp simd
-    for (int i = 0; i < n; i++) {
-        int a = at[i], b = a + 1;
-        double h = length[i], z = t->z[i], bow = z * h * (mean_t[i] - 0.5 * (limited[a] + limited[b])) * (1.0 / 60);
-        t->risen[i] = t->chi[i] * h * mean_t[i] - (1 - z / 2) * h * moment_t[i] + bow;
-    }
+        t->bent[1][i] = p->length[i] * (t->phi[i] * p->mean[1][i] + t->z[i] * (1 - t->z[i] / 2) * p->moment[1][i]);
 }
 
 void path_integral_terms(struct path_terms *t, const struct cells *p, int channels, double leak)
 {
-    terms_leak(t, p->length, leak, p->n);
-    for (int k = 0; k < channels; k++)
-        terms_channel(t, p, k);
+    terms_first(t, p, leak);
+    if (channels == 2) terms_second(t, p);
 }
 
 LANES_CLONES
@@ -125,87 +119,97 @@ struct magnitude path_integral_power(const double s[3], double power)
 
 /* ------------------------------------------------------------------ slope */
 
+/* The slope of S is one vector in the plane, whose axes do not turn: what the leak leaves of it and what each cell adds,
+   both known beforehand, are all that waits for the cell before. Along a straight path its first part is dS/du, and
+   there is no other. */
+
 static void slope_fill(struct path_integral *s, int upto)
 {
     for (; s->filled < upto; s->filled++) {
-        s->ends[s->filled] = s->slope;
+        s->ends[s->filled] = s->facing;
         s->heights[s->filled] = s->height;
     }
 }
 
-/* From the axes the slope is in to those at a point; at once where the path has a corner. */
-static void slope_face(struct path_integral *s, double ex, double ey)
+/* Of a path that turns: the direction half way, and what the cell adds to the slope. What T varies by within a cell
+   that turns goes partly to the side: T is taken along e half way, e turns. */
+LANES_CLONES
+static void slope_gains_turning(struct path_integral *s, const struct cells *p)
 {
-    if (s->ex != 0 || s->ey != 0) {
-        double sine = s->ex * ey - s->ey * ex, cosine = s->ex * ex + s->ey * ey, before = s->slope;
-        s->slope = before * cosine + s->across * sine;
-        s->across = s->across * cosine - before * sine;
-    }
-    s->ex = ex;
-    s->ey = ey;
-}
-
-/* Height at the cell's end, from the slope at its start in the direction of travel. */
-static double slope_rise(const struct path_integral *s, const struct cells *p, int i, double a)
-{
-    double h = p->length[i], z = s->terms.z[i], phi = s->terms.phi[i], chi = s->terms.chi[i];
-    return s->terms.decay[i] * (s->height + h * a) + h * h * ((phi - chi) * p->mean[0][i] - (1 - z) * p->moment[0][i]);
-}
-
-/* Length times the sine of the angle by which a cell turns on the way. */
-static double slope_turn(const struct cells *p, int i)
-{
-    int a = p->at[i], b = a + 1;
-    return p->length[i] * (p->ex[a] * p->ey[b] - p->ey[a] * p->ex[b]);
-}
-
-/* Slope at the end of a cell of a way that turns, or whose height is asked for. */
-static void slope_cell(struct path_integral *s, const struct cells *p, int i)
-{
-    slope_fill(s, p->interval[i]);
-    if (s->cells.curved) {
-        int k = p->at[i];
-        double x = p->ex[k] + p->ex[k + 1], y = p->ey[k] + p->ey[k + 1], length = sqrt(x * x + y * y);
-        slope_face(s, p->ex[k], p->ey[k]);
-        slope_face(s, x / length, y / length); /* half way */
-        s->across = p->heading[i] * path_terms_end(&s->terms, 1, i, s->across * p->heading[i]);
-    }
-    double a = s->terms.start[i] = s->slope * p->heading[i], b = s->terms.end[i] = path_terms_end(&s->terms, 0, i, a);
-    if (s->rising) s->height = slope_rise(s, p, i, a);
-    s->slope = b * p->heading[i];
-    if (s->cells.curved) {
-        /* What T varies by within a cell that turns goes partly to the side: T is taken along e half way, e turns. */
-        double turn = p->heading[i] * slope_turn(p, i);
-        s->slope -= turn * p->moment[1][i];
-        s->across += turn * p->moment[0][i];
-        slope_face(s, p->ex[p->at[i] + 1], p->ey[p->at[i] + 1]);
+    const struct path_terms *t = &s->terms;
+    struct slope_cells *c = &s->slopes;
+    const double *ex = p->ex, *ey = p->ey;
+    int n = p->n;
+#pragma omp simd
+    for (int i = 0; i < n; i++) {
+        int a = p->at[i], b = a + 1;
+        double x = ex[a] + ex[b], y = ey[a] + ey[b], per = 1 / sqrt(x * x + y * y), heading = p->heading[i];
+        double turn = p->length[i] * (ex[a] * ey[b] - ey[a] * ex[b]);
+        double along = heading * (t->bent[0][i] - turn * p->moment[1][i]),
+               across = heading * (t->bent[1][i] + turn * p->moment[0][i]);
+        x *= per;
+        y *= per;
+        c->e[0][i] = x;
+        c->e[1][i] = y;
+        c->gain[0][i] = along * x - across * y;
+        c->gain[1][i] = along * y + across * x;
+        c->turned[i] = p->length[i] * turn * p->mean[1][i] / 6;
     }
 }
 
-/* The same of a straight way whose slope alone is asked for. Each cell waits for the one before it, for a
-   multiplication and an addition: the sign of the direction is taken out of that, and each cell writes its
-   sub-interval's end, the last of them what stays. */
-static void slope_straight(struct path_integral *s, const struct cells *p)
+LANES_CLONES
+static void slope_gains_straight(struct path_integral *s, const struct cells *p)
+{
+    int n = p->n;
+#pragma omp simd
+    for (int i = 0; i < n; i++)
+        s->slopes.gain[0][i] = p->heading[i] * s->terms.bent[0][i];
+}
+
+/* x[i + 1] = decay[i] x[i] + gain[i]. */
+LANES_CLONES
+static void slope_chain(double *restrict x, const double *decay, const double *gain, int n)
+{
+    for (int i = 0; i < n; i++)
+        x[i + 1] = fma(decay[i], x[i], gain[i]);
+}
+
+/* start[], end[] and facing[] from the slope before and after each cell. */
+LANES_CLONES
+static void slope_ends(struct path_integral *s, const struct cells *p)
 {
     struct path_terms *t = &s->terms;
-    int heading = p->heading[0], last = p->interval[0];
-    double along = s->slope * heading;
-    slope_fill(s, last);
-    for (int i = 0; i < p->n; i++) {
-        int k = p->interval[i];
-        if (p->heading[i] != heading) {
-            heading = -heading;
-            along = -along;
-        }
-        for (int rest = last + 1; rest < k; rest++) /* sub-intervals without a way */
-            s->ends[rest] = along * heading;
-        t->start[i] = along;
-        t->end[i] = along = path_terms_end(t, 0, i, along);
-        s->ends[k] = along * heading;
-        last = k;
+    struct slope_cells *c = &s->slopes;
+    const double *x = c->slope[0], *y = c->slope[1], *ex = p->ex, *ey = p->ey;
+    int turning = s->cells.curved ? p->n : 0, straight = p->n - turning;
+#pragma omp simd
+    for (int i = 0; i < turning; i++) {
+        int b = p->at[i] + 1;
+        double start = p->heading[i] * (x[i] * c->e[0][i] + y[i] * c->e[1][i]);
+        t->start[i] = start;
+        t->end[i] = t->decay[i] * start + t->bent[0][i];
+        c->facing[i] = x[i + 1] * ex[b] + y[i + 1] * ey[b];
     }
-    s->slope = along * heading;
-    s->filled = last;
+#pragma omp simd
+    for (int i = 0; i < straight; i++) {
+        double start = p->heading[i] * x[i];
+        t->start[i] = start;
+        t->end[i] = t->decay[i] * start + t->bent[0][i];
+        c->facing[i] = x[i + 1];
+    }
+}
+
+/* S at each cell's end, from S' at its start. */
+static void slope_heights(struct path_integral *s, const struct cells *p)
+{
+    const struct path_terms *t = &s->terms;
+    double *rise = s->slopes.rise;
+    for (int i = 0; i < p->n; i++) {
+        double h = p->length[i], z = t->z[i];
+        rise[i] = t->decay[i] * (h * t->start[i]) +
+                  h * h * ((t->phi[i] - t->chi[i]) * p->mean[0][i] - (1 - z) * p->moment[0][i]);
+    }
+    slope_chain(s->slopes.height, t->decay, rise, p->n);
 }
 
 /* whole[], late[] of |S'|^power. */
@@ -224,19 +228,23 @@ static void slope_crossing(struct path_integral *s, int n)
     }
 }
 
-/* To the cells' sub-intervals: how far they are, how S' goes over them. */
+/* To the cells' sub-intervals: how far they are, how S' goes over them, S' and S at their ends. */
 static void slope_gather(struct path_integral *s, const struct cells *p)
 {
     const struct path_terms *t = &s->terms;
-    bool curved = s->cells.curved, crossing = s->crossing;
+    const struct slope_cells *c = &s->slopes;
+    bool crossing = s->crossing, curved = s->cells.curved;
     for (int i = 0; i < p->n; i++) {
         double h = p->length[i];
         int k = p->interval[i];
+        slope_fill(s, k);
+        s->facing = c->facing[i];
+        if (s->rising) s->height = c->height[i + 1];
         if (crossing) {
             s->crossed[k] += h * t->whole[i];
             s->crossed_late[k] += h * (s->travelled[k] * t->whole[i] + h * t->late[i]);
         }
-        s->climbed[k] += h * t->mean[i] + (curved ? h * slope_turn(p, i) * p->mean[1][i] / 6 : 0);
+        s->climbed[k] += h * t->mean[i] + (curved ? c->turned[i] : 0);
         s->travelled[k] += h;
     }
 }
@@ -244,15 +252,23 @@ static void slope_gather(struct path_integral *s, const struct cells *p)
 static void slope_use(void *self, const struct cells *p)
 {
     struct path_integral *s = self;
-    path_integral_terms(&s->terms, p, s->cells.curved ? 2 : 1, s->leak);
-    if (s->cells.curved || s->rising)
-        for (int i = 0; i < p->n; i++)
-            slope_cell(s, p, i);
+    struct slope_cells *c = &s->slopes;
+    int parts = s->cells.curved ? 2 : 1;
+    path_integral_terms(&s->terms, p, parts, s->leak);
+    if (parts == 2)
+        slope_gains_turning(s, p);
     else
-        slope_straight(s, p);
+        slope_gains_straight(s, p);
+    for (int k = 0; k < parts; k++)
+        slope_chain(c->slope[k], s->terms.decay, c->gain[k], p->n);
+    slope_ends(s, p);
+    if (s->rising) slope_heights(s, p);
     path_integral_mean(&s->terms, p->n);
     if (s->crossing) slope_crossing(s, p->n);
     slope_gather(s, p);
+    for (int k = 0; k < parts; k++)
+        c->slope[k][0] = c->slope[k][p->n];
+    c->height[0] = c->height[p->n];
 }
 
 bool path_integral_make(struct path_integral *s, struct stage_run *r, struct err *e)
@@ -265,7 +281,10 @@ bool path_integral_make(struct path_integral *s, struct stage_run *r, struct err
     return path_cells_make(&s->cells, r, CELLS_ALONG, s->leak / 16, e);
 }
 
-void path_integral_reset(struct path_integral *s) { s->slope = s->across = s->height = s->ex = s->ey = 0; }
+void path_integral_reset(struct path_integral *s)
+{
+    s->slopes.slope[0][0] = s->slopes.slope[1][0] = s->slopes.height[0] = s->facing = s->height = 0;
+}
 
 void path_integral_run(struct path_integral *s, const struct stage_run *r, long first, int n)
 {

@@ -9,8 +9,8 @@
      alpha     m       cells.alpha              limit of curvature (surface/limiter.h)                    6, 7
      T         1/m     cells.limited            tanh(alpha c) / alpha at points                           4, 5
                        cells.mean, moment       its mean and first moment over a cell
-     S'        -       slope, terms.start, end  dS/ds, slope of S along the path; s arc length            1 to 3
-     S_n       -       across                   slope of S across the path
+     S'        -       slopes, terms.start, end dS/ds, slope of S along the path; s arc length            1 to 3
+     S_n       -       slopes                   slope of S across the path
      S         m       height                   height
      l         m       leak                     contact.leak
      h, z      m, -    cells.length, terms.z    length of a cell; h / l
@@ -53,13 +53,21 @@ struct magnitude {
 /* Of a slope at the cell's start, middle and end: Simpson's rule, or straight lines to a zero. */
 struct magnitude path_integral_power(const double s[3], double power);
 
+struct slope_cells { /* at the cells of path_terms; [n + 1]: before each cell, and after the last */
+    double slope[2][LIMITER_CELLS + 1], height[LIMITER_CELLS + 1]; /* of S in the plane; m, S            */
+    double gain[2][LIMITER_CELLS], rise[LIMITER_CELLS];            /* what the cell adds to them         */
+    double e[2][LIMITER_CELLS];                                    /* direction of increasing u half way */
+    double facing[LIMITER_CELLS];                                  /* dS/du at the cell's end            */
+    double turned[LIMITER_CELLS];                                  /* m, what turning adds to the integral of S' ds */
+};
+
 struct path_integral {
     struct path_cells cells;
     struct path_terms terms;
+    struct slope_cells slopes;
     double leak, power;               /* m, l; |S'|^power is what crossed[] holds     */
     bool crossing, rising;            /* is crossed[] asked for? heights[]? The maker's to set        */
-    double slope, across, height;     /* dS/du, dS/dn, S now                          */
-    double ex, ey;                    /* e where they are; 0, 0: nowhere yet          */
+    double facing, height;            /* dS/du, m: S now                              */
     double ends[CELLS_CHUNK];         /* dS/du at each sub-interval's end             */
     double heights[CELLS_CHUNK];      /* m, S there                                   */
     double climbed[CELLS_CHUNK];      /* m, integral of S' ds over it                 */

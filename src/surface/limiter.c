@@ -108,13 +108,21 @@ void limiter_warn(struct stage_run *r, double least, double most)
    from the parts (bisected_add). */
 #define INLINE static inline __attribute__((always_inline))
 
-/* rest[k] = G(|x[k]|) above; w <= log 2, so that the first term left out is below 5e-16. */
+/* At the points: x = alpha c, log(1 + e^(-2|x|)), G(|x|) and 1/alpha. */
+struct points {
+    double x[LIMITER_POINTS], soft[LIMITER_POINTS], rest[LIMITER_POINTS], per[LIMITER_POINTS];
+};
+
+/* rest[] = G(|x[]|) above; w <= log 2, so that the first term left out is below 5e-16. limited[], tanh(x) before, becomes
+   T. */
 LANES_CLONES
-static void points_rest(const double *x, const double *soft, double *rest, int n)
+static void points_rest(const struct limiter_cells *p, struct points *q)
 {
+    double *restrict limited = p->limited;
+    int n = p->points;
 #pragma omp simd
     for (int k = 0; k < n; k++) {
-        double w = soft[k], big = lanes_select(w < 0x1p-200, 0, w),
+        double w = q->soft[k], big = lanes_select(w < 0x1p-200, 0, w),
                v = big * big; /* no subnormal squares: they are slow */
         double odd =
             1 +
@@ -122,51 +130,34 @@ static void points_rest(const double *x, const double *soft, double *rest, int n
                                  v * (1.0 / 211680 + v * (-1.0 / 10886400 +
                                                           v * (1.0 / 526901760 + v * (-691.0 / 16999766784000.0 +
                                                                                       v * (1.0 / 1120863744000.0)))))));
-        rest[k] = 0.41123351671205660911810 - fabs(x[k]) * w - 0.5 * w * odd - 0.125 * v;
-    }
-}
-
-/* At the points: x = alpha c, log(1 + e^(-2|x|)), G(|x|) and 1/alpha. */
-struct points {
-    double x[LIMITER_POINTS], soft[LIMITER_POINTS], rest[LIMITER_POINTS], per[LIMITER_POINTS];
-};
-
-LANES_CLONES
-static void each_mean(const struct limiter_cells *p, const struct points *q)
-{
-    const double *t = p->limited, *alphas = p->alpha, *x = q->x, *soft = q->soft, *per = q->per;
-    double *restrict mean = p->mean;
-    const int *at = p->at;
-    int n = p->n;
-#pragma omp simd
-    for (int i = 0; i < n; i++) {
-        int a = at[i], b = a + 1;
-        double alpha = alphas[a], xa = x[a], xb = x[b], dx = xb - xa, tm = 0.5 * alpha * (t[a] + t[b]);
-        double near = tm + dx * dx * (1.0 / 6) * tm * (1 - tm * tm), by = lanes_select(fabs(dx) < 1e-3, 1, dx);
-        double far = ((fabs(xb) - fabs(xa)) + (soft[b] - soft[a])) / by;
-        mean[i] = lanes_select(fabs(dx) < 1e-3, near, far) * per[a];
+        q->rest[k] = 0.41123351671205660911810 - fabs(q->x[k]) * w - 0.5 * w * odd - 0.125 * v;
+        q->per[k] = 1 / p->alpha[k];
+        limited[k] *= q->per[k];
     }
 }
 
 LANES_CLONES
-static void each_moment(const struct limiter_cells *p, const struct points *q)
+static void each_cell(const struct limiter_cells *p, const struct points *q)
 {
     const double *t = p->limited, *alphas = p->alpha, *x = q->x, *soft = q->soft, *rest = q->rest, *per = q->per;
-    double *restrict moment = p->moment;
+    double *restrict mean = p->mean, *restrict moment = p->moment;
     const int *at = p->at;
     int n = p->n;
 #pragma omp simd
     for (int i = 0; i < n; i++) {
         int a = at[i], b = a + 1;
-        double alpha = alphas[a], xa = x[a], xb = x[b], dx = xb - xa, across = xa * xb,
-               sign_a = lanes_select(xa < 0, -1, 1), sign_b = lanes_select(xb < 0, -1, 1);
+        double alpha = alphas[a], xa = x[a], xb = x[b], dx = xb - xa, tm = 0.5 * alpha * (t[a] + t[b]),
+               faded = soft[b] - soft[a], across = xa * xb;
+        int near = fabs(dx) < 1e-3, small = fabs(dx) < 0.05;
+        double straight = tm + dx * dx * (1.0 / 6) * tm * (1 - tm * tm),
+               far = ((fabs(xb) - fabs(xa)) + faded) / lanes_select(near, 1, dx);
+        mean[i] = lanes_select(near, straight, far) * per[a];
         double squares = lanes_select(across < 0, lanes_select(dx < 0, across, -across), 0);
-        double whole = squares - (sign_b * rest[b] - sign_a * rest[a]) - 0.5 * (xa + xb) * (soft[b] - soft[a]);
-        double tm = 0.5 * alpha * (t[a] + t[b]),
-               curved = dx * dx * dx * (1.0 / 360) * (1 - tm * tm) * (1 - 3 * tm * tm) * per[a];
-        double by = lanes_select(fabs(dx) < 0.05, 1, dx * dx), straight = (t[b] - t[a]) * (1.0 / 12) + curved,
-               far = whole * per[a] / by;
-        moment[i] = lanes_select(fabs(dx) < 0.05, straight, far);
+        double whole = squares - (lanes_select(xb < 0, -rest[b], rest[b]) - lanes_select(xa < 0, -rest[a], rest[a])) -
+                       0.5 * (xa + xb) * faded;
+        double curved = dx * dx * dx * (1.0 / 360) * (1 - tm * tm) * (1 - 3 * tm * tm) * per[a];
+        moment[i] =
+            lanes_select(small, (t[b] - t[a]) * (1.0 / 12) + curved, whole * per[a] / lanes_select(small, 1, dx * dx));
     }
 }
 
@@ -205,13 +196,8 @@ static void cells_limited(const struct limiter_cells *p)
     for (int k = 0; k < p->points; k++)
         q.x[k] = p->alpha[k] * p->curvature[k];
     vecmath_tanh_softplus2((size_t)p->points, q.x, p->limited, q.soft);
-    points_rest(q.x, q.soft, q.rest, p->points);
-    for (int k = 0; k < p->points; k++) {
-        q.per[k] = 1 / p->alpha[k];
-        p->limited[k] *= q.per[k];
-    }
-    each_mean(p, &q);
-    each_moment(p, &q);
+    points_rest(p, &q);
+    each_cell(p, &q);
     if (p->sagitta) each_sagitta(p);
 }
 

@@ -106,20 +106,20 @@ static const double *window_at(struct window *w, long cell)
     return w->c + (cell - 1 - w->first);
 }
 
-/* z, z' and z'' in a cell with these coefficients about it, f of the way into it. */
-INLINE double window_value(const double *c, double f, double h, int order)
+/* z, z' and z'' in a cell about which these are the coefficients, f of the way into it; per: 1 over its length, 1/m. */
+INLINE double window_value(double a, double b, double c, double d, double f, double per, int order)
 {
-    double b0 = (c[0] - c[1]) + (c[2] - c[1]), b1 = (c[1] - c[2]) + (c[3] - c[2]), rise = b1 - b0,
-           s0 = 0.5 * (c[2] - c[0]);
-    if (order == 0) return (c[0] + 4 * c[1] + c[2]) / 6 + f * (s0 + f * (0.5 * b0 + f / 6 * rise));
-    return order == 1 ? (s0 + f * (b0 + 0.5 * f * rise)) / h : (b0 + f * rise) / (h * h);
+    double b0 = (a - b) + (c - b), b1 = (b - c) + (d - c), rise = b1 - b0, s0 = 0.5 * (c - a);
+    if (order == 0) return (a + 4 * b + c) / 6 + f * (s0 + f * (0.5 * b0 + f / 6 * rise));
+    return order == 1 ? (s0 + f * (b0 + 0.5 * f * rise)) * per : (b0 + f * rise) * (per * per);
 }
 
 /* All points at once, where all lie in what is held: else false. */
 LANES_CLONES
-static int window_all(const struct window *w, size_t n, const double *x, double *to, int order)
+static int window_all(const struct window *w, size_t n, const double *x, double *restrict to, int order)
 {
-    double h = w->profile->pitch, origin = w->origin, first = (double)w->first + 1;
+    const double *c = w->c;
+    double h = w->profile->pitch, per = 1 / h, origin = w->origin, first = (double)w->first + 1;
     int all = w->first != LONG_MIN;
 #pragma omp simd reduction(& : all)
     for (size_t i = 0; i < n; i++) {
@@ -130,7 +130,8 @@ static int window_all(const struct window *w, size_t n, const double *x, double 
 #define VALUES(order)                                                                                                  \
     for (size_t i = 0; i < n; i++) {                                                                                   \
         double q = (x[i] - origin) / h, cell = lanes_floor(q);                                                         \
-        to[i] += window_value(w->c + (int)(cell - first), q - cell, h, order);                                         \
+        int k = (int)(cell - first);                                                                                   \
+        to[i] += window_value(c[k], c[k + 1], c[k + 2], c[k + 3], q - cell, per, order);                               \
     }
     if (order == 0)
 #pragma omp simd
@@ -147,12 +148,13 @@ static int window_all(const struct window *w, size_t n, const double *x, double 
 static void window_add(struct relief_part *part, const struct relief_points *p, const struct relief_values *v)
 {
     struct window *w = part->state;
-    double h = w->profile->pitch, *const to[3] = {v->z, v->x, v->xx};
+    double h = w->profile->pitch, per = 1 / h, *const to[3] = {v->z, v->x, v->xx};
     for (int order = 0; order < 3; order++) {
         if (!to[order] || window_all(w, p->n, p->x, to[order], order)) continue;
         for (size_t i = 0; i < p->n; i++) {
             double q = (p->x[i] - w->origin) / h, cell = lanes_floor(q);
-            to[order][i] += window_value(window_at(w, (long)cell), q - cell, h, order);
+            const double *c = window_at(w, (long)cell);
+            to[order][i] += window_value(c[0], c[1], c[2], c[3], q - cell, per, order);
         }
     }
 }

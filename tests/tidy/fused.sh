@@ -6,7 +6,7 @@ for object in "$BUILD"/*/*.o; do
     source=$ROOT/${source%.o}.c
     if [ -f "$source" ] && grep -q '[^a-z_]fma(' "$source"; then
         # shellcheck disable=SC2046
-        "${CC:-gcc}" -std=c11 -D_GNU_SOURCE -ffp-contract=off -fno-tree-slp-vectorize -fopenmp-simd -O2 -include math.h '-Dfma(a,b,c)=((a)*(b)+(c))' -I"$ROOT/src" \
+        "${CC:-gcc}" -std=c11 -D_GNU_SOURCE -ffp-contract=off -fno-math-errno -fno-tree-slp-vectorize -fopenmp-simd -O2 -include math.h '-Dfma(a,b,c)=((a)*(b)+(c))' -I"$ROOT/src" \
             $(pkg-config --cflags fftw3) -c -o without.o "$source"
         fused without.o "$name, its fma() taken as a product and a sum" || bad=1
     else
