@@ -2,14 +2,12 @@
    tangents, its parameter w from 0 to the arc length h travelled: within h^4 kappa''.. / 384 of the path, below 1e-16 m
    at 10 um. Along a profile, and on a straight path, places are exact straight lines in u.
 
-   Knots. The next knot is looked for along each family's coordinate, which runs nearly straight over a stretch: one
-   Newton step from the tangent's crossing. A knot missed by rounding, or a knot line that a curve just touches between
-   two places, leaves a kink inside a cell: the cell's mean is off by half the kink of its slope times what was missed
-   (a part in 1e7 of a pitch by rounding, kappa h^2 / 8 of a line touched).
+   Knots. Those that a stretch meets are looked for along each family's coordinate, by Newton's method from where a
+   straight line meets them. A knot missed by rounding, or one that a curve just touches between two places, leaves a
+   kink inside a cell: the cell's mean is off by half the kink of its slope times what was missed (a part in 1e7 of a
+   pitch by rounding, kappa h^2 / 8 of a line touched).
 
-   Measured on a circle over roughness, where cutting was a quarter of all: the step is made for knots alone that may be
-   the next ones, on one coordinate; and a stretch that begins where the one before ended shares its point, so that a
-   third fewer are read and limited. */
+   A stretch that begins where the one before ended shares its point: of a circle a third fewer are read and limited. */
 #include "force/path_cells.h"
 
 #include <math.h>
@@ -113,21 +111,34 @@ static struct spot stretch_end(const struct stretch *s, int k)
     return (struct spot){c->x[k], c->y[k], s->heading * c->ex[k], s->heading * c->ey[k]};
 }
 
-/* `done` m into the stretch: Hermite basis at share q, and its derivatives over q. */
-static struct spot stretch_at(const struct stretch *s, double done)
+/* at[n] m into the stretch: Hermite basis at share q, and its derivatives over q. */
+LANES_CLONES
+static void stretch_at(const struct stretch *s, int n, const double *at, double *x, double *y, double *ex, double *ey)
 {
     const struct hermite *c = &s->path;
-    double h = c->length, per = 1 / h, q = done * per, p = 1 - q, away = q * p;
-    double a = p * p * (1 + 2 * q), b = q * q * (1 + 2 * p), from = p * away * h, to = -q * away * h;
-    double da = -6 * away * per, ds = p * (p - 2 * q), dt = q * (q - 2 * p);
-    double dx = da * (c->x[0] - c->x[1]) + ds * c->ex[0] + dt * c->ex[1],
-           dy = da * (c->y[0] - c->y[1]) + ds * c->ey[0] + dt * c->ey[1], d = sqrt(dx * dx + dy * dy);
-    struct spot r = {.x = a * c->x[0] + b * c->x[1] + from * c->ex[0] + to * c->ex[1],
-                     .y = a * c->y[0] + b * c->y[1] + from * c->ey[0] + to * c->ey[1],
-                     .ex = s->heading * c->ex[0],
-                     .ey = s->heading * c->ey[0]};
-    if (c->bends && d > 0) r.ex = dx * (s->heading / d), r.ey = dy * (s->heading / d);
-    return r;
+    double h = c->length, per = 1 / h, heading = s->heading, x0 = c->x[0], x1 = c->x[1], y0 = c->y[0], y1 = c->y[1],
+           ex0 = c->ex[0], ex1 = c->ex[1], ey0 = c->ey[0], ey1 = c->ey[1];
+    int curved = c->bends ? n : 0;
+    for (int i = curved; i < n; i++) {
+        double q = at[i] * per;
+        x[i] = x0 + q * (x1 - x0);
+        y[i] = y0 + q * (y1 - y0);
+        ex[i] = heading * ex0;
+        ey[i] = heading * ey0;
+    }
+#pragma omp simd
+    for (int i = 0; i < curved; i++) {
+        double q = at[i] * per, p = 1 - q, away = q * p, a = p * p * (1 + 2 * q), b = q * q * (1 + 2 * p),
+               from = p * away * h, to = -q * away * h;
+        double da = -6 * away * per, ds = p * (p - 2 * q), dt = q * (q - 2 * p);
+        double dx = da * (x0 - x1) + ds * ex0 + dt * ex1, dy = da * (y0 - y1) + ds * ey0 + dt * ey1,
+               d = sqrt(dx * dx + dy * dy);
+        double unit = heading / lanes_select(d > 0, d, 1);
+        x[i] = a * x0 + b * x1 + from * ex0 + to * ex1;
+        y[i] = a * y0 + b * y1 + from * ey0 + to * ey1;
+        ex[i] = lanes_select(d > 0, dx * unit, heading * ex0);
+        ey[i] = lanes_select(d > 0, dy * unit, heading * ey0);
+    }
 }
 
 /* One coordinate of the curve; *rate: its derivative. */
@@ -139,20 +150,64 @@ static double curve_along(const struct hermite *c, int axis, double w, double *r
     return x[0] + b * (x[1] - x[0]) + q * p * h * (p * e[0] - q * e[1]);
 }
 
-/* Where the stretch reaches the family's next knot, along the tangent; corrected once if that may be before `nearest`.
- */
-INLINE double grid_next(const struct knot_lines *g, const struct stretch *s, double done, const struct spot *at,
-                        double nearest)
+/* The knots of one family that a stretch meets, one after the other. Where its coordinate turns on the way, they are met
+   on the way there and on the way back. */
+struct knot_walk {
+    double next;              /* m into the stretch; HUGE_VAL: there is none */
+    double from, to, turn;    /* m: what is left of the way to where it turns, or to the end; whole: it does not turn */
+    double at, end;           /* the coordinate at both ends of that, in pitches */
+    double edge, step, count; /* the next knot's number, +1 or -1, how many are left on it */
+};
+
+static void walk_leg(struct knot_walk *k, double end)
 {
-    double rate = s->heading * (g->axis ? at->ey : at->ex) * g->per;
-    if (fabs(rate) * (s->whole - done) < 1e-9) return HUGE_VAL;
-    double q = ((g->axis ? at->y : at->x) - g->origin) * g->per;
-    double slack = 1e-7 * (1 + fabs(q) * 1e-6); /* a knot just reached is not the next one */
-    double edge = rate > 0 ? lanes_floor(q + slack) + 1 : lanes_ceil(q - slack) - 1, next = done + (edge - q) / rate;
-    if (!s->path.bends || !(next < s->path.length) || next - done > 2 * (nearest - done)) return next;
-    double speed, left = edge - (curve_along(&s->path, g->axis, next, &speed) - g->origin) * g->per,
-                  better = next + left * g->pitch / speed;
-    return fabs(speed) > 0.1 * fabs(rate * g->pitch) && better > done ? better : next;
+    double slack =
+        1e-7 * (1 + fabs(k->at) * 1e-6); /* a knot just reached is not the next one, and one at the end none */
+    bool up = end > k->at;
+    double last = up ? lanes_ceil(end - slack) - 1 : lanes_floor(end + slack) + 1;
+    k->end = end;
+    k->step = up ? 1 : -1;
+    k->edge = up ? lanes_floor(k->at + slack) + 1 : lanes_ceil(k->at - slack) - 1;
+    k->count = (last - k->edge) * k->step + 1;
+}
+
+/* To the next knot: from where a straight line meets it by Newton's method. */
+static void walk_on(struct knot_walk *k, const struct knot_lines *g, const struct stretch *s)
+{
+    const struct hermite *c = &s->path;
+    if (k->count < 1 && k->to < s->whole) {
+        k->from = k->to;
+        k->at = k->end;
+        k->to = s->whole;
+        walk_leg(k, ((g->axis ? c->y : c->x)[1] - g->origin) * g->per);
+    }
+    k->next = HUGE_VAL;
+    if (k->count < 1) return;
+    double w = k->from + (k->to - k->from) * (k->edge - k->at) / (k->end - k->at), off = 1;
+    for (int i = 0; c->bends && i < 8 && fabs(off) > 1e-9; i++) {
+        double speed;
+        off = k->edge - (curve_along(c, g->axis, w, &speed) - g->origin) * g->per;
+        if (!(speed * k->step > 0)) break;
+        w = fmax(k->from, fmin(w + off * g->pitch / speed, k->to));
+    }
+    k->next = k->from = w;
+    k->at = k->edge;
+    k->edge += k->step;
+    k->count--;
+}
+
+static void walk_start(struct knot_walk *k, const struct knot_lines *g, const struct stretch *s)
+{
+    const struct hermite *c = &s->path;
+    const double *x = g->axis ? c->y : c->x, *e = g->axis ? c->ey : c->ex;
+    double speed, end = x[1];
+    *k = (struct knot_walk){.to = s->whole, .at = (x[0] - g->origin) * g->per};
+    if (c->bends && e[0] * e[1] < 0) {
+        k->to = s->whole * e[0] / (e[0] - e[1]);
+        end = curve_along(c, g->axis, k->to, &speed);
+    }
+    walk_leg(k, (end - g->origin) * g->per);
+    walk_on(k, g, s);
 }
 
 INLINE void add_point(struct path_cells *w, double alpha, const struct spot *at)
@@ -185,33 +240,49 @@ INLINE void add_cell(struct cells *p, int interval, int heading, double length)
     p->length[i] = length;
 }
 
+enum { PIECES = 16 }; /* that are cut at once */
+
 /* Adds the stretch's cells. */
 static void cut_stretch(struct path_cells *w, const struct stretch *s)
 {
     struct cells *p = &w->cells;
-    double done = 0;
+    struct knot_walk walk[CELLS_KNOTS];
     struct spot at = stretch_end(s, 0);
+    double done = 0, stops[2 * PIECES], step = s->whole / fmax(ceil(s->whole / w->longest), 1);
+    int each = w->halves ? 2 : 1;
+    for (int k = 0; k < w->n_knots; k++)
+        walk_start(&walk[k], &w->knots[k], s);
     while (done < s->whole) {
-        double next = done + w->longest;
-        next = next < s->whole ? next : s->whole;
-        if (p->n + 2 > LIMITER_CELLS || p->points + 3 > LIMITER_POINTS) cells_flush(w);
-        for (int k = 0; k < w->n_knots; k++) {
-            double knot = grid_next(&w->knots[k], s, done, &at, next);
-            next = knot < next ? knot : next;
-        }
-        if (!(next > done))
-            next = done + fmax(1e-12 * s->whole, 4e-16 * fabs(done)); /* no progress in floating point */
-        struct spot end = next < s->whole ? stretch_at(s, next) : stretch_end(s, 1);
+        int n = 0, from;
+        if (p->n + 2 * PIECES > LIMITER_CELLS || p->points + 2 * PIECES + 1 > LIMITER_POINTS) cells_flush(w);
         if (!last_point(p, s->alpha, &at)) add_point(w, s->alpha, &at);
-        if (w->halves) {
-            struct spot middle = stretch_at(s, 0.5 * (done + next));
-            add_cell(p, s->interval, s->heading, 0.5 * (next - done));
-            add_point(w, s->alpha, &middle);
+        from = p->points;
+        for (double next; n < each * PIECES && done < s->whole; done = next) {
+            next = done + step < (1 - 1e-9) * s->whole ? done + step : s->whole;
+            for (int k = 0; k < w->n_knots; k++)
+                next = walk[k].next < next ? walk[k].next : next;
+            if (!(next > done)) /* two knots at one place, but for rounding */
+                next = done + fmax(1e-12 * s->whole, 4e-16 * fabs(done));
+            for (int k = 0; k < w->n_knots; k++)
+                if (walk[k].next <= next) walk_on(&walk[k], &w->knots[k], s);
+            double length = (next - done) / each;
+            for (int k = 1; k <= each; k++) {
+                add_cell(p, s->interval, s->heading, length);
+                stops[n++] = k == each ? next : done + length;
+                p->points++;
+            }
         }
-        add_cell(p, s->interval, s->heading, (w->halves ? 0.5 : 1) * (next - done));
-        add_point(w, s->alpha, &end);
-        at = end;
-        done = next;
+        stretch_at(s, n, stops, p->x + from, p->y + from, p->ex + from, p->ey + from);
+        for (int k = from; k < p->points; k++) {
+            p->alpha[0][k] = s->alpha;
+            p->alpha[1][k] = s->alpha * w->ratio;
+        }
+        int last = p->points - 1;
+        at = (struct spot){p->x[last], p->y[last], p->ex[last], p->ey[last]};
+        if (done < s->whole) continue;
+        at = stretch_end(s, 1);
+        p->points--;
+        add_point(w, s->alpha, &at);
     }
 }
 
@@ -518,10 +589,10 @@ bool path_cells_make(struct path_cells *w, struct stage_run *r, enum cells_kind 
     w->halves = w->curved || along == ALONG_PLANE;
     for (const struct relief_part *p = w->relief->first; p; p = p->next)
         w->halves = w->halves || !p->linear;
-    /* A pair of cells takes the curvature for a parabola. On fast curved ways its cubic part, and not the
-       sub-intervals, would limit the force: scenes/scribble is off by -77 dB at 4 sub-intervals, by -62 with cells
-       twice as long. */
-    w->longest = w->halves ? fmin(longest, relief_finest(w->relief) / 4) : longest;
+    /* A pair of cells takes the curvature for a parabola, and sub-intervals a force for straight lines: of fast ways
+       over cells of one length the error would stay at theirs, whatever the oversampling. Shorter ones at that rate
+       leave an error of order 3 to 4: scenes/scribble -46, -64, -80, -98 dB at 1, 2, 4, 8 sub-intervals. */
+    w->longest = w->halves ? fmin(longest, relief_finest(w->relief) / r->board->over) : longest;
     if (!load_varies(r->contact)) {
         double n = load_constant(r->contact);
         limiter_warn(r, n, n);
@@ -537,11 +608,16 @@ unsigned path_cells_asks(const struct contact *c, const struct scene *s)
     return field ? ITEM_BIT(ITEM_X) | ITEM_BIT(ITEM_Y) | ITEM_BIT(ITEM_VX) | ITEM_BIT(ITEM_VY) : 0;
 }
 
-double path_cells_work(const struct contact *c, const struct scene *s)
+double path_cells_knots(const struct contact *c, const struct scene *s)
 {
     double rough = roughness_scale(c), finest = c->surface.finest > 0 ? c->surface.finest
                                                 : isnan(rough)        ? height_map_pitch(c)
                                                                       : rough;
-    bool halves = relief_along(c) == ALONG_PLANE;
-    return (halves ? 2 : 1) * (s->accuracy.oversampling + motion_speed(&c->motion) / (s->output.sample_rate * finest));
+    return motion_speed(&c->motion) / (s->output.sample_rate * finest);
+}
+
+double path_cells_work(const struct contact *c, const struct scene *s)
+{
+    double over = s->accuracy.oversampling, knots = path_cells_knots(c, s);
+    return relief_along(c) == ALONG_PLANE ? 2 * (over * fmax(knots, 1) + knots) : over + knots;
 }

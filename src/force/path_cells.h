@@ -72,7 +72,8 @@ void path_cells_run(struct path_cells *w, const struct stage_run *r, long first,
 /* Items of the board that a stage with a path reads besides POSITION, VELOCITY and SURFACE. */
 unsigned path_cells_asks(const struct contact *c, const struct scene *s);
 
-/* Predicted cells per audio sample. */
+/* Predicted per audio sample: knots of one family, in its finest pitch, and cells. */
+double path_cells_knots(const struct contact *c, const struct scene *s);
 double path_cells_work(const struct contact *c, const struct scene *s);
 
 /* Values of a sub-sampled item from sub-sample `first` on. */

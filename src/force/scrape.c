@@ -140,15 +140,14 @@ static bool scrape_wanted(const struct contact *c, const struct scene *s)
     return c->contact.model == CONTACT_SCRAPE && scrape_law(c)->force == FORCE_DIRECTIONAL;
 }
 
-/* Measured. On a way that turns in the plane knots are looked for by Newton's method, and each sub-interval begins
- * anew. */
+/* Measured. On a way that turns in the plane sub-intervals longer than a pitch over their number are cut. */
 static double scrape_work(const struct contact *c, const struct scene *s)
 {
     bool straight = motion_straight(&c->motion), plane = relief_along(c) == ALONG_PLANE;
     double limited = limiter_of(c)->curve == LIMITER_TANH ? 1 : 0.4, over = s->accuracy.oversampling,
-           cells = path_cells_work(c, s);
-    if (plane && !straight) return limited * (850 * over + 2200 * (cells / 2 - over));
-    return limited * (straight && !plane ? 70 : 150) * cells; /* cut by path_cells.c, or not */
+           knots = path_cells_knots(c, s);
+    if (plane && !straight) return limited * (300 * over * fmax(2 * knots, 1) + 2000 * knots);
+    return limited * (plane ? 250 * over + 1000 * knots : 95 * over + 350 * knots);
 }
 
 static bool scrape_open(struct stage_run *r, struct err *e)
