@@ -261,7 +261,8 @@ struct picture {
     struct gnuplot *g;
     double x[2], y[2];  /* range of the axes: s (logarithmic), dB */
     double (*taken)[4]; /* pixels: from and to, across and up, [n] of points and labels */
-    int n;
+    double (*lines)[4]; /* pixels: two ends of each straight piece of a curve, [n_lines] */
+    int n, n_lines;
 };
 
 /* dB; settings that are the reference, or make its samples, have none. */
@@ -332,11 +333,23 @@ static void place(const struct picture *p, double x, double y, double at[2])
     at[1] = HEIGHT * (low + (high - low) * (y - p->y[0]) / (p->y[1] - p->y[0]));
 }
 
+static bool crosses(const double line[4], const double box[4])
+{
+    double length = fmax(fabs(line[2] - line[0]), fabs(line[3] - line[1]));
+    for (double at = 0; at <= length; at += 2) {
+        double x = line[0] + (line[2] - line[0]) * at / length, y = line[1] + (line[3] - line[1]) * at / length;
+        if (x > box[0] - 1 && x < box[1] + 1 && y > box[2] - 1 && y < box[3] + 1) return true;
+    }
+    return false;
+}
+
 static bool is_free(const struct picture *p, const double box[4])
 {
     bool ok = box[0] > WIDTH * left && box[1] < WIDTH * right && box[2] > HEIGHT * low && box[3] < HEIGHT * high;
     for (int i = 0; ok && i < p->n; i++)
         ok = box[0] > p->taken[i][1] || box[1] < p->taken[i][0] || box[2] > p->taken[i][3] || box[3] < p->taken[i][2];
+    for (int i = 0; ok && i < p->n_lines; i++)
+        ok = !crosses(p->lines[i], box);
     return ok;
 }
 
@@ -371,6 +384,26 @@ static int kind_end(const struct accuracy_sweep *s, int i)
     return end;
 }
 
+static bool is_asked(const struct accuracy_row *w) { return w->name[0] == 'a' && w->knob < 0; }
+
+static void take_curves(struct picture *p)
+{
+    const struct accuracy_sweep *s = p->s;
+    for (int i = 0, end; i < s->n_rows; i = end) {
+        double at[2], before[2], error;
+        bool first = true;
+        end = kind_end(s, i);
+        for (int k = i; k < end && (is_asked(&s->rows[i]) || s->rows[i].knob >= 0); k++) {
+            if (!shown(s, &s->rows[k], &error)) continue;
+            place(p, fmax(s->renders[s->rows[k].total].cpu[1], 1e-6), error, at);
+            if (!first)
+                memcpy(p->lines[p->n_lines++], (const double[4]){before[0], before[1], at[0], at[1]}, sizeof *p->lines);
+            memcpy(before, at, sizeof before);
+            first = false;
+        }
+    }
+}
+
 /* Names of the rows [i, end) that are that render, but for those before i: "-40, -60". */
 static const char *names(const struct accuracy_sweep *s, int i, int end, int render)
 {
@@ -385,7 +418,10 @@ static const char *names(const struct accuracy_sweep *s, int i, int end, int ren
 void accuracy_report_plot(void *sweep, struct gnuplot *g)
 {
     const struct accuracy_sweep *s = sweep;
-    struct picture p = {.s = s, .g = g, .taken = (double(*)[4])ARENA_TAKE(s->call->arena, double, 8 * s->n_rows + 4)};
+    struct picture p = {.s = s,
+                        .g = g,
+                        .taken = (double(*)[4])ARENA_TAKE(s->call->arena, double, 8 * s->n_rows + 4),
+                        .lines = (double(*)[4])ARENA_TAKE(s->call->arena, double, 4 * s->n_rows + 4)};
     const char *between = "plot ", *title = s->scene.title ? s->scene.title : s->file;
     bool own = isfinite(s->own_db);
     double error, at[2];
@@ -417,6 +453,7 @@ void accuracy_report_plot(void *sweep, struct gnuplot *g)
         place(&p, fmax(r->cpu[2], 1e-6), error, to);
         memcpy(p.taken[p.n++], (const double[4]){at[0] - 6, to[0] + 6, at[1] - 5, at[1] + 5}, sizeof *p.taken);
     }
+    take_curves(&p);
     for (int i = 0; i < s->n_rows; i = end, curve++) {
         end = kind_end(s, i);
         const char *colour = colours[curve % (int)(sizeof colours / sizeof *colours)];
@@ -444,7 +481,7 @@ void accuracy_report_plot(void *sweep, struct gnuplot *g)
         for (int k = i; k < end; k++)
             n += shown(s, &s->rows[k], &error);
         if (n == 0) continue;
-        bool asked = s->rows[i].name[0] == 'a' && s->rows[i].knob < 0, curved = asked || s->rows[i].knob >= 0;
+        bool asked = is_asked(&s->rows[i]), curved = asked || s->rows[i].knob >= 0;
         fprintf(g->in,
                 "%s$b%d using 1:2%s with %s linewidth 1.5 pointtype %d pointsize %s linecolor rgb '%s' title '%s'",
                 between, i, curved ? "" : ":3:4", curved ? "linespoints" : "xerrorbars", curved ? 7 : 4,
