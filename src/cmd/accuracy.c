@@ -496,6 +496,11 @@ static bool ask_scene(struct accuracy_sweep *s, struct err *e)
         outfile_drop(&probe);
     }
     if (!plan_scene_knobs(&s->scene, s->call->arena, &s->knobs, e)) return scene_places_report(&s->scene, e);
+    for (int k = 0; k < KNOBS; k++)
+        if (own[k].n > 0 && !(s->knobs & 1u << k))
+            return err_set(e, ERR_USAGE,
+                           "--values: no stage of this scene depends on %s; rasp plan lists the knobs of each",
+                           keys_knobs[k].name);
     excerpt(s);
     struct scene part;
     if (s->excerpt > 0) { /* as each row's */

@@ -35,6 +35,7 @@ try rasp accuracy scene.yaml --values oversampling=2,,4
 try rasp accuracy scene.yaml --values oversampling
 try rasp accuracy scene.yaml --values oversamplin=2
 try rasp accuracy scene.yaml --values speed=2
+try rasp accuracy scene.yaml --values contact_steps=4
 try rasp accuracy scene.yaml --errors=-40,ten
 try rasp accuracy scene.yaml --errors=3
 try rasp accuracy scene.yaml --excerpt=0
