@@ -125,7 +125,10 @@ static bool render_verify(struct cmd_call *c, const char *file, const struct sce
         memcpy(ARENA_TAKE(c->arena, const char *, r->n_notes + 1), r->notes, (size_t)r->n_notes * sizeof *r->notes);
     r->notes[r->n_notes++] =
         isfinite(measured)
-            ? arena_format(c->arena, "accuracy: %.1f dB measured, against the reference%s", measured, text)
+            ? arena_format(c->arena, "accuracy: %.1f dB measured, against the reference%s%s", measured, text,
+                           r->error_budget.diverges ? "; two renders of a ball that bounces part: what can be compared "
+                                                      "are statistics (rasp accuracy)"
+                                                    : "")
             : arena_format(c->arena, "accuracy: measured: the same bits as the reference%s", text);
     return isnan(asked->accuracy.error) || measured <= asked->accuracy.error || err_about(e, NULL, "accuracy.error") ||
            err_set(e, ERR_DIFFERS,

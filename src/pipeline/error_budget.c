@@ -455,16 +455,16 @@ static void parts_text(struct budgeting *m)
         if (error > 0)
             p->parts[p->n++] = (struct error_budget_part){(enum knob)k, is_users(m, k), m->found[k].value, sqrt(error)};
     }
-    p->predicted = decibel(sum);
+    p->predicted = p->diverges ? NAN : decibel(sum);
 }
 
 static const char *budget_text(struct arena *a, const char *preset, const struct error_budget *p)
 {
     const char *text = p->asked ? arena_format(a, "accuracy: %.6g dB asked, ", p->error)
                                 : arena_format(a, "accuracy: %s aims at %.6g dB, ", preset, p->error);
-    if (isnan(p->predicted)) return arena_format(a, "%severy knob is said: nothing is chosen or predicted", text);
     if (p->diverges)
         return arena_format(a, "%sbut a ball bounces: renders of it diverge, and the knobs are the preset's own", text);
+    if (isnan(p->predicted)) return arena_format(a, "%severy knob is said: nothing is chosen or predicted", text);
     if (p->n == 0) return arena_format(a, "%sno knob leaves an error", text);
     text = arena_format(a, "%s%.1f dB predicted: ", text, p->predicted);
     for (int i = 0; i < p->n; i++)

@@ -51,7 +51,7 @@ static void reports_drop(const struct stage_report *all, int n)
 void summary_notes(const struct scene *s, const struct run *const *runs, struct render_report *report, struct arena *a)
 {
     report->notes = ARENA_TAKE(a, const char *, s->n_contacts *REPORTS + 1);
-    if (report->error_budget.text && report->error_budget.asked)
+    if (report->error_budget.text && (report->error_budget.asked || report->error_budget.diverges))
         report->notes[report->n_notes++] = report->error_budget.text;
     for (int i = 0; i < s->n_contacts; i++) {
         struct stage_report all[REPORTS];
