@@ -8,7 +8,9 @@
 #include "scene/keys.h"
 #include "scene/scene_values.h"
 
-static const char STANDARD[] = "standard", PRESETS[] = "presets: draft, standard, high, reference";
+static const char STANDARD[] = "standard",
+                  PRESETS[] =
+                      "presets: draft, standard, high, reference; for an error that must be kept: {error: -60 dB}";
 
 #define LEAST_ERROR (-240.0) /* dB; doubles hold -313 */
 
@@ -124,9 +126,11 @@ void accuracy_read(struct yaml *y, const struct yaml_node *node, struct accuracy
             if (x >= LEAST_ERROR && x < 0)
                 accuracy->error = x;
             else
-                diag_add(
-                    y->diag, item->at, "dB relative to the sound, rms; the knobs that are not given are chosen by it",
-                    "accuracy.error must be from %g dB to below 0 dB, not %s", LEAST_ERROR, scene_values_kind(y, item));
+                diag_add(y->diag, item->at,
+                         "write for instance: -60 dB, relative to the sound, rms; the knobs that are not given are "
+                         "chosen by it",
+                         "accuracy.error must be from %g dB to below 0 dB, not %s", LEAST_ERROR,
+                         scene_values_kind(y, item));
         } else if (k->name)
             knob_read(y, k, item, accuracy);
         else if (strcmp(item->key->text, "preset") != 0)

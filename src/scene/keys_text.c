@@ -21,7 +21,8 @@ const struct keys_text_frame keys_text_frames[] = {
      "it "
      "keeps), density, alpha, beta, loss, source; rasp modes material writes such entries"},
     {"accuracy", "draft, standard, high, reference, or a map",
-     "how much time is spent on accuracy: a preset, or a map of preset, error and single knobs"},
+     "how much time is spent on accuracy: a preset, which is an error to aim at, or a map of preset, error and single "
+     "knobs"},
     {"accuracy.error", "number, dB, -240 to below 0",
      "error relative to the sound, rms, that the knobs not given are chosen by, as cheaply as keeps it; what cannot be "
      "kept is refused"},
@@ -235,6 +236,12 @@ void keys_text_print_map(FILE *f, const char *path, struct arena *a)
     }
 }
 
+/* What stands above the knobs of presets. */
+static const char presets_text[] =
+    "draft, standard and high aim at -40, -70 and -100 dB, and each scene gets the knobs that it needs for that (rasp "
+    "plan); these are the knobs of reference, and of the others for coupled balls, of which at most contact_steps is "
+    "chosen:";
+
 static void print_presets(FILE *f, const struct key_knob *k, struct arena *a)
 {
     for (int i = 0; i < 4; i++)
@@ -256,14 +263,16 @@ void keys_text_print_knob(FILE *f, const struct key_knob *k, struct arena *a)
     text_wrap(f, k->meaning, n, MARGIN);
     print_fact(f, "type", k->whole ? "whole number" : "number");
     print_fact(f, "range", arena_format(a, "%.6g to %.6g", k->low, k->high));
+    print_fact(f, "presets", presets_text);
     print_preset_names(f, 9);
-    fprintf(f, "  %-9s", "preset");
+    fprintf(f, "  %-9s", "");
     print_presets(f, k, a);
 }
 
 void keys_text_print_accuracy(FILE *f, struct arena *a)
 {
     keys_text_print_map(f, "accuracy", a);
+    print_fact(f, "presets", presets_text);
     print_preset_names(f, 16);
     for (const struct key_knob *k = keys_knobs; k->name; k++) {
         fprintf(f, "  %-16s", k->name);

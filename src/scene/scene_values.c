@@ -94,11 +94,33 @@ bool scene_values_quantity(struct yaml *y, const struct yaml_node *node, const c
     return true;
 }
 
+/* The key whose name goes on, where that takes what this one does not, as contact.smoothing_length takes 0.1 mm. */
+static const struct key *longer_key(struct yaml *y, const struct key *k, const struct yaml_node *node)
+{
+    struct units_fault fault;
+    double value;
+    size_t n = strlen(k->path);
+    if (node->kind != YAML_SCALAR || yaml_null(node) || units_read(node->text, k->dimension, &value, y->arena, &fault))
+        return NULL;
+    for (const struct key *other = keys_table; other->path; other++)
+        if (!strncmp(other->path, k->path, n) && other->path[n] == '_' && other->type == KEY_NUMBER &&
+            units_read(node->text, other->dimension, &value, y->arena, &fault))
+            return other;
+    return NULL;
+}
+
 bool scene_values_number(const struct scene_part *p, const struct key *k, const struct yaml_node *node,
                          const char *label, double *x)
 {
     struct yaml *y = p->yaml;
     double value;
+    const struct key *longer = longer_key(y, k, node);
+    if (longer)
+        return diag_add(y->diag, node->at,
+                        arena_format(y->arena, "write for instance: %s; or %s: %s", units_example(k->dimension),
+                                     longer->path, diag_shown(y->diag, node->text)),
+                        "%s needs %s; %s is %s", label, units_name(k->dimension), diag_shown(y->diag, node->text),
+                        units_name(longer->dimension));
     if (!scene_values_quantity(y, node, label, k->dimension, &value)) return false;
     if (value < k->low || value > k->high) {
         const char *range = units_text(k->low, k->dimension, y->arena);

@@ -18,6 +18,9 @@ sed 's/leaves -[0-9.]* dB/leaves X dB/; s/for -[0-9]* dB/for Y dB/' words >&2
 try rasp check drop.yaml 2> words
 sed 's/ [0-9]* times in/ N times in/' words >&2
 try rasp check scene.yaml --set accuracy.error=3
+try rasp check scene.yaml --set accuracy=-60
+# A length for the smoothing has a key of its own.
+try rasp check scene.yaml --set 'contact.smoothing=0.1 mm'
 ls
 # What is named as the best is so whatever was asked, and can be had, where ramps of gains leave a small error of their own, too.
 for asked in -145 -150 -200; do
