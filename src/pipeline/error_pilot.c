@@ -334,7 +334,8 @@ bool error_pilot_make(const struct scene *s, const struct contact *c, double som
     p->knobs = plan_knobs(&p->plan);
     int spread = p->knobs & KNOB_BIT(tip_heights) ? PILOT_SAMPLED / 2 : PILOT_SAMPLED;
     p->followed = sampled ? spread + PILOT_ENDS : PILOT_FOLLOWED;
-    p->follows = anywhere && p->blocks > 2 * p->followed; /* else as dear */
+    /* Else as dear; and of a short motion few blocks say little: one grain may be all of its force. */
+    p->follows = anywhere && p->blocks > (sampled ? 4 : 2) * p->followed;
     p->block = p->follows ? ARENA_TAKE(a, struct pilot_block, p->followed) : NULL;
     for (int k = 0; sampled && p->follows && k < p->followed; k++) /* 0, those spread, the last two */
         p->block[k].number = k == 0        ? 0
