@@ -23,6 +23,7 @@ void object_sum(int n, int modes, const double *rows, const double *weight, doub
     for (int first = 0; first < modes; first += OBJECT_SUM) {
         double part[OBJECT_SUM];
         const double *row = rows + first;
+#pragma omp simd
         for (int i = 0; i < OBJECT_SUM; i++)
             part[i] = row[i] * weight[0];
         for (int t = 1; t < n; t++) {

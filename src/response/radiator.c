@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "num/lanes.h"
 #include "num/real.h"
 #include "num/vecmath.h"
 
@@ -161,9 +162,9 @@ enum { MOST_PLACES = 96, COARSE = 10, FINE = PANELS_POINTS, HALVINGS = 6 };
 #define MOST_POINTS 2e7
 
 /* Cycles of an element dS, of each mode in it, of each product that its shape is the sum of. */
-#define ELEMENT 500.0
-#define SHAPED 25.0
-#define SUMMED 0.6
+#define ELEMENT 400.0
+#define SHAPED 16.0
+#define SUMMED 0.25
 
 /* ------------------------------------------------------------------ the outline */
 
@@ -225,23 +226,27 @@ struct work {
 };
 
 /* Adds the element dS at y (the object's coordinates), where the shapes are phi. */
-static void element(struct work *w, double x, double y, double dS, const double *phi)
+LANES_CLONES
+static void element(const struct work *w, double x, double y, double dS, const double *phi)
 {
     const struct radiator_plate *p = w->given;
     const struct modes *m = p->modes;
     double dx = p->place[0] - p->origin[0] - x, dy = p->place[1] - p->origin[1] - y, z = p->place[2];
     double R = sqrt(dx * dx + dy * dy + z * z), late = (R - w->far) / p->sound_speed, share = dS / R;
+    double *grow = w->grow, *turn = w->turn, *c = w->c, *re = w->sum[0], *im = w->sum[1], *size = w->size;
+#pragma omp simd
     for (int i = 0; i < w->n; i++) {
-        w->grow[i] = m->decay[i] * late;
-        w->turn[i] = 2 * m->frequency[i] * late;
+        grow[i] = m->decay[i] * late;
+        turn[i] = 2 * m->frequency[i] * late;
     }
-    vecmath_exp((size_t)w->n, w->grow, w->grow);
-    vecmath_sincospi((size_t)w->n, w->turn, w->turn, w->c);
+    vecmath_exp((size_t)w->n, grow, grow);
+    vecmath_sincospi((size_t)w->n, turn, turn, c);
+#pragma omp simd
     for (int i = 0; i < w->n; i++) {
-        double v = share * phi[i] * w->inverse[i] * w->grow[i];
-        w->sum[0][i] += v * w->c[i];
-        w->sum[1][i] -= v * w->turn[i];
-        w->size[i] += fabs(v);
+        double v = share * phi[i] * w->inverse[i] * grow[i];
+        re[i] += v * c[i];
+        im[i] -= v * turn[i];
+        size[i] += fabs(v);
     }
 }
 
