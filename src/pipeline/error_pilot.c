@@ -399,7 +399,7 @@ double error_pilot_shown(const struct scene *s, long frame)
            left =
                isnan(s->output.duration) ? HUGE_VAL : rint(s->output.duration * s->output.sample_rate) - (double)frame,
            in = fmax(0, fmin(fmin((double)frame + 0.5, left - 0.5), ramp)),
-           x = ramp > 0 ? real_sinpi(0.5 * in / ramp) : 1;
+           x = in < ramp ? real_sinpi(0.5 * in / ramp) : 1;
     return left > 0 ? x * x : 0;
 }
 
