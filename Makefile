@@ -77,7 +77,7 @@ $(BUILD)/force/path_integral.o $(BUILD)/surface/rolling_envelope.o: private DEFI
 # gcc 12 turns products of complex numbers in loops, too, into vfmaddsub.
 $(BUILD)/analysis/modal_search.o: private DEFINES = -fno-tree-vectorize
 # -O3 alone keeps the sums of eight lanes in registers where these are narrower than eight.
-$(BUILD)/num/eigen.o $(BUILD)/response/object.o $(BUILD)/analysis/modal_block.o $(BUILD)/force/smooth.o $(BUILD)/force/decimate.o $(BUILD)/convolution/coupled_gradient.o $(BUILD)/convolution/coupled.o: \
+$(BUILD)/num/eigen.o $(BUILD)/response/object.o $(BUILD)/analysis/modal_block.o $(BUILD)/num/phases.o $(BUILD)/convolution/coupled_gradient.o $(BUILD)/convolution/coupled.o: \
     private DEFINES = $(if $(filter -O2,$(OPT)),-O3)
 # `rasp --version --verbose` says what it was made from.
 $(BUILD)/cmd/version.o: private DEFINES = -DRASP_REVISION='"$(REVISION)"' -DRASP_FLAGS='"$(strip $(CFLAGS))"' -DRASP_PACKAGES='"$(PACKAGES)"'

@@ -102,7 +102,8 @@ struct table_sink;
 struct impact_sink;
 struct ring;
 
-struct smoothing { /* of constant width, by a kernel of sub-samples */
+struct smoothing {          /* of ITEM_SUBFORCE */
+    struct smooth *varying; /* of varying width (force/smooth.h); NULL: of constant width, by a kernel of sub-samples */
     struct filter kernel;
     bool taken; /* set by an opening stage that does it with its own kernel: ITEM_SUBFORCE is then as it was before */
 };
@@ -117,11 +118,10 @@ struct signal {
 struct stage_run;
 
 struct board {
-    double rate;  /* Hz, frames per second                       */
-    int over;     /* sub-intervals per frame                     */
-    int channels; /* listening places                            */
-    struct smoothing
-        *smoothing; /* of ITEM_SUBFORCE, last before the stages that follow; NULL: none that could be taken over */
+    double rate;                 /* Hz, frames per second                       */
+    int over;                    /* sub-intervals per frame                     */
+    int channels;                /* listening places                            */
+    struct smoothing *smoothing; /* last before the stages that follow; NULL: none */
     bool bspline;   /* ITEM_SUBFORCE: means weighted by linear B-splines; set by the opening stage that gives it */
     long moving;    /* frames that the motion touches              */
     unsigned alive; /* items that some stage of the plan reads     */

@@ -4,23 +4,23 @@
 
    A smoothing of constant width before it (force/smooth.c) is joined to its kernel. Of the two together hardly more is
    left than of the Gaussian alone, since the long ends of a low-pass are those of its edge, where the Gaussian has let
-   nothing through: at 4 sub-intervals a sample and 50 us 100 taps a sample in place of 349 and 4 times 117. What is cut
-   off is a twentieth of what the low-pass's gain is allowed to be off by.
+   nothing through: at 4 sub-intervals a sample and 50 us 100 taps a sample in place of 349 and 4 times 117. One of
+   varying width is joined the same way, to the kernels of a table of widths (num/spread.h): cycles a sample of both
+   stages at standard, basswood_scrape 197 -> 84, four_in_line 524 -> 145, recorded 1550 -> 345.
 
    What the kernel spreads to before frame 0 is folded into the first frames (num/filter.h), whatever the contact: the
    momentum of any force, the sum of the samples over the rate, is what the sub-intervals hold, within 2e-7 (the
    kernel's phases do not have quite the same sum). Contacts that start later than the scene begin as causally: nothing
    is heard of them before. */
+#include <limits.h>
 #include <string.h>
 
 #include "base/stopwatch.h"
 #include "force/given.h"
 #include "force/smooth.h"
 #include "num/filter.h"
-#include "num/lanes.h"
+#include "num/phases.h"
 #include "stage.h"
-
-#define JOINED_LEFT 1e-7 /* of a sum of 1: -140 dB */
 
 static bool decimate_wanted(const struct contact *c, const struct scene *s)
 {
@@ -30,36 +30,28 @@ static bool decimate_wanted(const struct contact *c, const struct scene *s)
 
 static double decimate_work(const struct contact *c, const struct scene *s)
 {
-    double frames = smooth_still(c) * s->output.sample_rate, over = s->accuracy.oversampling;
-    return (frames > 0 ? 1 + 3.3 * frames : 19) * over;
+    bool varies;
+    double frames = smooth_sigma(c, &varies) * s->output.sample_rate, over = s->accuracy.oversampling;
+    return (frames == 0 ? 19 : varies ? 33 + 4 * frames : 1 + 3.3 * frames) * over;
 }
 
-enum { WIDE = 4 * LANES }; /* outputs whose sums stay in registers */
-
 struct decimate {
-    int over, reach, taps; /* taps of each phase */
-    double *tap;           /* [over][taps]: phase r has every over-th tap from tap r on, and zeros at the end */
-    double *x;             /* [over][room]: every over-th input from input r on                                */
-    long room;
-    bool smooths; /* a smoothing is joined */
+    struct smooth *varying; /* a smoothing of varying width, which does all; NULL: none */
+    struct phases kernel;
+    bool smooths; /* one of constant width is joined */
+    double *room; /* what phases_run needs */
     long leads;   /* frames before 0 that the kernel reaches */
     double *lead; /* [leads] what the first frames are raised by */
     double *head; /* what the kernel reads there: zeros, and the first `reach` inputs */
 };
 
-static void decimate_phases(struct decimate *d, const struct filter *f, int over, struct arena *a)
+static void decimate_make(struct decimate *d, const struct filter *f, int over, struct arena *a)
 {
-    d->over = over;
-    d->reach = f->reach;
-    d->taps = (f->taps + over - 1) / over;
-    d->room = STAGE_BLOCK + d->taps + WIDE;
-    d->tap = ARENA_TAKE(a, double, d->taps *over);
-    d->x = ARENA_TAKE(a, double, d->room *over);
-    for (int i = 0; i < f->taps; i++)
-        d->tap[i % over * d->taps + i / over] = f->tap[i];
+    d->kernel = phases_make(a, f, over, STAGE_BLOCK);
+    d->room = ARENA_TAKE(a, double, phases_room(&d->kernel));
     d->leads = f->reach / over + 2;
     d->lead = ARENA_TAKE(a, double, d->leads);
-    d->head = ARENA_TAKE(a, double, (d->leads + d->taps + 1) * over + f->reach);
+    d->head = ARENA_TAKE(a, double, (d->leads + 2) * over + f->taps + f->reach);
 }
 
 static bool decimate_open(struct stage_run *r, struct err *e)
@@ -71,50 +63,31 @@ static bool decimate_open(struct stage_run *r, struct err *e)
     struct filter f = r->board->bspline ? filter_decimator_bspline(scratch, over) : filter_decimator(scratch, over);
     (void)e;
     stopwatch_spend(60000 + 150.0 * f.taps);
-    if (s) {
-        s->taken = true;
-        f = filter_joined(scratch, &s->kernel, &f, JOINED_LEFT);
-        d->smooths = true;
-    }
-    decimate_phases(d, &f, over, r->arena);
-    r->back = r->ahead = d->reach / over + 1;
+    if (s) s->taken = d->smooths = true;
+    d->varying = s ? s->varying : NULL;
+    if (s && !d->varying) f = filter_joined(scratch, &s->kernel, &f);
+    int reach = d->varying ? smooth_join(d->varying, &f, over, STAGE_BLOCK, r->arena) : f.reach;
+    if (!d->varying) decimate_make(d, &f, over, r->arena);
+    r->back = r->ahead = reach / over + 1;
     r->state = d;
     arena_close(scratch);
     return true;
-}
-
-/* The inputs of n outputs, phase by phase. */
-static void decimate_sort(const struct decimate *d, const double *x, long n)
-{
-    long each = n + d->taps;
-    for (int r = 0; r < d->over; r++)
-        for (long i = 0; i < each; i++)
-            d->x[r * d->room + i] = x[i * d->over + r];
-}
-
-/* y[i] = sum over phases r and their taps k of tap[r][k] x[r][i + k], one addition after another; WIDE outputs at a
-   time, so that inputs and taps are loaded once for all and no sum over lanes is left: with a sum over the lanes of
-   each output it took half as long again. */
-static void decimate_all(const struct decimate *d, double *y, long n)
-{
-    for (int r = 0; r < d->over; r++)
-        smooth_taps(d->tap + r * d->taps, d->taps, d->x + r * d->room, n, r > 0, y);
 }
 
 /* Of the inputs x from frame 0 on. The kernel reads `reach` inputs to either side, and so from frame -leads on nothing
    but zeros and these. */
 static void decimate_lead(struct decimate *d, const double *x)
 {
-    memcpy(d->head + d->leads * d->over + d->reach, x, (size_t)d->reach * sizeof *x);
+    int over = d->kernel.each, reach = d->kernel.reach;
+    memcpy(d->head + d->leads * over + reach, x, (size_t)reach * sizeof *x);
     for (long i = 0, n; i < d->leads; i += n) {
         n = d->leads - i < STAGE_BLOCK ? d->leads - i : STAGE_BLOCK;
-        decimate_sort(d, d->head + i * d->over, n);
-        decimate_all(d, d->lead + i, n);
+        phases_run(&d->kernel, d->head + i * over, 0, LONG_MAX / 2, n, false, d->lead + i, d->room);
     }
-    for (long i = 0, k = d->leads - 1; i < k; i++, k--) {
+    for (long i = 0, end = d->leads - 1; i < end; i++, end--) {
         double swap = d->lead[i];
-        d->lead[i] = d->lead[k];
-        d->lead[k] = swap;
+        d->lead[i] = d->lead[end];
+        d->lead[end] = swap;
     }
     filter_fold_lead(d->lead, d->leads, d->smooths ? 0 : 1);
 }
@@ -123,12 +96,16 @@ static bool decimate_run(struct stage_run *r, long from, long to, struct err *e)
 {
     struct decimate *d = r->state;
     (void)e;
+    if (d->varying) {
+        smooth_spread(d->varying, r->board, to, to - from, board_at(r->board, ITEM_FORCE, from));
+        return true;
+    }
     if (from == 0) decimate_lead(d, board_at(r->board, ITEM_SUBFORCE, 0));
     for (long n; from < to; from += n) {
         double *force = board_at(r->board, ITEM_FORCE, from);
         n = to - from < STAGE_BLOCK ? to - from : STAGE_BLOCK;
-        decimate_sort(d, board_at(r->board, ITEM_SUBFORCE, from) - d->reach, n);
-        decimate_all(d, force, n);
+        phases_run(&d->kernel, board_at(r->board, ITEM_SUBFORCE, from) - d->kernel.reach, 0, LONG_MAX / 2, n, false,
+                   force, d->room);
         for (long i = from; i < from + n && i < d->leads; i++)
             force[i - from] += d->lead[i];
     }
@@ -141,6 +118,7 @@ const struct stage decimate_stage = {
     .paper = "",
     .idle = "contact.given.file holds samples",
     .needs = ITEM_BIT(ITEM_SUBFORCE),
+    .asks = smooth_joined_asks,
     .gives = ITEM_BIT(ITEM_FORCE),
     .spreads = true,
     .knobs = KNOB_BIT(oversampling),

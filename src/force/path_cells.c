@@ -150,8 +150,8 @@ static double curve_along(const struct hermite *c, int axis, double w, double *r
     return x[0] + b * (x[1] - x[0]) + q * p * h * (p * e[0] - q * e[1]);
 }
 
-/* The knots of one family that a stretch meets, one after the other. Where its coordinate turns on the way, they are met
-   on the way there and on the way back. */
+/* The knots of one family that a stretch meets, one after the other. Where its coordinate turns on the way, they are
+   met on the way there and on the way back. */
 struct knot_walk {
     double next;              /* m into the stretch; HUGE_VAL: there is none */
     double from, to, turn;    /* m: what is left of the way to where it turns, or to the end; whole: it does not turn */

@@ -119,9 +119,9 @@ struct magnitude path_integral_power(const double s[3], double power)
 
 /* ------------------------------------------------------------------ slope */
 
-/* The slope of S is one vector in the plane, whose axes do not turn: what the leak leaves of it and what each cell adds,
-   both known beforehand, are all that waits for the cell before. Along a straight path its first part is dS/du, and
-   there is no other. */
+/* The slope of S is one vector in the plane, whose axes do not turn: what the leak leaves of it and what each cell
+   adds, both known beforehand, are all that waits for the cell before. Along a straight path its first part is dS/du,
+   and there is no other. */
 
 static void slope_fill(struct path_integral *s, int upto)
 {

@@ -36,9 +36,9 @@ struct filter filter_decimator_bspline(struct arena *a, int over);
 struct filter filter_gaussian(struct arena *a, double sigma);
 int filter_gaussian_reach(double sigma);
 
-/* One kernel for x first through b, then through c, both of sum 1: ends that add up to at most `left` (absolute values)
+/* One kernel for x first through b, then through c, both of sum 1: ends that add up to at most 1e-7 (absolute values)
    are cut off, as many taps on both sides, and the rest has sum 1 again. */
-struct filter filter_joined(struct arena *a, const struct filter *b, const struct filter *c, double left);
+struct filter filter_joined(struct arena *a, const struct filter *b, const struct filter *c);
 
 /* What a linear-phase filter makes of a signal before that signal begins: its lead, of y[n] the part at n < 0.
 

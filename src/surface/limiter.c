@@ -113,8 +113,8 @@ struct points {
     double x[LIMITER_POINTS], soft[LIMITER_POINTS], rest[LIMITER_POINTS], per[LIMITER_POINTS];
 };
 
-/* rest[] = G(|x[]|) above; w <= log 2, so that the first term left out is below 5e-16. limited[], tanh(x) before, becomes
-   T. */
+/* rest[] = G(|x[]|) above; w <= log 2, so that the first term left out is below 5e-16. limited[], which was tanh(x),
+   becomes T. */
 LANES_CLONES
 static void points_rest(const struct limiter_cells *p, struct points *q)
 {
