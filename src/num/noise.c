@@ -9,11 +9,9 @@
 #include "num/noise.h"
 
 #include <Random123/philox.h>
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
+#include <math.h>
 
-#include "num/real.h"
+#include "num/vecmath.h"
 
 /* One step of splitmix64 (S. Vigna; the finaliser is D. Stafford's Mix13): one-to-one, every output bit depends on
  * every input bit. */
@@ -61,35 +59,18 @@ static void normal_draw(struct noise s, uint64_t row, uint64_t column, double *u
     *turns = 2 * uniform_of(bits[1]);
 }
 
-#ifdef __SSE2__
-/* y[0..3] from counters (row, column) and (row, column + 1): SLEEF's deterministic functions for two at a time, which
-   give the bits of those for one, in half the time. */
-static void normal_four(struct noise s, uint64_t row, uint64_t column, double *y)
-{
-    double u[2], turns[2];
-    normal_draw(s, row, column, &u[0], &turns[0]);
-    normal_draw(s, row, column + 1, &u[1], &turns[1]);
-    __m128d angle = _mm_loadu_pd(turns),
-            radius = _mm_sqrt_pd(_mm_mul_pd(_mm_set1_pd(-2), Sleef_cinz_logd2_u10sse2(_mm_loadu_pd(u))));
-    __m128d x = _mm_mul_pd(radius, Sleef_cinz_cospid2_u05sse2(angle)),
-            z = _mm_mul_pd(radius, Sleef_cinz_sinpid2_u05sse2(angle));
-    _mm_storeu_pd(y, _mm_unpacklo_pd(x, z));
-    _mm_storeu_pd(y + 2, _mm_unpackhi_pd(x, z));
-}
-#endif
+enum { PAIRS = 128 }; /* at a time */
 
 void noise_normal(struct noise s, uint64_t row, size_t n, double *y)
 {
-    size_t i = 0;
-#ifdef __SSE2__
-    for (; i + 4 <= n; i += 4)
-        normal_four(s, row, i / 2, y + i);
-#endif
-    for (; i < n; i += 2) {
-        double u, turns;
-        normal_draw(s, row, i / 2, &u, &turns);
-        double radius = sqrt(-2 * real_log(u));
-        y[i] = radius * real_cospi(turns);
-        if (i + 1 < n) y[i + 1] = radius * real_sinpi(turns);
+    double u[PAIRS], turns[PAIRS], sine[PAIRS];
+    for (size_t from = 0; from < n; from += 2 * PAIRS) {
+        size_t some = n - from < 2 * PAIRS ? n - from : 2 * PAIRS, pairs = (some + 1) / 2;
+        for (size_t i = 0; i < pairs; i++)
+            normal_draw(s, row, from / 2 + i, &u[i], &turns[i]);
+        vecmath_log(pairs, u, u);
+        vecmath_sincospi(pairs, turns, sine, turns);
+        for (size_t i = 0; i < some; i++)
+            y[from + i] = sqrt(-2 * u[i / 2]) * (i % 2 ? sine : turns)[i / 2];
     }
 }
