@@ -88,9 +88,15 @@ static bool add_group(struct trials *t, const int *stimuli, int n, struct arena 
 {
     const struct design *d = t->design;
     if (d->trials->task != DESIGN_TASK_COMPARE) return add(t, stimuli, n, a, e);
+    bool *differs = ARENA_TAKE(a, bool, d->n_factors + 1);
+    for (int k = 0; k < n * d->n_factors; k++)
+        differs[k % d->n_factors] |= d->stimuli[stimuli[k / d->n_factors]].level[k % d->n_factors] !=
+                                     d->stimuli[stimuli[0]].level[k % d->n_factors];
     for (int i = 0; i < n; i++)
-        for (int j = i + 1; j < n; j++)
+        for (int j = i + 1; j < n; j++) {
             if (!add(t, (const int[2]){stimuli[i], stimuli[j]}, 2, a, e)) return false;
+            t->all[t->n - 1].differs = differs;
+        }
     return n > 1 || err_set(e, ERR_SCENE, "trials.within: %s has no other sound to be compared with",
                             d->stimuli[stimuli[0]].name);
 }

@@ -17,6 +17,7 @@ struct trial {
     int n, *stimuli;    /* of the design, in the order in which they are presented             */
     int reference;      /* the one of them that the others are rated by; -1: none              */
     const char *text;   /* of the design, for this trial; NULL: none                           */
+    bool *differs;      /* [factors] among all that are compared with these; NULL: none is     */
     int part;           /* in a list: number of the block, from 1; 0: training before the first */
     uint64_t rank[2];   /* drawn for a list: of the block, of the trial                        */
 };

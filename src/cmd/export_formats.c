@@ -311,14 +311,14 @@ static bool bids_files(struct export *x, struct err *e)
 
 /* ------------------------------------------------------------------ jsPsych, and a page without library */
 
-static json_t *script_sound(const struct export *x, int i, struct arena *a)
+static json_t *script_sound(const struct export *x, const struct trial *t, int i, struct arena *a)
 {
     const struct design *d = x->design;
     json_t *levels = json_object();
     const char *level = "";
     for (int f = 0; f < d->n_factors; f++) {
         json_object_set_new(levels, d->factors[f].column, json_value_text(design_value(d, i, f)));
-        if (x->design->trials->within[f])
+        if (t->differs && t->differs[f])
             level = arena_format(a, "%s%s%s", level, *level ? ", " : "", design_label(d, i, f));
     }
     return json_value_object("file:s stimulus_id:s role:s level:s levels:o", export_sound(x, i, a), d->stimuli[i].name,
@@ -331,7 +331,7 @@ static json_t *script_trial(struct export *x, const struct export_list *l, int k
     json_t *sounds = json_array();
     (void)e;
     for (int i = 0; i < t->n; i++)
-        json_array_append_new(sounds, script_sound(x, t->stimuli[i], l->arena));
+        json_array_append_new(sounds, script_sound(x, t, t->stimuli[i], l->arena));
     return json_value_object("trial:i trial_id:s block:i training:i text:s played:s sounds:o", k + 1,
                              id_of(x, t, l->arena), t->part, t->training, t->text, played(x, t), sounds);
 }

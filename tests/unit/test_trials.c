@@ -66,6 +66,10 @@ START_TEST(papers_have_their_counts)
         for (int k = 0; k < t.n; k++) {
             training += t.all[k].training;
             ck_assert_int_eq(t.all[k].n, sounds);
+            int differ = !t.all[k].differs; /* of three factors within a pair one varies in each of its groups */
+            for (int f = 0; t.all[k].differs && f < d.n_factors; f++)
+                differ += t.all[k].differs[f];
+            ck_assert_int_eq(differ, 1);
         }
         ck_assert_int_eq(t.n - training, papers[i].trials);
         ck_assert_int_eq(training, papers[i].training);
@@ -94,8 +98,7 @@ START_TEST(together_is_what_differs_within)
     ck_assert_str_eq(all_names(&t, t.all, t.n), "p_a p_b p_c *q_a q_b *q_c");
     ck_assert_int_eq(trials_right(&t, &t.all[4]), 1);
     ck_assert_ptr_null(t.all[0].text);
-    t = trials_of(
-        made(FACTORS "trials: {task: rate, within: kind, reference: [{kind: c}], training: [{place: p}]}\n"));
+    t = trials_of(made(FACTORS "trials: {task: rate, within: kind, reference: [{kind: c}], training: [{place: p}]}\n"));
     ck_assert_str_eq(all_names(&t, t.all, t.n), "*p_a+p_b+p_c q_a+q_b+q_c");
     ck_assert_str_eq(t.design->stimuli[t.all[0].reference].name, "p_c");
     ck_assert_str_eq(t.design->stimuli[t.all[1].reference].name, "q_c");
