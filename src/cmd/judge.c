@@ -222,7 +222,9 @@ const struct command judge_command = {
         "rasp judge choices ANSWERS: confusion matrices of forced choices, with Wilson's intervals. A table has a "
         "row for each answer (columns participant, condition, played, chosen; participant and condition may be "
         "missing), or is matrices already (condition, played, and a column for each class that could be chosen: "
-        "answers, shares, or percent). With --reference each other condition is compared with it: equation 14 of "
+        "answers, shares, or percent; a first line '# cells: answers' (or shares, percent) says which, else whole "
+        "numbers are answers). Rows for training in the tables that rasp export's pages give do not count. With "
+        "--reference each other condition is compared with it: equation 14 of "
         "Agarwal and others (2021); the share of right answers by a permutation test over listeners, and by two "
         "one-sided t tests of equivalence; each row by chi-squared, which takes answers as independent.\n"
         "rasp judge similarity TABLE...: equation 14 by both norms, of all conditions, against the first table's (or "
@@ -232,14 +234,15 @@ const struct command judge_command = {
         "several ratings of one are averaged. epsilon is Greenhouse and Geisser's.",
     .also =
         "rasp judge pairs ANSWERS: paired comparisons (participant, a, b, answer A>B, A=B or B>A; set and condition "
-        "may be missing): scores as of Conan and others (2014), analysis of variance of each condition's, Tukey's "
-        "comparisons.\n"
+        "may be missing): scores as of Conan and others (2014), analysis of variance of each condition's, which may "
+        "have sounds of its own, Tukey's comparisons.\n"
         "rasp judge listen SET --templates SET: a program listens. It compares each sound of a set (rasp batch) with "
         "templates whose class it knows, and gives shares of answers: exp(-d/(2 spread)), d the distance to the "
         "nearest template of a class. By motion, it compares level and brightness over time, each without its mean; by "
         "material (--by material --factor material), how fast a struck object fades and how bright it is, in octaves. "
         "A template among the sounds is judged without itself. It is no model of a person.\n"
-        "What is missing, unbalanced, unknown or twice there is an error with its place: nothing is left out or "
+        "Tables of several listeners are joined by awk 'NR == 1 || FNR > 1' answers_p*.csv. What is missing, "
+        "unbalanced, unknown or twice there is an error with its place: nothing else is left out, or "
         "filled in.",
     .operands = "ACTION FILE...",
     .least = 1,

@@ -47,6 +47,10 @@ struct judge_factor { /* a column whose cells are words */
     int n, *of_row;      /* of_row [rows]: which level it is */
 };
 
+/* A table of answers, less the rows of training where it is from a page of `rasp export` (columns trial_id, training);
+   the report says how many. As csv_table_read. */
+bool judge_table_answers(struct judge *j, const char *file, struct csv *t, struct err *e);
+
 /* The column of that role; `--column ROLE=NAME` names another. -1: it is not there (ERR_SCENE if it must be). */
 int judge_table_column(const struct judge *j, const struct csv *t, const char *role, bool must, struct err *e);
 

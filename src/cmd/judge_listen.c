@@ -82,7 +82,8 @@ static bool add(struct judge *j, const char *set, bool templates, struct judge_c
         if (templates)
             h->sound[h->n].class = judge_add(a, &m->class_name, &m->classes, word);
         else if ((h->sound[h->n].class = judge_place(m->class_name, m->classes, word)) < 0)
-            return err_set(e, ERR_SCENE, "%s: no template is a '%s', which %s is", m->file, word, sound);
+            return err_set(e, ERR_SCENE, "%s: no template is a '%s', which %s is: templates are needed of every class",
+                           m->file, word, sound);
         else
             h->condition[h->n] = judge_add(a, &m->condition, &m->conditions, condition.levels[condition.of_row[i]]);
         h->n++;

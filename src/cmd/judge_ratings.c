@@ -240,7 +240,7 @@ bool judge_ratings_run(struct judge *j, struct err *e)
     unsigned tukey[16];
     int n = 0;
     t->file = j->call->args.operands[0];
-    if (!csv_table_read(t->file, j->arena, &v, e) || !judge_table_role(j, &v, "participant", true, &person, e))
+    if (!judge_table_answers(j, t->file, &v, e) || !judge_table_role(j, &v, "participant", true, &person, e))
         return false;
     int rating = judge_table_column(j, &v, "rating", true, e);
     if (e->kind || !factors_take(j, t, &v, person.column, rating, e)) return false;
@@ -256,7 +256,7 @@ bool judge_ratings_run(struct judge *j, struct err *e)
 struct pairs {
     int a, b, answer; /* columns */
     struct judge_factor person, set, control;
-    struct judge_factor level; /* of a and b together: of_row 2 i and 2 i + 1 are those of row i */
+    struct judge_factor level; /* of a and b together, of one control: of_row 2 i and 2 i + 1 are those of its row i */
 };
 
 /* 1, 1/2 or 0 of "A>B", "A=B", "B>A", with blanks or without. */
@@ -281,10 +281,11 @@ static bool score(struct judge *j, const struct csv *t, const struct pairs *q, i
     bool *seen = ARENA_TAKE(j->arena, bool, people *sets *n *n);
     for (int i = 0; i < people * n; i++)
         score_of[i] = 1;
+    const int *level = q->level.of_row;
     for (size_t i = 0; i < t->rows; i++) {
         double more;
         if (q->control.of_row[i] != control) continue;
-        int a = q->level.of_row[2 * i], b = q->level.of_row[2 * i + 1], who = q->person.of_row[i];
+        int a = *level++, b = *level++, who = q->person.of_row[i];
         int at = (who * sets + q->set.of_row[i]) * n * n;
         if (!answer_take(t, i, q->answer, &more, e)) return false;
         if (a == b || seen[at + a * n + b])
@@ -305,21 +306,26 @@ static bool score(struct judge *j, const struct csv *t, const struct pairs *q, i
 
 static bool pairs_read(const struct judge *j, const struct csv *t, struct pairs *q, struct err *e)
 {
-    struct csv both = {.file = t->file, .columns = 1, .rows = 2 * t->rows};
     q->a = judge_table_column(j, t, "a", true, e);
     q->b = judge_table_column(j, t, "b", true, e);
     q->answer = judge_table_column(j, t, "answer", true, e);
-    if (!judge_table_role(j, t, "participant", true, &q->person, e) ||
-        !judge_table_role(j, t, "set", false, &q->set, e) ||
-        !judge_table_role(j, t, "condition", false, &q->control, e))
-        return false;
+    return judge_table_role(j, t, "participant", true, &q->person, e) &&
+           judge_table_role(j, t, "set", false, &q->set, e) &&
+           judge_table_role(j, t, "condition", false, &q->control, e);
+}
+
+/* What is compared in a control: each may have levels of its own. */
+static bool levels_read(const struct judge *j, const struct csv *t, struct pairs *q, int control, struct err *e)
+{
+    struct csv both = {.file = t->file, .columns = 1};
     both.names = (const char *[]){arena_format(j->arena, "%s', '%s", t->names[q->a], t->names[q->b])};
-    both.cells = ARENA_TAKE(j->arena, const char *, both.rows);
-    both.lines = ARENA_TAKE(j->arena, int, both.rows);
-    for (size_t i = 0; i < both.rows; i++) {
+    both.cells = ARENA_TAKE(j->arena, const char *, 2 * t->rows);
+    both.lines = ARENA_TAKE(j->arena, int, 2 * t->rows);
+    for (size_t i = 0; i < 2 * t->rows; i++) {
         char room[CSV_ROOM];
-        both.cells[i] = arena_text(j->arena, csv_text(t, i / 2, i % 2 ? q->b : q->a, room));
-        both.lines[i] = t->lines[i / 2];
+        if (q->control.of_row[i / 2] != control) continue;
+        both.lines[both.rows] = t->lines[i / 2];
+        both.cells[both.rows++] = arena_text(j->arena, csv_text(t, i / 2, i % 2 ? q->b : q->a, room));
     }
     return judge_table_factor(&both, 0, j->arena, &q->level, e);
 }
@@ -328,13 +334,14 @@ bool judge_ratings_pairs(struct judge *j, struct err *e)
 {
     struct csv v;
     struct pairs q;
-    if (!csv_table_read(j->call->args.operands[0], j->arena, &v, e) || !pairs_read(j, &v, &q, e)) return false;
-    double all = (double)q.person.n * q.set.n * q.level.n * q.level.n;
-    if (all > 1e8)
-        return err_set(e, ERR_SCENE, "%s: %d listeners, %d sets, %d levels: %g cells, at most 1e8", v.file, q.person.n,
-                       q.set.n, q.level.n, all);
+    if (!judge_table_answers(j, j->call->args.operands[0], &v, e) || !pairs_read(j, &v, &q, e)) return false;
     report_list(&j->report, "conditions");
     for (int k = 0; k < q.control.n; k++) {
+        if (!levels_read(j, &v, &q, k, e)) return false;
+        double all = (double)q.person.n * q.set.n * q.level.n * q.level.n;
+        if (all > 1e8)
+            return err_set(e, ERR_SCENE, "%s: %d listeners, %d sets, %d levels: %g cells, at most 1e8", v.file,
+                           q.person.n, q.set.n, q.level.n, all);
         struct ratings *t = arena_take(j->arena, 1, sizeof *t);
         double *y = ARENA_TAKE(j->arena, double, q.person.n *q.level.n);
         *t = (struct ratings){

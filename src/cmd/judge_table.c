@@ -11,6 +11,23 @@
 #include "cmd/judge.h"
 #include "output/mark.h"
 
+bool judge_table_answers(struct judge *j, const char *file, struct csv *t, struct err *e)
+{
+    size_t n = 0;
+    if (!csv_table_read(file, j->arena, t, e)) return false;
+    int training = t->numbers || csv_column(t, "trial_id") < 0 ? -1 : csv_column(t, "training");
+    for (size_t i = 0; i < t->rows && training >= 0; i++) {
+        const char **row = t->cells + i * t->columns;
+        if (!strcmp(row[training], "1")) continue;
+        memmove(t->cells + n * t->columns, row, t->columns * sizeof *row);
+        t->lines[n++] = t->lines[i];
+    }
+    if (training < 0 || n == t->rows) return true;
+    report_text(&j->report, "%s: %zu rows are of training and do not count\n", file, t->rows - n);
+    t->rows = n;
+    return true;
+}
+
 int judge_table_column(const struct judge *j, const struct csv *t, const char *role, bool must, struct err *e)
 {
     int n;
@@ -110,9 +127,11 @@ static bool group(struct judge *j, struct classes *c, struct judge_choices *m, s
 bool judge_table_open(struct judge *j, struct judge_choices *m, struct err *e)
 {
     if (e->kind) return false;
-    if (m->classes < 2 || m->classes > JUDGE_CLASSES)
-        return err_set(e, ERR_SCENE, "%s: %d class%s: 2 to %d can be confused", m->file, m->classes,
-                       m->classes > 1 ? "es" : "", JUDGE_CLASSES);
+    if (m->classes < 2)
+        return err_set(e, ERR_SCENE, "%s: only '%s' can be chosen: at least 2 classes are needed", m->file,
+                       m->class_name[0]);
+    if (m->classes > JUDGE_CLASSES)
+        return err_set(e, ERR_SCENE, "%s: %d classes: at most %d can be confused", m->file, m->classes, JUDGE_CLASSES);
     m->cell = ARENA_TAKE(j->arena, double, m->conditions * m->classes * m->classes);
     return true;
 }
@@ -239,7 +258,8 @@ bool judge_table_choices(struct judge *j, const char *file, struct judge_choices
 {
     struct csv t;
     struct judge_factor condition;
-    if (!csv_read(file, j->arena, &t, e) || !judge_table_role(j, &t, "condition", false, &condition, e)) return false;
+    if (!judge_table_answers(j, file, &t, e) || !judge_table_role(j, &t, "condition", false, &condition, e))
+        return false;
     *m = (struct judge_choices){.file = file, .conditions = condition.n, .condition = condition.levels};
     bool answers = judge_table_column(j, &t, "participant", false, e) >= 0;
     int chosen = judge_table_column(j, &t, "chosen", answers, e);

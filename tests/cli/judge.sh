@@ -14,6 +14,10 @@ try rasp judge ratings ratings.csv --tukey mu:kappa --tukey resonator:kappa:mu "
 grep -v '^  resonator=.* - resonator' printed
 try rasp judge ratings ratings.csv --factors kappa -c rating=rating
 try rasp judge pairs pairs.csv "${paper[@]}" 002_VI
+# as pages of rasp export give them: trials for training come again, and each session has sounds of its own
+awk -F, -v OFS=, 'NR == 1 { print $0, "trial_id,training"; next } $2 == "size" { $4 = "x" $4; $5 = "x" $5 } NR % 10 == 0 { print $0, NR, 1 } { print $0, NR, 0 }' pairs.csv > page.csv
+try rasp judge pairs page.csv > /dev/null
+grep -v ' - ' printed
 try rasp judge choices "$ROOT/scenes/answers/003_study.csv" "${paper[@]}" 003_F > /dev/null
 # every share that 003 prints, to its digits
 awk '/paper / { n++; d = $3 - $5; if (d * d > 0.0501 ^ 2) print } END { print n " shares" }' printed
