@@ -438,7 +438,8 @@ const struct command export_command = {
         "psychopy: conditions_p01.csv, a row a trial, in order (loopType sequential), with file_1, file_2 and so on.\n"
         "jspsych: index.html and lists/p01.js, whose trials are timeline variables; npm install fetches jsPsych. "
         "page: the same without any library: buttons, or sliders. Both are opened as index.html?list=p01, from the "
-        "disk or from a server of files, and give answers_p01.csv, a row an answer, as a download.\n"
+        "disk or from a server of files, take an answer once its sounds were heard to their end, and give "
+        "answers_p01.csv, a row an answer, as a download, which rasp judge reads.\n"
         "bids: stimuli/, and sub-01/beh/ with the trials of each participant, to be filled in; side-cars for all "
         "columns. audiofolder: train/metadata.csv with its sounds, as Hugging Face's datasets read it; --splits "
         "shares them out, replicates of a cell together.",
