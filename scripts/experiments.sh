@@ -58,21 +58,21 @@ title: Conan et al. 2014, how much like rolling
 base: 002_rolling/parts/ball.yaml
 seed: 1
 factors:
-  contact.roll.kappa: [5e7, 5e9, 5e11]
-  contact.roll.mu: [0.1, 1, 10, 3]
-  surface.fractal.exponent: [-0.5, -1]
-  sound:
+  kappa: [{label: 5e7, set: {contact.roll.kappa: 5e7}}, {label: 5e9, set: {contact.roll.kappa: 5e9}}, {label: 5e11, set: {contact.roll.kappa: 5e11}}]
+  mu: [{label: 0.1, set: {contact.roll.mu: 0.1}}, {label: 1, set: {contact.roll.mu: 1}}, {label: 10, set: {contact.roll.mu: 10}}, {label: 3, set: {contact.roll.mu: 3}}]
+  surface: [{label: -0.5, set: {surface.fractal.exponent: -0.5}}, {label: -1, set: {surface.fractal.exponent: -1}}]
+  resonator:
     - {label: raw, set: {output.quantity: force}}
-    - {label: metal, set: {surface.space: {from: [-0.5, 0.866], dimension: 2, fundamental: 400 Hz}}}
-exclude: [{contact.roll.mu: 3, surface.fractal.exponent: -1}]
-name: "kappa_{contact.roll.kappa}_mu_{contact.roll.mu}_beta_{surface.fractal.exponent}_{sound}"
+    - {label: convolved, set: {surface.space: {from: [-0.5, 0.866], dimension: 2, fundamental: 400 Hz}}}
+exclude: [{mu: 3, surface: -1}]
+name: "kappa_{kappa}_mu_{mu}_beta_{surface}_{resonator}"
 level: {each: {peak: -3 dB}}
 length: own
 trials:
   task: rate
   question: How much does it sound like a rolling ball?
   answers: [Not at all, A little bit, Somewhat, Close to, Exactly like rolling]
-  training: [{contact.roll.mu: 3}]
+  training: [{mu: 3}]
 END
 
 # ------------------------------------------------------------------ papers/000, experiment 3

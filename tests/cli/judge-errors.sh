@@ -36,7 +36,7 @@ try rasp judge ratings ratings.csv --factors kappa,kappa
 try rasp judge ratings ratings.csv --tukey kappa:kappa
 broken ratings.csv '2,$s/,raw,/,convolved,/'
 try rasp judge ratings broken.csv
-for fault in '7d' '7{p}' '7s/,[^,]*$/,A>C/' '7s/,[0-9],[0-9],/,4,4,/'; do
+for fault in '7d' '7{p}' '7s/,[^,]*$/,A>C/' '7s/,[^,]*\(,[^,]*\)\(,[^,]*\)$/\1\1\2/'; do
     broken pairs.csv "$fault"
     try rasp judge pairs broken.csv
 done
