@@ -275,7 +275,8 @@ bool judge_table_whole(const struct judge_choices *m, struct err *e)
         for (int k = 0; k < m->classes; k++)
             sum += m->cell[i * m->classes + k];
         if (sum == 0)
-            return err_set(e, ERR_SCENE, "%s: condition '%s' has no '%s': each needs every class", m->file,
+            return err_set(e, ERR_SCENE,
+                           "%s: condition '%s' has no '%s': each needs every class; --groups joins classes", m->file,
                            m->condition[i / m->classes], m->class_name[i % m->classes]);
     }
     return true;
