@@ -166,8 +166,8 @@ static void print_report(const struct batch_ask *ask, const struct batch_report 
         for (int i = 0; states && i < r->set.n; i++)
             states[i] = stimulus_states[r->states[i]];
         design_print(&r->design, r->mine, states, stdout);
-        printf("%d stimuli, %.4g s of sound, %.3g MB of WAVs; predicted CPU time %s (a core of 3 GHz)\n", r->set.n,
-               r->plan.seconds, r->plan.bytes / 1e6, took);
+        printf("%d stimuli, %.4g s of sound, %.3g MB of WAVs; predicted CPU time at least %s (a core of 3 GHz)\n",
+               r->set.n, r->plan.seconds, r->plan.bytes / 1e6, took);
         if (r->plan.raw_bytes > 0)
             printf("%.3g MB more while the common level is not known\n", r->plan.raw_bytes / 1e6);
         if (lengths) printf("%s\n", lengths);

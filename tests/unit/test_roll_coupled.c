@@ -446,9 +446,10 @@ START_TEST(rows_of_a_ball)
     ck_assert_msg(render_scene(&s, arena_format(a, "%s/t", folder), a, &report, &e), "%s", e.text);
     ck_assert_msg(csv_read(arena_format(a, "%s/t.csv", folder), a, &t, &e), "%s", e.text);
     ck_assert_int_eq(system(arena_format(a, "rm -r %s", folder)), 0);
-    ck_assert_int_eq(report.n_notes, 1);
-    ck_assert_msg(strstr(report.notes[0], "in contact") && strstr(report.notes[0], "energy balances to"), "%s",
-                  report.notes[0]);
+    ck_assert_int_eq(report.n_notes, 2);
+    ck_assert_msg(strstr(report.notes[0], "a ball bounces"), "%s", report.notes[0]);
+    ck_assert_msg(strstr(report.notes[1], "in contact") && strstr(report.notes[1], "energy balances to"), "%s",
+                  report.notes[1]);
     ck_assert_msg(strstr(report.summary, "\"contact_samples_mean_least\"") != NULL, "%s", report.summary);
     ck_assert_int_lt(csv_column(&t, "normal_force_n"), 0);
     long frames = (long)ceil(sqrt(0.27 * 0.27 + 0.15 * 0.15) / 0.3 * 48000), n = 0;
@@ -505,9 +506,8 @@ START_TEST(what_cannot_be_is_refused)
     opened(&s, "it has no response");
     s = on_rigid("path: still, duration: 0.1 s", "stiffness: 1e9 N/m^1.5", "");
     ((struct hertz *)params_edit(s.contacts, &hertz_params, rig_arena()))->stiffness = NAN;
-    opened(
-        &s,
-        "give ball.material (such as steel; one of your own needs a density, too), or youngs_modulus and poisson of ball.object, or contact.roll.stiffness");
+    opened(&s, "give ball.material (such as steel; one of your own needs a density, too), or youngs_modulus and "
+               "poisson of ball.object, or contact.roll.stiffness");
     s = on_rigid("path: still, duration: 0.1 s", "stiffness: 1e18 N/m^1.5", "accuracy: {contact_steps: 100000}");
     opened(&s, "lower accuracy.contact_steps");
     s = scene_of("", PLATE, "path: line, from: [1 cm, 2 cm], to: [28 cm, 17 cm], speed: 30 cm/s",
