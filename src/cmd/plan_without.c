@@ -192,9 +192,14 @@ bool plan_without(struct cmd_call *c, const char *file, const struct scene *chos
         for (int i = 0; i < n; i++)
             if (!measure(&all[i], &all[i].seconds[pass], e)) return false;
     }
-    report_text(r, "%s: %.0f cycles a sample; without each effect:\n  %-34s %9s %9s %9s %7s%s  %s\n", file, with.cycles,
-                "effect", "without", "with", "more", "share", measured ? "  measured, ms (quartiles), share" : "",
-                "--set");
+    int costly = 0;
+    for (int i = 0; i < n; i++)
+        costly += all[i].cycles != with.cycles || measured;
+    report_text(r, "%s: %.0f cycles a sample; %s\n", file, with.cycles,
+                costly ? "without each effect:" : "no effect of it has a cost of its own");
+    if (costly)
+        report_text(r, "  %-34s %9s %9s %9s %7s%s  %s\n", "effect", "without", "with", "more", "share",
+                    measured ? "  measured, ms (quartiles), share" : "", "--set");
     const char *free_of = NULL;
     report_set(r, "$:[", "without");
     for (int i = 0; i < n; i++) {

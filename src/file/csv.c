@@ -61,7 +61,7 @@ static enum csv_ends csv_quoted(struct csv_reader *r, char **cell)
                    CSV_BAD;
         return csv_after(r, to);
     }
-    return csv_bad(r, line, "a quote is opened here and never closed"), CSV_BAD;
+    return csv_bad(r, line, "a quote is opened here and never closed: close it, or take it out"), CSV_BAD;
 }
 
 static enum csv_ends csv_cell(struct csv_reader *r, char **cell)

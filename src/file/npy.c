@@ -21,7 +21,8 @@ struct npy_reader {
 
 static bool npy_bad(const struct npy_reader *p, const char *what)
 {
-    return err_set(p->e, ERR_SCENE, "%s: NPY header, byte %td: %s", p->path, p->at - p->start, what);
+    return err_set(p->e, ERR_SCENE, "%s: NPY header, byte %td: %s: write the file anew (numpy.save)", p->path,
+                   p->at - p->start, what);
 }
 
 static void npy_blanks(struct npy_reader *p)
@@ -146,7 +147,9 @@ bool npy_read(const char *path, const struct bytes *b, struct arena *a, struct n
     bool whole = b->n >= 8 + width;
     size_t length = whole ? (size_t)bytes_word(u + 8, width) : 0;
     if (!whole || length > b->n - 8 - width)
-        return err_set(e, ERR_SCENE, "%s: the file ends inside its NPY header, at byte %zu", path, b->n);
+        return err_set(e, ERR_SCENE,
+                       "%s: the file ends inside its NPY header, at byte %zu: write the file anew (numpy.save)", path,
+                       b->n);
     p.at = b->at + 8 + width;
     p.end = p.at + length;
     if (!npy_dictionary(&p)) return false;
