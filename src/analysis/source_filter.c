@@ -9,8 +9,11 @@
 #include "analysis/source_response.h"
 #include "num/fft.h"
 
-static const double hides = 10e-3; /* s about an impact */
-static const double one = 0.6e-3;  /* s: pulses of one impact */
+static const double hides = 10e-3;                  /* s about an impact */
+static const double one = 0.6e-3;                   /* s: pulses of one impact */
+static const double clicks = 2.5e-3;                /* s of a click in all, the last 1 ms fading */
+static const double small = 1.0 / 12, clear = 0.25; /* of another impact nearby, that is one: at last, and at first */
+static const double longest = 0.5;                  /* s of a response */
 enum { STATES = 240, FIT = 2048, REACH = 65536, MOST = 100000 };
 
 /* ------------------------------------------------------------------ states */
@@ -112,12 +115,13 @@ void source_filter_sound(const struct source_filter *f, double *y)
             y[t + k] += f->source[t] * f->click[k];
 }
 
-/* So that |h| is at most 1. */
-static void normalise(struct source_filter *f)
+/* So that |h| is at most 1; or with modes given, so that gains are theirs at low frequencies, where an impact is short.
+   Impacts in units of the source. */
+static void normalise(struct source_filter *f, int m, const struct source_filter_mode *mode)
 {
     long n = (long)(0.05 * f->rate) < f->n ? (long)(0.05 * f->rate) : f->n;
     struct source_filter unit = *f;
-    double *x = calloc((size_t)n, sizeof *x), *y = calloc((size_t)n, sizeof *y), most = 0;
+    double *x = calloc((size_t)n, sizeof *x), *y = calloc((size_t)n, sizeof *y), most = 0, product = 0, square = 0;
     x[0] = 1;
     unit.n = n;
     unit.source = x;
@@ -125,10 +129,19 @@ static void normalise(struct source_filter *f)
     source_filter_sound(&unit, y);
     for (long t = 0; t < n; t++)
         most = fmax(most, fabs(y[t]));
+    for (int i = 0; i < m && i < f->m; i++) {
+        double given = cplx_square(mode[i].gain) / (mode[i].frequency * mode[i].frequency);
+        product +=
+            given * cplx_abs(f->mode[i].gain) / cplx_abs(mode[i].gain) * real_exp(-f->mode[i].decay * SOURCE_MARGIN);
+        square += given;
+    }
+    most = square > 0 ? product / square : most;
     for (int i = 0; i < f->m && most > 0; i++)
         f->mode[i].gain = cplx_scale(1 / most, f->mode[i].gain);
     for (long k = 0; k < f->clicks && most > 0; k++)
         f->click[k] /= most;
+    for (int k = 0; k < f->impacts.n && most > 0; k++)
+        f->impacts.amplitude[k] *= most;
     free(x);
     free(y);
 }
@@ -231,8 +244,8 @@ static double pulse_at(const struct pulse *pulse, double t)
     return source_response_between(p + 1, fabs(t) - (double)i);
 }
 
-/* What is less than a twelfth of another within 10 ms may be what that one left. */
-static void leave_out_small(struct impact_events *v)
+/* What is less than that share of another within 10 ms may be what that one left. */
+static void leave_out_small(struct impact_events *v, double share)
 {
     bool *stays = calloc((size_t)v->n + 1, sizeof *stays);
     int n = 0;
@@ -242,7 +255,7 @@ static void leave_out_small(struct impact_events *v)
             most = fmax(most, fabs(v->amplitude[i]));
         for (int i = k; i < v->n && v->time[i] - v->time[k] < hides; i++)
             most = fmax(most, fabs(v->amplitude[i]));
-        stays[k] = fabs(v->amplitude[k]) >= most / 12;
+        stays[k] = fabs(v->amplitude[k]) >= share * most;
     }
     for (int k = 0; k < v->n; k++)
         if (stays[k]) {
@@ -306,7 +319,7 @@ static int merge(struct peak *peak, int n, double width)
 /* The greatest pulse is taken off, and so on, until what is left is as the source is in between, 4.5 times its
    deviation. Pulses within `one` are one impact. Where pulses overlap the greatest is not where an impact is: so each
    is put back in turn, and looked for once more beside all others. */
-static void find_impacts(struct source_filter *f, bool both, const struct pulse *pulse, struct arena *a)
+static void find_impacts(struct source_filter *f, bool both, const struct pulse *pulse, double share, struct arena *a)
 {
     enum { PART = 256, SWEEPS = 3 };
     struct arena *inner = arena_open();
@@ -371,8 +384,15 @@ static void find_impacts(struct source_filter *f, bool both, const struct pulse 
         v->amplitude[v->n] = peak[k].size;
         v->duration[v->n++] = NAN;
     }
-    leave_out_small(v);
+    leave_out_small(v, share);
     arena_close(inner);
+}
+
+static void fade(struct source_filter *f)
+{
+    long n = f->clicks, fades = (long)(1e-3 * f->rate);
+    for (long t = n - fades > 0 ? n - fades : 0; t < n; t++)
+        f->click[t] *= 0.5 + 0.5 * real_cospi((double)(t - n + fades) / (double)fades);
 }
 
 /* Lee: the onsets are the impacts, and each has gains of its own. */
@@ -392,7 +412,7 @@ static void own_gains(struct source_filter *f, struct jump *jump, int jumps, str
     double *rest = ARENA_TAKE(a, double, f->n);
     f->places = jumps;
     for (int k = 0; k < jumps; k++) {
-        long at = f->onset[jump[k].onset] - (long)(SOURCE_RESPONSE_LEAD * f->rate);
+        long at = f->onset[jump[k].onset] - (long)(SOURCE_MARGIN * f->rate);
         double early = (double)(f->onset[jump[k].onset] - (at = at > 0 ? at : 0)) / f->rate;
         h.at[k] = (double)at;
         f->place_time[k] = v->time[k] = h.at[k] / f->rate;
@@ -409,18 +429,39 @@ static void own_gains(struct source_filter *f, struct jump *jump, int jumps, str
     source_filter_sound(f, rest);
     for (long t = 0; t < f->n; t++)
         rest[t] = f->x[t] - rest[t];
-    source_response_click(f, rest, &h, a);
+    f->clicks = (long)(clicks * f->rate);
+    f->click = ARENA_TAKE(a, double, f->clicks);
+    source_response_mean(rest, f->n, &h, f->click, f->clicks);
+    fade(f);
     v->n = jumps;
     f->struck = 1;
 }
 
 /* ------------------------------------------------------------------ all */
 
+static double loudness(const struct source_filter_mode *m) { return cplx_square(m->gain) / m->decay; }
+
 static int by_loudness(const void *x, const void *y)
 {
-    const struct source_filter_mode *a = x, *b = y;
-    double p = cplx_square(a->gain) / a->decay, q = cplx_square(b->gain) / b->decay;
+    double p = loudness(x), q = loudness(y);
     return (p < q) - (p > q);
+}
+
+/* By falling energy, but for what is 30 dB below a mode nearby: no response is quite the mean one, and what is left
+   of a strong mode looks like weak ones about it. */
+static void leave_out_skirts(struct source_filter *f)
+{
+    static const double beside = 25; /* Hz */
+    int n = 0;
+    qsort(f->mode, (size_t)f->m, sizeof *f->mode, by_loudness);
+    for (int i = 0; i < f->m; i++) {
+        bool skirt = false;
+        for (int k = 0; k < n; k++)
+            skirt = skirt || (fabs(f->mode[k].frequency - f->mode[i].frequency) < beside &&
+                              loudness(&f->mode[i]) < 1e-3 * loudness(&f->mode[k]));
+        if (!skirt) f->mode[n++] = f->mode[i];
+    }
+    f->m = n;
 }
 
 /* Those whose states hold next to nothing, or that are beyond the number wanted. */
@@ -435,8 +476,136 @@ static void prune(struct source_filter *f, const struct jump *jump, int jumps, i
         loudest = fmax(loudest, sum / jumps / f->mode[i].decay);
     }
     qsort(f->mode, (size_t)f->m, sizeof *f->mode, by_loudness);
-    while (f->m > 0 && (f->m > most || cplx_square(f->mode[f->m - 1].gain) / f->mode[f->m - 1].decay < 1e-6 * loudest))
+    while (f->m > 0 && (f->m > most || loudness(&f->mode[f->m - 1]) < 1e-6 * loudest))
         f->m--;
+}
+
+/* The modes' gains and the click of the response h[n] to an impact of 1. */
+static void take_click(struct source_filter *f, const double *h, long n, struct arena *a)
+{
+    struct source_filter unit = *f;
+    double *x = ARENA_TAKE(a, double, n), *y = ARENA_TAKE(a, double, n);
+    x[0] = 1;
+    unit.n = n;
+    unit.source = x;
+    unit.clicks = 0;
+    source_filter_sound(&unit, y);
+    f->clicks = (long)(clicks * f->rate) < n ? (long)(clicks * f->rate) : n;
+    f->click = ARENA_TAKE(a, double, f->clicks);
+    for (long t = 0; t < f->clicks; t++)
+        f->click[t] = h[t] - y[t];
+    fade(f);
+}
+
+/* Those of the source, SOURCE_MARGIN before their onsets. */
+static struct source_response_hits hits_of(const struct source_filter *f, struct arena *a)
+{
+    struct source_response_hits h = {
+        .n = f->impacts.n, .at = ARENA_TAKE(a, double, f->impacts.n + 1), .size = f->impacts.amplitude};
+    for (int k = 0; k < h.n; k++)
+        h.at[k] = f->impacts.time[k] * f->rate;
+    return h;
+}
+
+/* What prediction does not foresee is a pulse for each impact: divided by the mean one, as the recording by its
+   response. This finds those that stand out of the noise by their shape alone. */
+static struct source_response_hits find_pulses(const struct source_filter *f, const struct source_filter_options *o,
+                                               const double *unforeseen, struct arena *a)
+{
+    struct pulse pulse = {.x = ARENA_TAKE(a, double, REACH)};
+    struct source_filter first = {.x = unforeseen, .n = f->n, .rate = f->rate, .source = f->source};
+    struct source_response_hits h;
+    long n = (long)(clicks * f->rate);
+    double *response = ARENA_TAKE(a, double, n), loud = squares(unforeseen, f->n) / (double)f->n;
+    source_response_pulses(f, unforeseen, o->both, &h, a);
+    if (!h.n) return h;
+    for (int k = 0; k < h.n; k++)
+        h.at[k] -= SOURCE_MARGIN * f->rate;
+    double share = source_response_mean(unforeseen, f->n, &h, response, n);
+    first.noise = sqrt(fmax(1 - share, 1e-6) * loud);
+    take_click(&first, response, n, a);
+    normalise(&first, 0, NULL);
+    divide(&first, NAN, 1e-2, loud, &pulse);
+    find_impacts(&first, o->both, &pulse, clear, a);
+    memset(f->source, 0, (size_t)f->n * sizeof *f->source);
+    return hits_of(&first, a);
+}
+
+/* Impacts are little of it: the modes of the autocorrelation, or those given, and the source alone. */
+static bool find_driven(struct source_filter *f, const struct source_filter_options *o, bool given, struct arena *a,
+                        struct err *e)
+{
+    struct pulse pulse = {.x = ARENA_TAKE(a, double, REACH)};
+    double loud = squares(f->x, f->n) / (double)f->n;
+    if (given && o->direct != 0) {
+        f->clicks = 1;
+        f->click = ARENA_TAKE(a, double, 1);
+        f->click[0] = o->direct;
+    }
+    if (!given && !source_poles_correlated(f, o, a, e)) return false;
+    if (!f->m)
+        return err_set(e, ERR_SCENE, "no mode stands out of the noise between %.6g and %.6g Hz", o->low, o->high);
+    f->noise = 0; /* not known: what impacts leave is the force */
+    if (!given) normalise(f, 0, NULL);
+    divide(f, o->snr, 1e-3, loud, &pulse);
+    find_impacts(f, o->both, &pulse, small, a);
+    divide(f, o->snr, 1e-4, loud, &pulse);
+    return true;
+}
+
+/* One filter for all impacts: their mean response, its modes, the source divided by them, the impacts in it, and so on,
+   until they give no more of the recording. */
+static bool find_lagrange(struct source_filter *f, const struct source_filter_options *o, struct source_response_hits h,
+                          int m, const struct source_filter_mode *mode, struct arena *a, struct err *e)
+{
+    enum { ROUNDS = 6 };
+    static const double alike = 0.35; /* share of the recording, from which on impacts are what drives it */
+    const struct source_response_hits none = {0};
+    struct pulse pulse = {.x = ARENA_TAKE(a, double, REACH)};
+    long length = (long)(fmin(longest * f->rate, (double)f->n / 2));
+    double loud = squares(f->x, f->n) / (double)f->n, before = 0, *response = ARENA_TAKE(a, double, length);
+    f->mode = ARENA_TAKE(a, struct source_filter_mode, m + 1);
+    for (int round = 1;; round++) {
+        f->fits = source_response_mean(f->x, f->n, &h, response, length);
+        f->noise = sqrt(fmax(1 - f->fits, 1e-6) * loud);
+        bool last = round == ROUNDS || (round > 2 && f->fits < before + 1e-3);
+        before = f->fits;
+        f->m = m;
+        if (mode) memcpy(f->mode, mode, (size_t)m * sizeof *mode);
+        if (f->fits < alike) return find_driven(f, o, mode != NULL, a, e);
+        if (!source_poles_response(f, o, response, length, last ? &h : &none, a, e)) return false;
+        if (!f->m) return find_driven(f, o, false, a, e);
+        take_click(f, response, length, a);
+        normalise(f, m, mode);
+        divide(f, o->snr, last ? 1e-4 : 1e-2, loud, &pulse);
+        if (last) break;
+        find_impacts(f, o->both, &pulse, round < 2 ? clear : small, a);
+        h = hits_of(f, a);
+    }
+    if (!mode) leave_out_skirts(f);
+    return true;
+}
+
+/* Each impact has gains of its own: what it adds to what rings already. */
+static bool find_lee(struct source_filter *f, const struct source_filter_options *o,
+                     const struct source_response_hits *h, struct arena *a, struct err *e)
+{
+    f->onset = ARENA_TAKE(a, long, h->n + 1);
+    f->onsets = 0;
+    for (int k = 0; k < h->n; k++) {
+        long at = (long)rint(h->at[k] + SOURCE_MARGIN * f->rate);
+        if (at < f->n) f->onset[f->onsets++] = at;
+    }
+    struct source_poles_frame *frame = source_poles_frames(f, h, a);
+    struct jump *jump = ARENA_TAKE(a, struct jump, f->onsets + 1);
+    if (!source_poles_frames_find(f, o, frame, a, e)) return false;
+    int jumps = find_jumps(f, frame, jump, a);
+    if (jumps) prune(f, jump, jumps, o->most);
+    jumps = find_jumps(f, frame, jump, a);
+    if (!jumps)
+        return err_set(e, ERR_SCENE, "no impact rings long enough to tell its gains; fewer modes may do (--modes)");
+    own_gains(f, jump, jumps, a);
+    return true;
 }
 
 bool source_filter_find(const double *x, long n, double rate, const struct source_filter_options *o, int m,
@@ -447,49 +616,12 @@ bool source_filter_find(const double *x, long n, double rate, const struct sourc
     *f = (struct source_filter){.x = x, .n = n, .rate = rate, .fits = NAN, .source = ARENA_TAKE(a, double, n)};
     double *y = source_poles_unforeseen(x, n, a);
     source_poles_onsets(f, y, o->rise, a);
-    struct source_poles_frame *frame = source_poles_frames(f, y, a);
-    bool ok = true;
-    if (mode) {
-        f->m = m;
-        f->mode = ARENA_TAKE(a, struct source_filter_mode, m + 1);
-        memcpy(f->mode, mode, (size_t)m * sizeof *mode);
-        f->clicks = 1;
-        f->click = ARENA_TAKE(a, double, 1);
-        f->click[0] = o->direct;
-    } else
-        ok = source_poles_find(f, o, frame, a, e);
-    struct jump *jump = ARENA_TAKE(a, struct jump, f->onsets + 1);
-    int jumps = ok && lee ? find_jumps(f, frame, jump, a) : 0;
-    if (ok && lee) {
-        if (jumps) prune(f, jump, jumps, o->most);
-        jumps = find_jumps(f, frame, jump, a);
-        ok = jumps > 0 ||
-             err_set(e, ERR_SCENE, "no impact rings long enough to tell its gains; fewer modes may do (--modes)");
-        if (ok) own_gains(f, jump, jumps, a);
-    } else if (ok) {
-        struct pulse pulse = {.x = ARENA_TAKE(a, double, REACH)};
-        double loud = squares(f->x, n) / (double)n;
-        struct source_response_hits h = {0};
-        source_response_pulses(f, y, o->both, &h, a);
-        if (f->correlated) normalise(f);
-        double late = 0;                          /* s, by which times are those of the onsets */
-        for (int round = 0; round < 4; round++) { /* with the impacts of the last; the fourth divides alone */
-            static const double floors[] = {1e-2, 1e-2, 1e-3, 1e-4};
-            struct source_filter_mode *own = mode && round < 3 ? memcpy(f->mode, mode, (size_t)m * sizeof *mode) : NULL;
-            if (round < 3 && !f->correlated && source_response_fit(f, &h, own != NULL, a)) {
-                late = SOURCE_RESPONSE_LEAD;
-                if (!mode) normalise(f);
-            }
-            divide(f, o->snr, floors[round], loud, &pulse);
-            if (round == 3) break;
-            find_impacts(f, o->both, &pulse, a);
-            h = (struct source_response_hits){
-                .n = f->impacts.n, .at = ARENA_TAKE(a, double, f->impacts.n + 1), .size = f->impacts.amplitude};
-            for (int k = 0; k < h.n; k++)
-                h.at[k] = (f->impacts.time[k] + late) * rate;
-        }
-        if (!mode) qsort(f->mode, (size_t)f->m, sizeof *f->mode, by_loudness);
-    }
+    struct source_response_hits h = find_pulses(f, o, y, a);
+    struct source_filter mean = *f;
+    bool ok = find_lagrange(&mean, o, h, m, mode, a, e);
+    if (ok && lee && !mean.correlated) h = hits_of(&mean, a);
+    ok = ok && (!lee || find_lee(f, o, &h, a, e));
+    if (!lee) *f = mean;
     if (ok) {
         double *given = ARENA_TAKE(a, double, n), all = squares(x, n), left = 0;
         source_filter_sound(f, given);

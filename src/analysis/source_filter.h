@@ -1,33 +1,36 @@
 /* A recording of rolling or scraping as what rings and what drives it: poles, gains, source, impacts (papers/002
    section II-C).
 
-   Both methods begin with onsets: instants at which the energy of what linear prediction does not foresee rises.
-   Between them the object rings freely, as far as it does at all. The papers go by high frequencies, which a smooth
-   impact has none of.
+   Both methods begin with onsets: instants at which the energy of what linear prediction does not foresee rises (the
+   papers go by high frequencies, which a smooth impact has none of). Impacts are alike there, and that rest divided by
+   the mean of their pulses shows more of them.
 
-   Lagrange et al. (papers/002 [18]): the poles of the longest free frames, by ESPRIT and output error
-   (analysis/modal.h). Impacts are alike in what prediction does not foresee: beside the mean of their pulses each
-   has a time t_k and a size a_k. Then the recording between them is linear in the modes' gains,
+   Lagrange et al. (papers/002 [18]): from impacts that are known, times t_k and sizes a_k, the response to an impact of
+   1 is that which makes
 
-     x = sum_m Im A_m sum_k a_k e^(s_m (t - t_k))
+     x = sum_k a_k h(t - t_k) + rest
 
-   and what is left about them is their click, which no mode is: the force itself as it sounds, and what decays at once.
-   The source is the recording divided by the response H of both, where that is loud enough:
+   least in squares over the whole recording: what all impacts have in common, however closely they follow each other.
+   Its poles, with those of the longest free frames, are found by ESPRIT and output error (analysis/modal.h); what is
+   left of it at once is the click, which no mode is: the force itself as it sounds, and what decays at once. The source
+   is the recording divided by the response H of both, where that is loud enough:
 
-     F = Y H* / (|H|^2 + eps)      eps: the noise's power over the source's, at least 40 dB below the greatest |H|^2
+     F = X H* / (|H|^2 + eps)      eps: the noise's power over the source's, and a share of the greatest |H|^2: -20 dB
+                                   while impacts are looked for, -40 dB in the source that is written
 
    An impact in it is a pulse, IFFT(|H|^2/(|H|^2 + eps)); the greatest is taken off, and so on down to the noise.
-   With these impacts gains, click and source are found once more. 002 prints no eps, no gains and no search of
-   impacts: ours. An impact's own shape (II-C: a Meixner window) is not separated from the click. Impacts are drawn as
+   With these impacts the mean response is found again, until they give no more of the recording. 002 takes the poles
+   of frames of the recording alone, and prints no eps, no gains and no search of impacts: the mean response and these
+   are ours. An impact's own shape (II-C: a Meixner window) is not separated from the click. Impacts are drawn as
    short raised cosines, of series as rasp analyse finds them (002 section IV-E), not of exponential amplitudes and
    gamma intervals as in II-C.
 
    Lee et al. (papers/002 [19]): the poles by linear prediction of low order in subbands, over all frames together.
    Each impact has gains of its own, which are what the zeros of its spectrum say: modes that it excites little, or
-   damps. So there is no common H: impacts are the onsets, and the filter changes from one to the next. The paper's
-   notches are these gains; it prints no orders and no bands: ours.
+   damps. So there is no common H: impacts are those of the mean response, and the filter changes from one to the next.
+   The paper's notches are these gains; it prints no orders and no bands: ours.
 
-   Where no frame is free, since impacts are too many or the contact never breaks, the poles are those of the
+   Where impacts give less than 35 % of the recording, since the contact never breaks, the poles are those of the
    recording's autocorrelation: that of what is driven by a white force falls as the object rings. */
 #ifndef ANALYSIS_SOURCE_FILTER_H
 #define ANALYSIS_SOURCE_FILTER_H
@@ -59,7 +62,7 @@ struct source_filter {
     double rate;
     int onsets, frames; /* frames: free ones that poles were taken from */
     long *onset;        /* [onsets] samples */
-    double longest;     /* s, of a free frame */
+    double longest;     /* s, of the response or a free frame */
     bool correlated;    /* poles of the autocorrelation */
     const char *note;   /* lines, of the fit; NULL */
     int m;
@@ -67,7 +70,7 @@ struct source_filter {
     long clicks;
     double *click; /* [clicks] what an impact of 1 sounds at once besides, from its time on; none: 0 */
     double noise;  /* rms of what modes leave of the frames */
-    double fits;   /* share of the energy between impacts that the modes are */
+    double fits; /* share of the recording that impacts, all alike, give; Lee: of the energy between them the modes' */
     /* Lee: places of a filter that changes */
     int places;
     double *place_time; /* [places] s */

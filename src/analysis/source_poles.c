@@ -14,7 +14,8 @@ static const double hop = 0.25e-3;       /* s, of short-time energies */
 enum { AFTER = 4, BEFORE = 7, GAP = 1 }; /* hops whose energies an onset compares */
 static const double apart = 2e-3;        /* s, between onsets */
 static const double longest = 0.5;       /* s of a free frame */
-static const double shortest = 0.01;     /* s, of one from which poles are taken */
+static const double shortest = 0.01;     /* s, of one from which poles are taken, of lee */
+static const double rings = 0.03;        /* s, of one that adds to what the mean response says */
 enum { PREDICT = 64, POLES = 12 };
 
 /* ------------------------------------------------------------------ onsets */
@@ -30,7 +31,7 @@ double *source_poles_unforeseen(const double *x, long n, struct arena *a)
         for (long i = k; i < n; i++)
             r[k] += x[i] * x[i - k];
     }
-    double error = r[0] *= 1 + 1e-10; /* as of noise at -100 dB */
+    double error = r[0] *= 1.1; /* as of noise at -10 dB: what is weak, and may be noise, is not raised */
     for (int k = 1; k <= order && error > 0; k++) {
         double sum = 0, before[PREDICT + 1];
         for (int i = 0; i < k; i++)
@@ -90,39 +91,17 @@ void source_poles_onsets(struct source_filter *f, const double *y, double rise, 
     arena_close(inner);
 }
 
-/* Behind each onset, until the next, or until something comes that is not foreseen though no onset was seen: more than
-   thrice what was left of the onset in the first 2 ms, and than 8 times the median deviation. */
-struct source_poles_frame *source_poles_frames(const struct source_filter *f, const double *y, struct arena *a)
+struct source_poles_frame *source_poles_frames(const struct source_filter *f, const struct source_response_hits *h,
+                                               struct arena *a)
 {
-    struct source_poles_frame *list = ARENA_TAKE(a, struct source_poles_frame, f->onsets + 1);
-    struct arena *inner = arena_open();
-    double *size = ARENA_TAKE(inner, double, f->n / 7 + 1);
-    size_t few = 0;
-    for (long i = 0; i < f->n; i += 7)
-        size[few++] = fabs(y[i]);
-    gsl_sort(size, 1, few);
-    double quiet = 8 * gsl_stats_median_from_sorted_data(size, 1, few) / 0.6745;
-    for (int k = 0; k < f->onsets; k++) {
-        long from = f->onset[k] + (long)(SOURCE_PAST * f->rate), first = from + (long)(2e-3 * f->rate),
-             to = k + 1 < f->onsets ? f->onset[k + 1] - (long)(SOURCE_MARGIN * f->rate) : f->n,
-             most = from + (long)(longest * f->rate);
-        double limit = quiet;
-        to = to < most ? to : most;
-        for (long i = from; i < to; i++) {
-            if (i < first)
-                limit = fmax(limit, 3 * fabs(y[i]));
-            else if (fabs(y[i]) > limit)
-                to = i - (long)(SOURCE_MARGIN * f->rate);
-        }
-        list[k] = (struct source_poles_frame){.onset = k, .from = from, .n = to - from};
-        if (to - from > (long)(0.05 * f->rate)) list[k].from += (long)(4e-3 * f->rate), list[k].n = to - list[k].from;
-        double part[2] = {0, 0};
-        for (long i = 0; i < list[k].n; i++)
-            part[2 * i >= list[k].n] += f->x[list[k].from + i] * f->x[list[k].from + i];
-        bool falls = part[1] < ((double)list[k].n > 0.02 * f->rate ? 0.7 : 1) * part[0];
-        list[k].energy = falls ? part[0] + part[1] : 0; /* what does not fall is driven by what was not seen */
+    struct source_poles_frame *list = ARENA_TAKE(a, struct source_poles_frame, h->n + 1);
+    long past = (long)((SOURCE_MARGIN + SOURCE_PAST) * f->rate), most = (long)(longest * f->rate);
+    for (int k = 0; k < h->n; k++) {
+        long from = (long)fmax(h->at[k], 0) + past, to = k + 1 < h->n ? (long)h->at[k + 1] : f->n;
+        list[k] = (struct source_poles_frame){.onset = k, .from = from, .n = to - from < most ? to - from : most};
+        for (long t = from; t < from + list[k].n; t++)
+            list[k].energy += f->x[t] * f->x[t];
     }
-    arena_close(inner);
     return list;
 }
 
@@ -142,22 +121,29 @@ static int by_onset(const void *x, const void *y)
 
 /* ------------------------------------------------------------------ poles */
 
-/* By ESPRIT and output error: of the frames that hold most energy, or of the autocorrelation. */
-static bool poles_fitted(struct source_filter *f, const struct source_filter_options *o,
-                         struct source_poles_frame *frame, int frames, struct arena *a, struct err *e)
+/* Of all stretches together by ESPRIT and output error (analysis/modal.h); gains are those of the first. */
+static bool poles_fitted(struct source_filter *f, const struct source_filter_options *o, struct modal_stretch *st,
+                         int stretches, struct arena *a, struct err *e)
 {
     static const double unit[1] = {1};
-    struct modal_stretch *st = ARENA_TAKE(a, struct modal_stretch, frames);
-    struct modal_data d = {.rate = f->rate, .places = frames, .stretches = frames, .stretch = st};
+    struct modal_data d = {.rate = f->rate, .places = stretches, .stretches = stretches, .stretch = st};
     struct modal_options options = {.most = o->most, .low = o->low, .high = o->high, .fastest = o->fastest};
     struct modal_result r;
-    for (int k = 0; k < frames; k++)
-        st[k] = (struct modal_stretch){.y = f->x + frame[k].from,
-                                       .first = frame[k].from,
-                                       .n = modal_length(frame[k].n),
-                                       .place = k,
-                                       .fitted = true,
-                                       .pulse = {frame[k].from, 1, unit}};
+    for (int k = 0; k < stretches; k++) {
+        st[k].n = modal_length(st[k].n);
+        st[k].place = k;
+        st[k].fitted = true;
+        st[k].pulse = (struct modal_pulse){st[k].first, 1, unit};
+    }
+    if (f->m > 0) { /* known */
+        cplx *pole = ARENA_TAKE(a, cplx, f->m), *gain = ARENA_TAKE(a, cplx, f->m * stretches);
+        for (int i = 0; i < f->m; i++)
+            pole[i] = source_poles_of(&f->mode[i]);
+        modal_gains(&d, &options, f->m, pole, gain);
+        for (int i = 0; i < f->m; i++)
+            f->mode[i].gain = gain[i * stretches];
+        return true;
+    }
     if (!modal_find(&d, &options, a, &r, e)) return false;
     f->m = r.n;
     f->note = r.note;
@@ -166,14 +152,51 @@ static bool poles_fitted(struct source_filter *f, const struct source_filter_opt
         f->mode[i] = (struct source_filter_mode){
             .frequency = r.mode[i].frequency,
             .decay = r.mode[i].decay,
-            .frequency_se = fmax(r.mode[i].frequency_se, r.mode[i].frequency_between / sqrt(frames)),
-            .decay_se = fmax(r.mode[i].decay_se, r.mode[i].decay_between / sqrt(frames)),
+            .frequency_se = fmax(r.mode[i].frequency_se, r.mode[i].frequency_between / sqrt(stretches)),
+            .decay_se = fmax(r.mode[i].decay_se, r.mode[i].decay_between / sqrt(stretches)),
             .gain = r.mode[i].gain[0].a};
     return true;
 }
 
+/* The best of frame[n] that are that long, in their order. Returns how many. */
+static int best_frames(struct source_filter *f, const struct source_poles_frame *frame, int n, double seconds,
+                       struct source_poles_frame best[POLES])
+{
+    struct arena *a = arena_open();
+    struct source_poles_frame *list = ARENA_TAKE(a, struct source_poles_frame, n + 1);
+    int all = 0;
+    for (int k = 0; k < n; k++)
+        if ((double)frame[k].n >= seconds * f->rate) list[all++] = frame[k];
+    qsort(list, (size_t)all, sizeof *list, by_worth);
+    all = all < POLES ? all : POLES;
+    while (all > 1 && worth(&list[all - 1]) < 0.03 * worth(&list[0])) /* they would add only their noise */
+        all--;
+    qsort(list, (size_t)all, sizeof *list, by_onset);
+    memcpy(best, list, (size_t)all * sizeof *list);
+    for (int k = 0; k < all; k++)
+        f->longest = fmax(f->longest, (double)list[k].n / f->rate);
+    arena_close(a);
+    return f->frames = all;
+}
+
+bool source_poles_response(struct source_filter *f, const struct source_filter_options *o, const double *h, long n,
+                           const struct source_response_hits *hits, struct arena *a, struct err *e)
+{
+    long past = (long)((SOURCE_MARGIN + SOURCE_PAST) * f->rate);
+    struct source_poles_frame best[POLES];
+    struct modal_stretch st[1 + POLES] = {{.y = h + past, .n = n - past}};
+    int frames = best_frames(f, source_poles_frames(f, hits, a), hits->n, rings, best);
+    f->longest = fmax(f->longest, (double)n / f->rate);
+    for (int k = 0; k < frames; k++)
+        st[1 + k] = (struct modal_stretch){.y = f->x + best[k].from, .first = best[k].from, .n = best[k].n};
+    if (!poles_fitted(f, o, st, 1 + frames, a, e)) return false;
+    for (int i = 0; i < f->m; i++)
+        f->mode[i].gain = cplx_mul(f->mode[i].gain, cplx_exp(source_poles_of(&f->mode[i]), -(double)past / f->rate));
+    return true;
+}
+
 /* r(l) of the recording, l from SOURCE_PAST on, until it has sunk into what chance makes. */
-static bool poles_correlated(struct source_filter *f, const struct source_filter_options *o, struct arena *a,
+bool source_poles_correlated(struct source_filter *f, const struct source_filter_options *o, struct arena *a,
                              struct err *e)
 {
     long lags = (long)(longest * f->rate), size = (long)fft_good_size((size_t)(f->n + lags)),
@@ -202,13 +225,9 @@ static bool poles_correlated(struct source_filter *f, const struct source_filter
     end = end > f->n / 2 ? f->n / 2 : end;
     if (end < first + 128)
         return err_set(e, ERR_SCENE, "%.3g s are too short to tell what rings", (double)f->n / f->rate);
-    struct source_filter r = {.x = x, .n = end, .rate = f->rate};
-    struct source_poles_frame whole = {.from = first, .n = end - first};
-    if (!poles_fitted(&r, o, &whole, 1, a, e)) return false;
+    struct modal_stretch st = {.y = x + first, .n = end - first};
+    if (!poles_fitted(f, o, &st, 1, a, e)) return false;
     f->correlated = true;
-    f->m = r.m;
-    f->mode = r.mode;
-    f->note = r.note;
     for (int i = 0; i < f->m; i++) { /* of a force of white noise r(l) has |A|^2/(4 d) of each */
         struct source_filter_mode *m = &f->mode[i];
         m->gain = (cplx){sqrt(4 * m->decay * cplx_abs(m->gain)), 0};
@@ -300,33 +319,15 @@ static void poles_predicted(struct source_filter *f, const struct source_filter_
     qsort(f->mode, (size_t)f->m, sizeof *f->mode, by_frequency);
 }
 
-bool source_poles_find(struct source_filter *f, const struct source_filter_options *o,
-                       const struct source_poles_frame *frame, struct arena *a, struct err *e)
+bool source_poles_frames_find(struct source_filter *f, const struct source_filter_options *o,
+                              const struct source_poles_frame *frame, struct arena *a, struct err *e)
 {
-    struct source_poles_frame *best = ARENA_TAKE(a, struct source_poles_frame, f->onsets + 1);
-    for (int k = 0; k < f->onsets; k++) {
-        if ((double)frame[k].n < shortest * f->rate || !modal_length(frame[k].n) || frame[k].energy == 0) continue;
-        best[f->frames++] = frame[k];
-        f->longest = fmax(f->longest, (double)frame[k].n / f->rate);
-    }
-    qsort(best, (size_t)f->frames, sizeof *best, by_worth);
-    f->frames = f->frames < POLES ? f->frames : POLES;
-    while (f->frames > 1 && worth(&best[f->frames - 1]) < 0.03 * worth(&best[0])) /* they would add only their noise */
-        f->frames--;
-    qsort(best, (size_t)f->frames, sizeof *best, by_onset);
-    bool ok = true, lee = o->method == SOURCE_FILTER_LEE;
-    if (lee && f->frames > 0)
-        poles_predicted(f, o, best, f->frames, a);
-    else if (lee)
-        ok = err_set(e, ERR_SCENE,
-                     "no onset is followed by %.3g ms of free ringing, and the method lee goes by contacts that break: "
-                     "take --method lagrange",
-                     1e3 * shortest);
-    else {
-        if (f->frames >= 3 || f->longest > 5 * shortest) ok = poles_fitted(f, o, best, f->frames, a, e);
-        if (ok && f->m == 0) ok = poles_correlated(f, o, a, e);
-    }
-    if (ok && f->m == 0)
-        ok = err_set(e, ERR_SCENE, "no mode stands out of the noise between %.6g and %.6g Hz", o->low, o->high);
-    return ok;
+    struct source_poles_frame best[POLES];
+    if (!best_frames(f, frame, f->onsets, shortest, best))
+        return err_set(e, ERR_SCENE,
+                       "no onset is followed by %.3g ms of free ringing, and the method lee goes by contacts that "
+                       "break: take --method lagrange",
+                       1e3 * shortest);
+    poles_predicted(f, o, best, f->frames, a);
+    return true;
 }

@@ -13,18 +13,35 @@ struct source_poles_frame {
     bool known; /* its state is */
 };
 
+struct source_response_hits { /* impacts, as they are known so far, from SOURCE_MARGIN before their onsets on */
+    int n;
+    double *at, *size; /* [n] samples; pushes */
+};
+
 /* [n] What linear prediction does not foresee of x. */
 double *source_poles_unforeseen(const double *x, long n, struct arena *a);
 
 /* f->onsets, f->onset. y: as above. rise: dB. */
 void source_poles_onsets(struct source_filter *f, const double *y, double rise, struct arena *a);
 
-/* One behind each onset. */
-struct source_poles_frame *source_poles_frames(const struct source_filter *f, const double *y, struct arena *a);
+/* One behind each impact, until the next. */
+struct source_poles_frame *source_poles_frames(const struct source_filter *f, const struct source_response_hits *h,
+                                               struct arena *a);
 
-/* f->m, f->mode and how they were found. ERR_SCENE */
-bool source_poles_find(struct source_filter *f, const struct source_filter_options *o,
-                       const struct source_poles_frame *frame, struct arena *a, struct err *e);
+/* f->m and f->mode. ERR_SCENE
+
+   Of frames, by linear prediction. */
+bool source_poles_frames_find(struct source_filter *f, const struct source_filter_options *o,
+                              const struct source_poles_frame *frame, struct arena *a, struct err *e);
+
+/* Of a response h[n] to an impact of 1, which begins SOURCE_MARGIN before it, and of what is free for long behind the
+   impacts, if there are any, by ESPRIT; of modes that there are (f->m) the gains alone. */
+bool source_poles_response(struct source_filter *f, const struct source_filter_options *o, const double *h, long n,
+                           const struct source_response_hits *hits, struct arena *a, struct err *e);
+
+/* Of the recording's autocorrelation: f->correlated. */
+bool source_poles_correlated(struct source_filter *f, const struct source_filter_options *o, struct arena *a,
+                             struct err *e);
 
 static inline cplx source_poles_of(const struct source_filter_mode *m)
 {

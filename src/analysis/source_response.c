@@ -5,8 +5,9 @@
 #include <gsl/gsl_sort_double.h>
 #include <string.h>
 
-static const double clicks = 2.5e-3; /* s of a click in all, the last 1 ms fading */
-enum { ROUNDS = 6, TURNS = 4 };
+#include "num/fft.h"
+
+enum { ROUNDS = 6 };
 
 /* ------------------------------------------------------------------ pulses */
 
@@ -44,7 +45,7 @@ static double align(const double *y, const double *pulse, long n, long reach, bo
 
 /* Times and sizes of the onsets' pulses in what prediction does not foresee, which is as short as an impact: beside the
    one pulse that most are like. Those that are not alike, two at once, say, are none. */
-void source_response_pulses(struct source_filter *f, const double *y, bool both, struct source_response_hits *h,
+void source_response_pulses(const struct source_filter *f, const double *y, bool both, struct source_response_hits *h,
                             struct arena *a)
 {
     enum { CANDIDATES = 6 };
@@ -92,22 +93,123 @@ void source_response_pulses(struct source_filter *f, const double *y, bool both,
     }
 }
 
-/* ------------------------------------------------------------------ gains */
+/* ------------------------------------------------------------------ response */
 
-/* to[n] += sum of size e^(s (t - at)), real and imaginary parts. */
-static void driven(const struct source_filter *f, cplx s, const struct source_response_hits *h, long from, long n,
-                   double *re, double *im)
+/* Products with a symmetric Toeplitz matrix, by the spectrum of the circulant one that it is a part of. */
+struct toeplitz {
+    struct fft *fft;
+    long n, size;
+    double *spectrum, *x, *re, *im;
+};
+
+static void times(const struct toeplitz *m, const double *x, double *y)
 {
-    cplx z = {0, 0}, turn = cplx_exp(s, 1 / f->rate);
-    int k = 0;
-    for (long t = 0; t < from + n; t++) {
-        z = cplx_mul(z, turn);
-        for (; k < h->n && h->at[k] <= (double)t; k++)
-            z = cplx_add(z, cplx_scale(h->size[k], cplx_exp(s, ((double)t - h->at[k]) / f->rate)));
-        if (t < from) continue;
-        re[t - from] = z.re;
-        im[t - from] = z.im;
+    memset(m->x, 0, (size_t)m->size * sizeof *m->x);
+    memcpy(m->x, x, (size_t)m->n * sizeof *x);
+    fft_forward(m->fft, m->x, m->re, m->im);
+    for (long k = 0; k <= m->size / 2; k++) {
+        m->re[k] *= m->spectrum[k];
+        m->im[k] *= m->spectrum[k];
     }
+    fft_inverse(m->fft, m->re, m->im, m->x);
+    memcpy(y, m->x, (size_t)m->n * sizeof *y);
+}
+
+static double product(const double *x, const double *y, long n)
+{
+    double sum = 0;
+    for (long i = 0; i < n; i++)
+        sum += x[i] * y[i];
+    return sum;
+}
+
+/* h[n] of M h = c, M of the autocorrelation r[n], by conjugate gradients from the h there is. */
+static void toeplitz_solve(const double *r, const double *c, double *h, long n)
+{
+    enum { STEPS = 200 };
+    struct arena *a = arena_open();
+    struct toeplitz m = {.n = n, .size = (long)fft_good_size((size_t)(2 * n))};
+    m.fft = fft_open((size_t)m.size);
+    m.spectrum = ARENA_TAKE(a, double, m.size / 2 + 1);
+    m.x = ARENA_TAKE(a, double, m.size);
+    m.re = ARENA_TAKE(a, double, m.size / 2 + 1);
+    m.im = ARENA_TAKE(a, double, m.size / 2 + 1);
+    double *rest = ARENA_TAKE(a, double, n), *way = ARENA_TAKE(a, double, n), *ahead = ARENA_TAKE(a, double, n);
+    for (long i = 0; i < n; i++)
+        m.x[i] = m.x[i ? m.size - i : 0] = r[i] / (double)m.size;
+    fft_forward(m.fft, m.x, m.spectrum, m.im);
+    times(&m, h, ahead);
+    for (long i = 0; i < n; i++)
+        way[i] = rest[i] = c[i] - ahead[i];
+    double left = product(rest, rest, n), enough = 1e-8 * product(c, c, n);
+    for (int step = 0; step < STEPS && left > enough; step++) {
+        times(&m, way, ahead);
+        double by = left / product(way, ahead, n), was = left;
+        for (long i = 0; i < n; i++) {
+            h[i] += by * way[i];
+            rest[i] -= by * ahead[i];
+        }
+        left = product(rest, rest, n);
+        for (long i = 0; i < n; i++)
+            way[i] = rest[i] + left / was * way[i];
+    }
+    fft_close(m.fft);
+    arena_close(a);
+}
+
+double source_response_mean(const double *x, long n, const struct source_response_hits *hits, double *h, long length)
+{
+    enum { PASSES = 3 };
+    static const double ridge = 1e-4; /* of the train's power */
+    long size = (long)fft_good_size((size_t)(n + length + 4)), bins = size / 2 + 1;
+    struct arena *a = arena_open();
+    struct fft *fft = fft_open((size_t)size);
+    double *y = ARENA_TAKE(a, double, size), *re = ARENA_TAKE(a, double, bins), *im = ARENA_TAKE(a, double, bins),
+           *tr = ARENA_TAKE(a, double, bins), *ti = ARENA_TAKE(a, double, bins), *r = ARENA_TAKE(a, double, length),
+           *c = ARENA_TAKE(a, double, length), share = 0;
+    for (int k = 0; k < hits->n; k++) { /* between samples, as source_response_between */
+        long at = (long)floor(hits->at[k]);
+        double u = hits->at[k] - (double)at;
+        for (long i = -1; at > 0 && at + 2 < n && i <= 2; i++) {
+            double one[4] = {0};
+            one[2 - i] = 1;
+            y[at + i] += hits->size[k] * source_response_between(one + 1, 1 - u);
+        }
+    }
+    fft_forward(fft, y, tr, ti);
+    for (long k = 0; k < bins; k++) {
+        re[k] = (tr[k] * tr[k] + ti[k] * ti[k]) / (double)size;
+        im[k] = 0;
+    }
+    fft_inverse(fft, re, im, y);
+    memcpy(r, y, (size_t)length * sizeof *r);
+    r[0] *= 1 + ridge;
+    memset(h, 0, (size_t)length * sizeof *h);
+    for (int pass = 0; pass < PASSES && r[0] > 0; pass++) { /* behind its end the recording goes on as the last says */
+        memset(y, 0, (size_t)size * sizeof *y);
+        memcpy(y, h, (size_t)length * sizeof *h);
+        fft_forward(fft, y, re, im);
+        for (long k = 0; k < bins; k++) {
+            double real = re[k];
+            re[k] = (real * tr[k] - im[k] * ti[k]) / (double)size;
+            im[k] = (real * ti[k] + im[k] * tr[k]) / (double)size;
+        }
+        fft_inverse(fft, re, im, y);
+        memcpy(y, x, (size_t)n * sizeof *y);
+        fft_forward(fft, y, re, im);
+        for (long k = 0; k < bins; k++) {
+            double real = re[k];
+            re[k] = (real * tr[k] + im[k] * ti[k]) / (double)size;
+            im[k] = (im[k] * tr[k] - real * ti[k]) / (double)size;
+        }
+        fft_inverse(fft, re, im, y);
+        memcpy(c, y, (size_t)length * sizeof *c);
+        toeplitz_solve(r, c, h, length);
+    }
+    share = product(x, x, n) > 0 ? product(c, h, length) / product(x, x, n) : 0;
+    fft_close(fft);
+    arena_close(a);
+    return share;
 }
 
 bool source_response_solve(const double *basis, long columns, long stride, long n, double *x, double *to)
@@ -137,169 +239,5 @@ bool source_response_solve(const double *basis, long columns, long stride, long 
     }
     gsl_vector_free(right);
     gsl_matrix_free(normal);
-    return ok;
-}
-
-/* A of all modes at once, by least squares over the recording but for what is near an impact: x = sum Im A z. Of a long
-   one over the part of most impacts. */
-static bool fit_gains(struct source_filter *f, const struct source_response_hits *h)
-{
-    enum { LONGEST = 400000 };
-    long n = f->n < LONGEST ? f->n : LONGEST, from = 0, used = 0, all = 2 * f->m;
-    int most = 0;
-    for (int k = 0, last = 0; k < h->n; k++) {
-        while (last < h->n && h->at[last] < h->at[k] + (double)n)
-            last++;
-        if (last - k > most) from = (long)fmax(h->at[k], 0);
-        most = last - k > most ? last - k : most;
-    }
-    from = from + n > f->n ? f->n - n : from;
-    struct arena *a = arena_open();
-    double *basis = ARENA_TAKE(a, double, all *n), *x = ARENA_TAKE(a, double, n), energy = 0, left = 0;
-    bool *near = ARENA_TAKE(a, bool, n);
-    for (int k = 0; k < h->n; k++)
-        for (long t = (long)(h->at[k] - SOURCE_MARGIN * f->rate); t < (long)(h->at[k] + SOURCE_PAST * f->rate); t++)
-            if (t >= from && t < from + n) near[t - from] = true;
-    for (int i = 0; i < f->m; i++)
-        driven(f, source_poles_of(&f->mode[i]), h, from, n, basis + (2 * i + 1) * n, basis + 2 * i * n);
-    for (long t = 0; t < n; t++)
-        if (!near[t]) {
-            for (long p = 0; p < all; p++)
-                basis[p * n + used] = basis[p * n + t];
-            x[used] = f->x[from + t];
-            energy += x[used] * x[used];
-            used++;
-        }
-    double *gain = ARENA_TAKE(a, double, all);
-    bool ok = used > 2 * all && source_response_solve(basis, all, n, used, x, gain);
-    for (long t = 0; ok && t < used; t++)
-        left += x[t] * x[t];
-    for (int i = 0; ok && i < f->m; i++)
-        f->mode[i].gain = (cplx){gain[2 * i], gain[2 * i + 1]};
-    if (ok) f->noise = sqrt(left / (double)used);
-    if (ok) f->fits = energy > 0 ? 1 - left / energy : 0;
-    arena_close(a);
-    return ok;
-}
-
-/* Sizes and times of impacts of a response that is known, each by what is left of the others between 1 and 20 ms behind
-   it: what is missing is a part of h and of its derivative. rest [n]: the recording without all of them. */
-static void refine(const struct source_filter *f, struct source_response_hits *h, double *rest)
-{
-    struct arena *a = arena_open();
-    long length = (long)(0.3 * f->rate) < f->n ? (long)(0.3 * f->rate) : f->n, near = (long)(SOURCE_PAST * f->rate),
-         far = (long)(20e-3 * f->rate) < length ? (long)(20e-3 * f->rate) : length;
-    double *unit = ARENA_TAKE(a, double, length + 4), *slope = ARENA_TAKE(a, double, length + 4),
-           *x = ARENA_TAKE(a, double, length), *y = ARENA_TAKE(a, double, length);
-    for (int i = 0; i < f->m; i++) {
-        cplx s = source_poles_of(&f->mode[i]), turn = cplx_exp(s, 1 / f->rate), z = f->mode[i].gain,
-             rises = cplx_mul(z, cplx_scale(1 / f->rate, s));
-        for (long t = 1; t < length + 4; t++, z = cplx_mul(z, turn), rises = cplx_mul(rises, turn)) {
-            unit[t] += z.im;
-            slope[t] += rises.im; /* a sample */
-        }
-    }
-    for (int k = 0; k < h->n; k++) {
-        long first = (long)fmax(ceil(h->at[k]), 0), to = first + length < f->n ? length : f->n - first;
-        double u = (double)first - h->at[k], xx = 0, xy = 0, yy = 0, xr = 0, yr = 0;
-        for (long t = 0; t < to; t++) {
-            x[t] = source_response_between(unit + 1 + t, u);
-            y[t] = source_response_between(slope + 1 + t, u);
-        }
-        for (long t = near; t < to && t < far; t++) {
-            xx += x[t] * x[t];
-            xy += x[t] * y[t];
-            yy += y[t] * y[t];
-            xr += x[t] * rest[first + t];
-            yr += y[t] * rest[first + t];
-        }
-        double det = xx * yy - xy * xy, limit = 0.5; /* samples: what is beyond is no small error */
-        if (!(det > 1e-6 * xx * yy) || h->size[k] == 0) continue;
-        double more = (xr * yy - yr * xy) / det, by = (yr * xx - xr * xy) / det, late = -by / h->size[k];
-        if (fabs(late) > limit || fabs(more) > 0.5 * fabs(h->size[k])) continue;
-        h->size[k] += more;
-        h->at[k] += late;
-        for (long t = 0; t < to; t++)
-            rest[first + t] -= more * x[t] + by * y[t];
-    }
-    arena_close(a);
-}
-
-/* What follows an impact at once and is in no mode: the mean over the impacts of what the modes leave behind their
-   times. rest [n]: the recording without its modes. */
-void source_response_click(struct source_filter *f, const double *rest, struct source_response_hits *h, struct arena *a)
-{
-    double all = 0;
-    long n = (long)(clicks * f->rate), fades = (long)(1e-3 * f->rate);
-    f->click = ARENA_TAKE(a, double, n);
-    f->clicks = n;
-    for (int k = 0; k < h->n; k++) {
-        long first = (long)floor(h->at[k]);
-        if (first < 1 || first + n + 2 > f->n) continue;
-        for (long t = 0; t < n; t++)
-            f->click[t] += h->size[k] * source_response_between(rest + first + t, h->at[k] - (double)first);
-        all += h->size[k] * h->size[k];
-    }
-    for (long t = 0; t < n; t++)
-        f->click[t] *=
-            all > 0 ? (t < n - fades ? 1 : 0.5 + 0.5 * real_cospi((double)(t - n + fades) / (double)fades)) / all : 0;
-}
-
-/* The recording without its modes. */
-static void take_off(const struct source_filter *f, const struct source_response_hits *h, double *rest, struct arena *a)
-{
-    double *re = ARENA_TAKE(a, double, f->n), *im = ARENA_TAKE(a, double, f->n);
-    memcpy(rest, f->x, (size_t)f->n * sizeof *rest);
-    for (int i = 0; i < f->m; i++) {
-        cplx gain = f->mode[i].gain;
-        driven(f, source_poles_of(&f->mode[i]), h, 0, f->n, re, im);
-        for (long t = 0; t < f->n; t++)
-            rest[t] -= gain.re * im[t] + gain.im * re[t];
-    }
-}
-
-/* Sizes by one factor, so that modes whose gains are known are most of the recording. */
-static bool scale(struct source_filter *f, struct source_response_hits *h, double *rest, struct arena *a)
-{
-    double product = 0, own = 0, left = 0;
-    take_off(f, h, rest, a);
-    for (long t = 0; t < f->n; t++) {
-        double y = f->x[t] - rest[t];
-        product += f->x[t] * y;
-        own += y * y;
-    }
-    for (int k = 0; k < h->n && own > 0; k++)
-        h->size[k] *= product / own;
-    for (long t = 0; t < f->n && own > 0; t++) {
-        double y = f->x[t] - product / own * (f->x[t] - rest[t]);
-        left += y * y;
-    }
-    f->noise = sqrt(left / (double)f->n);
-    return product > 0;
-}
-
-/* Gains, sizes and times in turn. Then all begins SOURCE_RESPONSE_LEAD earlier, for the click, which is before the
-   onset, too. */
-bool source_response_fit(struct source_filter *f, struct source_response_hits *h, bool known, struct arena *a)
-{
-    struct arena *inner = arena_open();
-    double *rest = ARENA_TAKE(inner, double, f->n);
-    bool ok = h->n > 0;
-    for (int turn = 0; ok && turn < TURNS; turn++) {
-        ok = known ? scale(f, h, rest, inner) : fit_gains(f, h);
-        if (!ok) break;
-        if (turn + 1 == TURNS) break;
-        take_off(f, h, rest, inner);
-        refine(f, h, rest);
-    }
-    for (int k = 0; k < h->n; k++)
-        h->at[k] -= SOURCE_RESPONSE_LEAD * f->rate;
-    for (int i = 0; ok && i < f->m; i++)
-        f->mode[i].gain = cplx_mul(f->mode[i].gain, cplx_exp(source_poles_of(&f->mode[i]), -SOURCE_RESPONSE_LEAD));
-    if (ok) {
-        take_off(f, h, rest, inner);
-        source_response_click(f, rest, h, a);
-    }
-    arena_close(inner);
     return ok;
 }

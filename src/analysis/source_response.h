@@ -3,13 +3,6 @@
 #define ANALYSIS_SOURCE_RESPONSE_H
 #include "analysis/source_poles.h"
 
-#define SOURCE_RESPONSE_LEAD 0.5e-3 /* s of an impact's click before its onset */
-
-struct source_response_hits { /* impacts, as they are known so far */
-    int n;
-    double *at, *size; /* [n] samples; pushes */
-};
-
 /* Between samples, by the cubic through four: x[0] u on, 0 <= u < 1. */
 static inline double source_response_between(const double *x, double u)
 {
@@ -19,20 +12,16 @@ static inline double source_response_between(const double *x, double u)
 
 /* Times and sizes of the onsets' pulses in y, what prediction does not foresee, which is as short as an impact: beside
    the one pulse that most are like. Those that are not alike, two at once, say, are none. */
-void source_response_pulses(struct source_filter *f, const double *y, bool both, struct source_response_hits *h,
+void source_response_pulses(const struct source_filter *f, const double *y, bool both, struct source_response_hits *h,
                             struct arena *a);
 
 /* to[columns] that makes x[n] less the sum of to[p] basis[p][0 .. n - 1] least in squares; x is then that. stride: of
    basis, from column to column. false: there is no one solution, and x is as it was. */
 bool source_response_solve(const double *basis, long columns, long stride, long n, double *x, double *to);
 
-/* Gains (unless they are known), sizes and times in turn; then all begins SOURCE_RESPONSE_LEAD earlier, for the click,
-   which is before the onset, too. false: too little to go by, and all is as it was. */
-bool source_response_fit(struct source_filter *f, struct source_response_hits *h, bool known, struct arena *a);
-
-/* What follows an impact at once and is in no mode: the mean over the impacts of what the modes leave behind their
-   times. rest [n]: the recording without its modes. */
-void source_response_click(struct source_filter *f, const double *rest, struct source_response_hits *h,
-                           struct arena *a);
+/* h[length], the response to an impact of 1 from its time on, that makes x[n] less all impacts' responses least in
+   squares: what all impacts have in common, however closely they follow each other. Returns the share of x's energy
+   that it is. */
+double source_response_mean(const double *x, long n, const struct source_response_hits *hits, double *h, long length);
 
 #endif

@@ -199,7 +199,7 @@ static void judge(struct decompose *d)
     const struct source_filter *f = &d->found;
     d->fits = f->onsets > 0 && !d->table ? f->fits : NAN;
     if (f->correlated)
-        note(d, "nowhere does the object ring freely for 10 ms: modes are those of the recording's autocorrelation, "
+        note(d, "impacts that are alike give little of the recording: modes are those of its autocorrelation, "
                 "which takes "
                 "the force for white noise; frequencies and decays have no intervals, and gains no phases");
     else if (!d->table && f->longest < 0.05)
@@ -207,10 +207,10 @@ static void judge(struct decompose *d)
              "the object rings freely for %.3g ms at most: modes nearer to each other than %.0f Hz are one, and slow "
              "decays are guesses",
              1e3 * f->longest, 1 / f->longest);
-    if (d->fits < 0.5)
+    if (d->fits < 0.5 && !f->correlated)
         note(
             d,
-            "the modes are only %.0f %% of what rings between the onsets: noise, speech, or more than one object; what "
+            "impacts and their ringing are only %.0f %% of the recording: noise, speech, or more than one object; what "
             "follows means little",
             100 * d->fits);
     int n = f->impacts.n;
@@ -388,7 +388,8 @@ static const struct args_option decompose_options[] = {
     {"low", 0, "FREQUENCY", false, "modes are looked for from here on; default: 40 Hz"},
     {"high", 0, "FREQUENCY", false, "and up to here; default: 0.45 of the sample rate"},
     {"fastest", 0, "RATE", false, "the fastest decay that is taken for a mode, in 1/s; default: 600"},
-    {"rise", 0, "DECIBEL", false, "by which an onset's high frequencies rise; default: 6"},
+    {"rise", 0, "DECIBEL", false,
+     "by which what prediction does not foresee rises at the onsets that the search begins with; default: 6"},
     {"snr", 0, "DECIBEL", false,
      "how far below the filter's greatest power it is still divided by; default: by the noise"},
     {"json", 'j', NULL, false, "prints the report as JSON"},
@@ -402,17 +403,18 @@ const struct command decompose_command = {
     .does =
         "Takes a recording of a contact that lasts apart into what rings and what drives it, after Lagrange et al. and "
         "Lee "
-        "et al. as Conan et al. (2014) describe them. Onsets are where high frequencies rise; between them the object "
-        "rings freely, and there its modes are fitted. Their gains are what impacts add to them. The source is the "
-        "recording divided by the modes' response, as far as that is above the noise; impacts are its pulses, and "
-        "their "
-        "amplitudes and the times between them are analysed as rasp analyse does. FOLDER gets modes.csv (frequencies "
+        "et al. as Conan et al. (2014) describe them. Impacts are what linear prediction does not foresee; the modes "
+        "are fitted to their mean response, by least squares over the recording, and to what rings freely for long. "
+        "The source is the recording divided by that response, as far as it is above the noise; impacts are its "
+        "pulses, "
+        "and with them all is found once more. Their amplitudes and the times between them are analysed as rasp "
+        "analyse does. FOLDER gets modes.csv (frequencies "
         "and decays with their errors), source.wav (the force), impacts.csv, impacts.yaml (a scene part that draws "
         "impacts like them), scene.yaml, which renders what was found: impacts, or where the contact does not break "
         "the force as it was; force.yaml, which has the force in any case; decompose.json, the report, and "
         "decompose.png where gnuplot is installed. Levels are relative: a recording does not say how hard was struck.",
     .also =
-        "What a recording cannot say is said: no free ringing (impacts too dense, a contact that does not break: modes "
+        "What a recording cannot say is said: no impacts that are alike (a contact that does not break: modes "
         "are then those of the autocorrelation, with no intervals), noise, clipping, echoes of a room, modes that are "
         "little of what rings (speech, several objects), too few impacts for statistics. Intervals of modes are by "
         "noise "

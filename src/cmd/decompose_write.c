@@ -68,7 +68,7 @@ static void put_scene(FILE *f, const struct decompose *d, bool impacts)
             impacts ? "impacts like those that were found" : "the force that was found");
     if (impacts) fputs("include: [impacts.yaml]\n", f);
     fprintf(f, "surface: {response: modes.csv%s}\n", moves ? ", moving: launch, extrapolate: nearest" : "");
-    if (d->found.clicks > 1) fputs("scraper: {response: click.wav}  # what sounds at once, and is in no mode\n", f);
+    if (d->found.clicks > 0) fputs("scraper: {response: click.wav}  # what sounds at once, and is in no mode\n", f);
     if (moves)
         fprintf(f, "motion: {path: line, law: constant, to: [%.9g, 0], duration: %.9g s}\n", d->seconds, d->seconds);
     else
@@ -204,7 +204,7 @@ bool decompose_write(struct decompose *d, const char *folder, struct err *e)
     }
     const struct source_filter *s = &d->found; /* a push of a sample in newtons, a response per N s */
     if (!put_sound(d, in_folder(d, folder, "source.wav"), s->source, d->rate, d->n, e) ||
-        (s->clicks > 1 && !put_sound(d, in_folder(d, folder, "click.wav"), s->click, 1, s->clicks, e)))
+        (s->clicks > 0 && !put_sound(d, in_folder(d, folder, "click.wav"), s->click, 1, s->clicks, e)))
         return false;
     struct outfile o;
     if (!outfile_open(&o, in_folder(d, folder, "decompose.json"), e)) return false;

@@ -100,24 +100,23 @@ static double impacts_found(const struct known *k, const struct impact_events *v
     return (double)hits / k->n;
 }
 
-/* 25 and 120 impacts a second, three seeds each, at -60 dB of noise: all modes within 1 Hz and 10 %, but where no frame is
-   free for long enough; 95 % of the impacts, sizes within 10 % of each other's. */
+/* 25 and 120 impacts a second in three noises: all modes within 1 Hz and 10 %, in the loudest but one, 95 % of the impacts,
+   sizes within 10 % of each other's. */
 START_TEST(taken_apart)
 {
-    static const double means[] = {40e-3, 8e-3};
+    static const double means[] = {40e-3, 8e-3}, noises[] = {1e-3, 1e-2, 0.1};
     for (int c = 0; c < (getenv("SANITIZED") ? 1 : 6); c++) { /* under sanitizers they take a minute each */
-        struct known *k = made(11 + (uint64_t)c, means[c % 2], 1e-3);
+        struct known *k = made(11 + (uint64_t)c, means[c % 2], noises[c / 2]);
         struct source_filter f = found(k, &options, 0, NULL);
         double extra, scatter, share = impacts_found(k, &f.impacts, &extra, &scatter);
-        printf(
-            "mean %g ms: %d of %d modes, %.1f %% of %d impacts, %.1f %% more, sizes within %.1f %%, given back %.4f\n",
-            1e3 * means[c % 2], modes_found(k, &f, 1), f.m, 100 * share, k->n, 100 * extra, 100 * scatter, f.rings);
+        printf("mean %g ms, noise %g: %d of %d modes, %.1f %% of %d impacts, %.1f %% more, sizes within %.1f %%, "
+               "given back %.4f\n",
+               1e3 * means[c % 2], noises[c / 2], modes_found(k, &f, 1), f.m, 100 * share, k->n, 100 * extra,
+               100 * scatter, f.rings);
         fflush(stdout);
-        ck_assert(c % 2 || !f.correlated);
-        if (!f.correlated) {
-            ck_assert_int_eq(modes_found(k, &f, 1), MODES);
-            ck_assert_int_le(f.m, MODES + 2);
-        }
+        ck_assert(!f.correlated);
+        ck_assert_int_ge(modes_found(k, &f, 1), c < 4 ? MODES : MODES - 1);
+        ck_assert_int_le(f.m, MODES + 2);
         ck_assert(share >= 0.95 && extra <= 0.05 && scatter < 0.1);
         ck_assert(f.struck > 0.8 && f.rings > 0.95);
     }
@@ -127,41 +126,50 @@ END_TEST
 /* Modes that are given: the source alone, in their units. */
 START_TEST(known_modes)
 {
-    struct known *k = made(21, 15e-3, 1e-3);
-    struct source_filter_mode mode[MODES];
-    for (int i = 0; i < MODES; i++)
-        mode[i] =
-            (struct source_filter_mode){.frequency = k->frequency[i], .decay = k->decay[i], .gain = {k->gain[i], 0}};
-    struct source_filter f = found(k, &options, MODES, mode);
-    double extra, scatter, share = impacts_found(k, &f.impacts, &extra, &scatter), mean = 0, true_mean = 0;
-    for (int i = 0; i < f.impacts.n; i++)
-        mean += f.impacts.amplitude[i] / f.impacts.n;
-    for (int i = 0; i < k->n; i++)
-        true_mean += k->size[i] / k->n;
-    printf("%.1f %% of %d impacts, %.1f %% more, mean %.4f of %.4f\n", 100 * share, k->n, 100 * extra, mean, true_mean);
-    ck_assert(share >= 0.97 && extra <= 0.03);
-    ck_assert_double_eq_tol(mean, true_mean, 0.05 * true_mean);
+    static const double means[] = {15e-3, 8e-3};
+    for (int c = 0; c < (getenv("SANITIZED") ? 1 : 2); c++) {
+        struct known *k = made(21 + (uint64_t)c, means[c], c ? 1e-2 : 1e-3);
+        struct source_filter_mode mode[MODES];
+        for (int i = 0; i < MODES; i++)
+            mode[i] = (struct source_filter_mode){
+                .frequency = k->frequency[i], .decay = k->decay[i], .gain = {k->gain[i], 0}};
+        struct source_filter f = found(k, &options, MODES, mode);
+        double extra, scatter, share = impacts_found(k, &f.impacts, &extra, &scatter), mean = 0, true_mean = 0;
+        for (int i = 0; i < f.impacts.n; i++)
+            mean += f.impacts.amplitude[i] / f.impacts.n;
+        for (int i = 0; i < k->n; i++)
+            true_mean += k->size[i] / k->n;
+        printf("mean %g ms: %.1f %% of %d impacts, %.1f %% more, mean %.4f of %.4f\n", 1e3 * means[c], 100 * share,
+               k->n, 100 * extra, mean, true_mean);
+        fflush(stdout);
+        ck_assert(share >= 0.97 && extra <= 0.03);
+        ck_assert_double_eq_tol(mean, true_mean, 0.05 * true_mean);
+    }
 }
 END_TEST
 
-/* Each impact has gains of its own: frequencies within 1 Hz, and more of the recording than a third. */
+/* Each impact has gains of its own: frequencies within 1 Hz, impacts and no more, and most of the recording. */
 START_TEST(own_gains)
 {
     struct source_filter_options o = options;
     o.method = SOURCE_FILTER_LEE;
-    struct known *k = made(31, 40e-3, 1e-3);
-    struct source_filter f = found(k, &o, 0, NULL);
-    int near = 0;
-    for (int i = 0; i < MODES; i++)
-        for (int j = 0; j < f.m; j++)
-            if (fabs(f.mode[j].frequency - k->frequency[i]) < 1) {
-                near++;
-                break;
-            }
-    printf("%d of %d modes, %d impacts of %d, given back %.3f\n", near, f.m, f.places, k->n, f.rings);
-    ck_assert_int_ge(near, MODES - 1);
-    ck_assert_int_ge(f.places, k->n * 9 / 10);
-    ck_assert(f.rings > 0.8);
+    for (uint64_t seed = 31; seed < 34; seed++) {
+        struct known *k = made(seed, 40e-3, 1e-3);
+        struct source_filter f = found(k, &o, 0, NULL);
+        int near = 0;
+        for (int i = 0; i < MODES; i++)
+            for (int j = 0; j < f.m; j++)
+                if (fabs(f.mode[j].frequency - k->frequency[i]) < 1) {
+                    near++;
+                    break;
+                }
+        printf("%d of %d modes, %d impacts of %d, given back %.3f\n", near, f.m, f.places, k->n, f.rings);
+        fflush(stdout);
+        ck_assert_int_ge(near, MODES - 1);
+        ck_assert_int_ge(f.places, k->n * 9 / 10);
+        ck_assert_int_le(f.places, k->n * 21 / 20);
+        ck_assert(f.rings > 0.95);
+    }
 }
 END_TEST
 
