@@ -586,19 +586,17 @@ static bool find_lagrange(struct source_filter *f, const struct source_filter_op
     return true;
 }
 
-/* Each impact has gains of its own: what it adds to what rings already. */
-static bool find_lee(struct source_filter *f, const struct source_filter_options *o,
-                     const struct source_response_hits *h, struct arena *a, struct err *e)
+/* Each impact has gains of its own: what it adds to what rings already. y: what prediction does not foresee. */
+static bool find_lee(struct source_filter *f, const struct source_filter_options *o, const double *y, int m,
+                     const struct source_filter_mode *mode, struct arena *a, struct err *e)
 {
-    f->onset = ARENA_TAKE(a, long, h->n + 1);
-    f->onsets = 0;
-    for (int k = 0; k < h->n; k++) {
-        long at = (long)rint(h->at[k] + SOURCE_MARGIN * f->rate);
-        if (at < f->n) f->onset[f->onsets++] = at;
-    }
-    struct source_poles_frame *frame = source_poles_frames(f, h, a);
+    struct source_poles_frame *frame = source_poles_free_frames(f, y, a);
     struct jump *jump = ARENA_TAKE(a, struct jump, f->onsets + 1);
-    if (!source_poles_frames_find(f, o, frame, a, e)) return false;
+    if (mode) {
+        f->m = m;
+        f->mode = memcpy(ARENA_TAKE(a, struct source_filter_mode, m + 1), mode, (size_t)m * sizeof *mode);
+    } else if (!source_poles_frames_find(f, o, frame, a, e))
+        return false;
     int jumps = find_jumps(f, frame, jump, a);
     if (jumps) prune(f, jump, jumps, o->most);
     jumps = find_jumps(f, frame, jump, a);
@@ -611,17 +609,13 @@ static bool find_lee(struct source_filter *f, const struct source_filter_options
 bool source_filter_find(const double *x, long n, double rate, const struct source_filter_options *o, int m,
                         const struct source_filter_mode *mode, struct arena *a, struct source_filter *f, struct err *e)
 {
+    static const double weak = 0.1, next_to_none = 1e-10; /* noise with which prediction is made */
     bool lee = o->method == SOURCE_FILTER_LEE;
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
     *f = (struct source_filter){.x = x, .n = n, .rate = rate, .fits = NAN, .source = ARENA_TAKE(a, double, n)};
-    double *y = source_poles_unforeseen(x, n, a);
+    double *y = source_poles_unforeseen(x, n, lee ? next_to_none : weak, a);
     source_poles_onsets(f, y, o->rise, a);
-    struct source_response_hits h = find_pulses(f, o, y, a);
-    struct source_filter mean = *f;
-    bool ok = find_lagrange(&mean, o, h, m, mode, a, e);
-    if (ok && lee && !mean.correlated) h = hits_of(&mean, a);
-    ok = ok && (!lee || find_lee(f, o, &h, a, e));
-    if (!lee) *f = mean;
+    bool ok = lee ? find_lee(f, o, y, m, mode, a, e) : find_lagrange(f, o, find_pulses(f, o, y, a), m, mode, a, e);
     if (ok) {
         double *given = ARENA_TAKE(a, double, n), all = squares(x, n), left = 0;
         source_filter_sound(f, given);

@@ -21,8 +21,8 @@ enum { PREDICT = 64, POLES = 12 };
 /* ------------------------------------------------------------------ onsets */
 
 /* What linear prediction does not foresee (autocorrelation method, Levinson and Durbin): while the object rings freely
-   next to nothing, but for an impact. */
-double *source_poles_unforeseen(const double *x, long n, struct arena *a)
+   next to nothing, but for an impact. With noise added what is weak, and may be noise, is not raised. */
+double *source_poles_unforeseen(const double *x, long n, double noise, struct arena *a)
 {
     double r[PREDICT + 1], c[PREDICT + 1] = {1}, *y = ARENA_TAKE(a, double, n);
     int order = n / 4 < PREDICT ? (int)(n / 4) : PREDICT;
@@ -31,7 +31,7 @@ double *source_poles_unforeseen(const double *x, long n, struct arena *a)
         for (long i = k; i < n; i++)
             r[k] += x[i] * x[i - k];
     }
-    double error = r[0] *= 1.1; /* as of noise at -10 dB: what is weak, and may be noise, is not raised */
+    double error = r[0] *= 1 + noise;
     for (int k = 1; k <= order && error > 0; k++) {
         double sum = 0, before[PREDICT + 1];
         for (int i = 0; i < k; i++)
@@ -89,6 +89,42 @@ void source_poles_onsets(struct source_filter *f, const double *y, double rise, 
         if (f->onsets == 0 || at - f->onset[f->onsets - 1] > h) f->onset[f->onsets++] = at;
     }
     arena_close(inner);
+}
+
+/* Behind each onset, until the next, or until something comes that is not foreseen though no onset was seen: more than
+   thrice what was left of the onset in the first 2 ms, and than 8 times the median deviation. */
+struct source_poles_frame *source_poles_free_frames(const struct source_filter *f, const double *y, struct arena *a)
+{
+    struct source_poles_frame *list = ARENA_TAKE(a, struct source_poles_frame, f->onsets + 1);
+    struct arena *inner = arena_open();
+    double *size = ARENA_TAKE(inner, double, f->n / 7 + 1);
+    size_t few = 0;
+    for (long i = 0; i < f->n; i += 7)
+        size[few++] = fabs(y[i]);
+    gsl_sort(size, 1, few);
+    double quiet = 8 * gsl_stats_median_from_sorted_data(size, 1, few) / 0.6745;
+    for (int k = 0; k < f->onsets; k++) {
+        long from = f->onset[k] + (long)(SOURCE_PAST * f->rate), first = from + (long)(2e-3 * f->rate),
+             to = k + 1 < f->onsets ? f->onset[k + 1] - (long)(SOURCE_MARGIN * f->rate) : f->n,
+             most = from + (long)(longest * f->rate);
+        double limit = quiet;
+        to = to < most ? to : most;
+        for (long i = from; i < to; i++) {
+            if (i < first)
+                limit = fmax(limit, 3 * fabs(y[i]));
+            else if (fabs(y[i]) > limit)
+                to = i - (long)(SOURCE_MARGIN * f->rate);
+        }
+        list[k] = (struct source_poles_frame){.onset = k, .from = from, .n = to - from};
+        if (to - from > (long)(0.05 * f->rate)) list[k].from += (long)(4e-3 * f->rate), list[k].n = to - list[k].from;
+        double part[2] = {0, 0};
+        for (long i = 0; i < list[k].n; i++)
+            part[2 * i >= list[k].n] += f->x[list[k].from + i] * f->x[list[k].from + i];
+        bool falls = part[1] < ((double)list[k].n > 0.02 * f->rate ? 0.7 : 1) * part[0];
+        list[k].energy = falls ? part[0] + part[1] : 0; /* what does not fall is driven by what was not seen */
+    }
+    arena_close(inner);
+    return list;
 }
 
 struct source_poles_frame *source_poles_frames(const struct source_filter *f, const struct source_response_hits *h,
@@ -166,7 +202,8 @@ static int best_frames(struct source_filter *f, const struct source_poles_frame 
     struct source_poles_frame *list = ARENA_TAKE(a, struct source_poles_frame, n + 1);
     int all = 0;
     for (int k = 0; k < n; k++)
-        if ((double)frame[k].n >= seconds * f->rate) list[all++] = frame[k];
+        if ((double)frame[k].n >= seconds * f->rate && modal_length(frame[k].n) && frame[k].energy > 0)
+            list[all++] = frame[k];
     qsort(list, (size_t)all, sizeof *list, by_worth);
     all = all < POLES ? all : POLES;
     while (all > 1 && worth(&list[all - 1]) < 0.03 * worth(&list[0])) /* they would add only their noise */

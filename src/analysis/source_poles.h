@@ -18,11 +18,14 @@ struct source_response_hits { /* impacts, as they are known so far, from SOURCE_
     double *at, *size; /* [n] samples; pushes */
 };
 
-/* [n] What linear prediction does not foresee of x. */
-double *source_poles_unforeseen(const double *x, long n, struct arena *a);
+/* [n] What linear prediction does not foresee of x, made as of x with so much white noise added to its power. */
+double *source_poles_unforeseen(const double *x, long n, double noise, struct arena *a);
 
 /* f->onsets, f->onset. y: as above. rise: dB. */
 void source_poles_onsets(struct source_filter *f, const double *y, double rise, struct arena *a);
+
+/* One behind each of the f->onsets, until the next, or until something comes that y did not foresee. */
+struct source_poles_frame *source_poles_free_frames(const struct source_filter *f, const double *y, struct arena *a);
 
 /* One behind each impact, until the next. */
 struct source_poles_frame *source_poles_frames(const struct source_filter *f, const struct source_response_hits *h,
