@@ -129,4 +129,4 @@ START_TEST(under_ramps)
 }
 END_TEST
 
-UNIT("error_pilot", as_the_whole_motion, sampled, under_ramps)
+UNIT("error_pilot", UNIT_PLAIN(as_the_whole_motion), sampled, under_ramps)

@@ -341,4 +341,5 @@ START_TEST(test_scatter)
 }
 END_TEST
 
-UNIT("material_fit", test_scatter, test_found, test_laws, test_given, test_errors_alike, test_doubt)
+UNIT("material_fit", test_scatter, UNIT_PLAIN(test_found), test_laws, test_given, UNIT_PLAIN(test_errors_alike),
+     test_doubt)

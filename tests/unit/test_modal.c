@@ -412,5 +412,5 @@ START_TEST(noise_that_fades)
 }
 END_TEST
 
-UNIT("test_modal", strikes_apart, strikes_alike, noise_that_fades, basis, random_modes, pairs_and_slopes, noise_alone,
-     strikes_and_hum, strikes_in_time)
+UNIT("test_modal", strikes_apart, strikes_alike, noise_that_fades, basis, UNIT_PLAIN(random_modes),
+     UNIT_PLAIN(pairs_and_slopes), noise_alone, strikes_and_hum, UNIT_PLAIN(strikes_in_time))

@@ -40,7 +40,9 @@ static inline int unit_run(const char *name, const TTest *const *tests, size_t n
 #endif
 #ifdef UNIT_SANITIZED
 #define UNIT_LONG(test) ((void)&(test), NULL)
+#define UNIT_PLAIN(test) ((void)&(test), NULL)
 #else
+#define UNIT_PLAIN(test) (test)
 #define UNIT_LONG(test) (getenv("LONG") && *getenv("LONG") ? (test) : NULL)
 #endif
 
