@@ -13,7 +13,7 @@ load=$(cut -d' ' -f1-3 /proc/loadavg)
     echo
     echo "Made by \`evidence/bench.sh\`, $REPEATS rounds, on one core of: $(sed -n 's/^model name[^:]*: //p;T;q' /proc/cpuinfo); load before it: $load. Times of another machine are"
     echo 'others; cycles and the ratio to the scalar loop move less. Each job has its accuracy beside it: goals were set on a prototype that took the force once a sample,'
-    echo 'as draft does.'
+    echo 'as draft does. The preset chooses its knobs by pilot runs: that is among summing, writing, reading.'
     echo
     bash "$ROOT/tests/bench/pipeline.sh"
     echo
