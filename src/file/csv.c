@@ -71,8 +71,8 @@ static enum csv_ends csv_cell(struct csv_reader *r, char **cell)
     r->at += strcspn(r->at, ",\r\n\"");
     if (*r->at == '"')
         return csv_bad(r, r->line,
-                       "a quote inside a cell that does not begin with one: put the whole cell into "
-                       "quotes, and double those in it"),
+                       "a quote inside a cell that does not begin with one: write the cell in quotes, and those in it "
+                       "twice"),
                CSV_BAD;
     return csv_after(r, r->at);
 }
