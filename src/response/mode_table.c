@@ -463,7 +463,7 @@ static bool one_mode(const struct rows *r, const size_t *rows, size_t n, struct 
                        "%d; %s",
                        cell_of(r, rows[i], MODE), cell_of(r, rows[i], PLACE), w[FREQUENCY], w[PHASE], v[FREQUENCY],
                        v[PHASE], r->csv->lines[rows[0]],
-                       r->envelope ? "an envelope belongs to one frequency and phase"
+                       r->envelope ? "an envelope belongs to one frequency and phase: write the same ones"
                                    : "the slopes of a mode have one frequency") ||
                bad_row(r, rows[i], e);
     }
