@@ -273,8 +273,8 @@ static bool check_name(const struct reader *r, size_t row)
         return err_set(r->e, ERR_SCENE, "'%s' leads out of the folder; name a file inside it", name) || at(r, row);
     for (size_t other = 0; other < row; other++)
         if (strcmp(cell(r, other, FILE_NAME), name) == 0)
-            return err_set(r->e, ERR_SCENE, "'%s' is in line %d already; a response has one place", name,
-                           r->table.lines[other]) ||
+            return err_set(r->e, ERR_SCENE, "'%s' is in line %d already; a response has one place: remove one line",
+                           name, r->table.lines[other]) ||
                    at(r, row);
     return true;
 }
