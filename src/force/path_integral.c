@@ -187,14 +187,14 @@ static void slope_ends(struct path_integral *s, const struct cells *p)
         int b = p->at[i] + 1;
         double start = p->heading[i] * (x[i] * c->e[0][i] + y[i] * c->e[1][i]);
         t->start[i] = start;
-        t->end[i] = t->decay[i] * start + t->bent[0][i];
+        t->end[i] = path_terms_end(t, 0, i, start);
         c->facing[i] = x[i + 1] * ex[b] + y[i + 1] * ey[b];
     }
 #pragma omp simd
     for (int i = 0; i < straight; i++) {
         double start = p->heading[i] * x[i];
         t->start[i] = start;
-        t->end[i] = t->decay[i] * start + t->bent[0][i];
+        t->end[i] = path_terms_end(t, 0, i, start);
         c->facing[i] = x[i + 1];
     }
 }

@@ -10,7 +10,7 @@
 
 static const char STANDARD[] = "standard",
                   PRESETS[] =
-                      "presets: draft, standard, high, reference; for an error that must be kept: {error: -60 dB}";
+                      "presets: draft, standard, high, reference; for an error that must hold: {error: -60 dB}";
 
 #define LEAST_ERROR (-240.0) /* dB; doubles hold -313 */
 
