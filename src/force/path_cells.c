@@ -150,45 +150,25 @@ static double curve_along(const struct hermite *c, int axis, double w, double *r
     return x[0] + b * (x[1] - x[0]) + q * p * h * (p * e[0] - q * e[1]);
 }
 
-/* The knots of one family that a stretch meets, one after the other. Where its coordinate turns on the way, they are
-   met on the way there and on the way back. */
+/* The knots of one family between a stretch's ends, one after the other. */
 struct knot_walk {
     double next;              /* m into the stretch; HUGE_VAL: there is none */
-    double from, to, turn;    /* m: what is left of the way to where it turns, or to the end; whole: it does not turn */
-    double at, end;           /* the coordinate at both ends of that, in pitches */
-    double edge, step, count; /* the next knot's number, +1 or -1, how many are left on it */
+    double from, at, end;     /* m, where the last one was met; the coordinate there and at the end, in pitches */
+    double edge, step, count; /* the next knot's number, +1 or -1, how many are left */
 };
-
-static void walk_leg(struct knot_walk *k, double end)
-{
-    double slack =
-        1e-7 * (1 + fabs(k->at) * 1e-6); /* a knot just reached is not the next one, and one at the end none */
-    bool up = end > k->at;
-    double last = up ? lanes_ceil(end - slack) - 1 : lanes_floor(end + slack) + 1;
-    k->end = end;
-    k->step = up ? 1 : -1;
-    k->edge = up ? lanes_floor(k->at + slack) + 1 : lanes_ceil(k->at - slack) - 1;
-    k->count = (last - k->edge) * k->step + 1;
-}
 
 /* To the next knot: from where a straight line meets it by Newton's method. */
 static void walk_on(struct knot_walk *k, const struct knot_lines *g, const struct stretch *s)
 {
     const struct hermite *c = &s->path;
-    if (k->count < 1 && k->to < s->whole) {
-        k->from = k->to;
-        k->at = k->end;
-        k->to = s->whole;
-        walk_leg(k, ((g->axis ? c->y : c->x)[1] - g->origin) * g->per);
-    }
     k->next = HUGE_VAL;
     if (k->count < 1) return;
-    double w = k->from + (k->to - k->from) * (k->edge - k->at) / (k->end - k->at), off = 1;
+    double w = k->from + (s->whole - k->from) * (k->edge - k->at) / (k->end - k->at), off = 1;
     for (int i = 0; c->bends && i < 8 && fabs(off) > 1e-9; i++) {
         double speed;
         off = k->edge - (curve_along(c, g->axis, w, &speed) - g->origin) * g->per;
         if (!(speed * k->step > 0)) break;
-        w = fmax(k->from, fmin(w + off * g->pitch / speed, k->to));
+        w = fmax(k->from, fmin(w + off * g->pitch / speed, s->whole));
     }
     k->next = k->from = w;
     k->at = k->edge;
@@ -198,15 +178,13 @@ static void walk_on(struct knot_walk *k, const struct knot_lines *g, const struc
 
 static void walk_start(struct knot_walk *k, const struct knot_lines *g, const struct stretch *s)
 {
-    const struct hermite *c = &s->path;
-    const double *x = g->axis ? c->y : c->x, *e = g->axis ? c->ey : c->ex;
-    double speed, end = x[1];
-    *k = (struct knot_walk){.to = s->whole, .at = (x[0] - g->origin) * g->per};
-    if (c->bends && e[0] * e[1] < 0) {
-        k->to = s->whole * e[0] / (e[0] - e[1]);
-        end = curve_along(c, g->axis, k->to, &speed);
-    }
-    walk_leg(k, (end - g->origin) * g->per);
+    const double *x = g->axis ? s->path.y : s->path.x;
+    double at = (x[0] - g->origin) * g->per, end = (x[1] - g->origin) * g->per;
+    double slack = 1e-7 * (1 + fabs(at) * 1e-6); /* a knot just reached is not the next one, and one at the end none */
+    bool up = end > at;
+    double edge = up ? lanes_floor(at + slack) + 1 : lanes_ceil(at - slack) - 1,
+           last = up ? lanes_ceil(end - slack) - 1 : lanes_floor(end + slack) + 1, step = up ? 1 : -1;
+    *k = (struct knot_walk){.at = at, .end = end, .edge = edge, .step = step, .count = (last - edge) * step + 1};
     walk_on(k, g, s);
 }
 
