@@ -8,7 +8,9 @@
 
    Every step of T_k lengthens the kernel by one tap at either end. beta and R are Kaiser's (J. F. Kaiser, "Nonrecursive
    digital filter design using the I0-sinh window function", ISCAS 1974) for ATTENUATION dB: beta = 0.1102 (A - 8.7), 2
-   R = (A - 7.95)/(2.285 dw), dw = 2 pi (0.5465 - 0.4535)/over.
+   R = (A - 7.95)/(2.285 dw), dw = 2 pi (0.5465 - 0.4535)/over, R rounded up to whole samples at fs: so g is the same
+   function of time whatever over is. (Rounded up to whole T, g's edge moved from one over to another, and with it a
+   force's part near fs/2 by 7e-6 of its peak.)
 
    Why not the window on the inverse Fourier transform of the whole wanted response: a window smooths what it
    multiplies, and 1/sinc is curved; for over = 1 that would be wrong by 3e-4. Here the window acts on a flat pass band,
@@ -114,8 +116,8 @@ static void normalise(double *tap, int n)
 static struct filter decimator(struct arena *a, int over, bool bspline)
 {
     struct droop d = droop_make(over, bspline);
-    double width = 2 * REAL_PI * (STOP - PASS) / over;
-    int inner = bspline && over == 1 ? 0 : (int)ceil((ATTENUATION - 7.95) / (2.285 * width) / 2),
+    double width = 2 * REAL_PI * (STOP - PASS);
+    int inner = bspline && over == 1 ? 0 : over * (int)ceil((ATTENUATION - 7.95) / (2.285 * width) / 2),
         reach = inner + d.order, taps = 2 * reach + bspline;
     double *g = ARENA_TAKE(a, double, taps);
     low_pass(g + d.order, inner, over, bspline);
