@@ -141,8 +141,7 @@ extern const struct new_starter new_starters[]; /* the first is the default; end
 /* What a starter's text says, ends with path NULL; "-": a contact begins; ".": the contacts are over. */
 struct keys_line *new_lines(const char *text, struct arena *a);
 
-/* irs: the folder of the shipped responses, as the scene is to call it. */
-void new_print(FILE *f, const struct new_starter *s, const char *irs, struct arena *a);
+void new_print(FILE *f, const struct new_starter *s, struct arena *a);
 
 /* batch.c: what `rasp batch` and `rasp check` say of a design. */
 /* What is wrong with the design's own text, if anything is: *e then says that it cannot be used. */

@@ -200,7 +200,7 @@ static bool gsf_line(struct gsf *g, char *s, int line)
 {
     char *equals = strchr(s, '=');
     if (strchr(s, '\r'))
-        return err_set(g->e, ERR_SCENE, "%s: GSF header, line %d: the line ends in CR LF: write its header with LF alone",
+        return err_set(g->e, ERR_SCENE, "%s: GSF header, line %d: the line ends in CR LF: write the header with LF",
                        g->path, line);
     if (!equals)
         return err_set(g->e, ERR_SCENE,

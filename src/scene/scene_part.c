@@ -9,6 +9,7 @@
 #include "scene/keys.h"
 #include "scene/keys_text.h"
 #include "scene/scene.h"
+#include "scene/scene_merge.h"
 #include "scene/scene_values.h"
 
 const char *scene_part_label(const struct scene_part *p, const char *path)
@@ -322,9 +323,6 @@ static void both_given(const struct scene_part *p, const struct yaml_node *const
     const char *label = scene_part_label(p, names[swap]), *where = other->name;
     if (!other->option) where = arena_format(a, "%s line %d", where, first->key->at.line);
     const char *cure = arena_format(a, "%s stands in %s; remove one of them", label, where);
-    if (other != second->key->at.source)
-        cure = arena_format(a, "%s, or take that one away with %s: null (on the command line: --set %s=null)", cure,
-                            label, label);
     diag_add(p->yaml->diag, second->key->at, cure, "%s and %s exclude each other", scene_part_label(p, names[!swap]),
              label);
 }
@@ -371,8 +369,43 @@ static void alternative_check(const struct scene_part *p, const struct key_alter
     if (n_given < alternative->least && n > 0) none_given(p, candidates, n);
 }
 
+/* Of alternatives that two texts give (a scene and what it includes, a design, the command line) the one that is laid
+   later takes the others' place. Within one text they contradict each other, and both stay. */
+static void alternative_settle(const struct scene_part *p, const struct key_alternative *alternative)
+{
+    const struct key condition = keys_condition(alternative);
+    struct yaml_node *given[KEYS_RIVALS], *last = NULL;
+    int n = 0;
+    if (alternative->most != 1 || applies(p, &condition) != APPLIES_YES) return;
+    for (int i = 0; alternative->paths[i]; i++) {
+        const struct key *k = keys_find(alternative->paths[i]);
+        struct yaml_node *node = yaml_find(p->map, alternative->paths[i]);
+        if (!node || (k && applies(p, k) != APPLIES_YES)) continue;
+        if (!last || laid_before(&last->key->at, &node->key->at)) last = node;
+        given[n++] = node;
+    }
+    for (int i = 0; i < n; i++)
+        if (given[i]->key->at.source != last->key->at.source) {
+            given[i]->kind = YAML_SCALAR;
+            given[i]->plain = true;
+            given[i]->text = "null";
+        }
+}
+
+static bool is_mine(const struct scene_part *p, const struct key_alternative *alternative)
+{
+    const struct key *k = keys_find(alternative->paths[0]);
+    bool mine = k && k->of == p->of;
+    for (const struct key_section *s = keys_sections; !k && s->path; s++)
+        mine = mine || (strcmp(s->path, alternative->paths[0]) == 0 && s->of == p->of);
+    return mine;
+}
+
 void scene_part_fill(const struct scene_part *p)
 {
+    for (const struct key_alternative *x = keys_alternatives; x->paths[0]; x++)
+        if (is_mine(p, x)) alternative_settle(p, x);
+    scene_merge_drop_nulls(p->map);
     for (const struct key *k = keys_table; k->path; k++) {
         if (k->of != p->of) continue;
         const struct yaml_node *node = yaml_find(p->map, k->path);
@@ -393,11 +426,6 @@ void scene_part_fill(const struct scene_part *p)
     }
     for (const struct key_section *s = keys_sections; s->path; s++)
         if (s->of == p->of) *keys_given(s, p->to) = yaml_find(p->map, s->path) != NULL;
-    for (const struct key_alternative *x = keys_alternatives; x->paths[0]; x++) {
-        const struct key *k = keys_find(x->paths[0]);
-        bool mine = k && k->of == p->of;
-        for (const struct key_section *s = keys_sections; !k && s->path; s++)
-            mine = mine || (strcmp(s->path, x->paths[0]) == 0 && s->of == p->of);
-        if (mine) alternative_check(p, x);
-    }
+    for (const struct key_alternative *x = keys_alternatives; x->paths[0]; x++)
+        if (is_mine(p, x)) alternative_check(p, x);
 }

@@ -49,7 +49,7 @@ mv far/away/two moved
 rasp batch six.yaml -o moved | count && same one moved
 echo "-- a set without a sound says so"
 rasp new -o starter.yaml
-printf '%s\n' 'rasp-design: 1' 'base: starter.yaml' 'factors: {motion.duration: [0.1 s, 0.2 s]}' > starters.yaml
+printf '%s\n' 'rasp-design: 1' 'base: starter.yaml' 'set: {surface.object: null}' 'factors: {motion.duration: [0.1 s, 0.2 s]}' > starters.yaml
 rasp batch starters.yaml --dry-run | tail -n 2 | sed 's/CPU.*//'
 rasp batch starters.yaml -o starters | sed 's/, in .*//'
 echo "-- what a dry run lists: what is there, and why the rest would be made; as JSON and of a shard"

@@ -355,8 +355,6 @@ static const struct {
     {full, "motion.rate.x=1", "--set motion.rate.x: error: ", "motion.rate needs a frequency, not a map of keys",
      "2 Hz"},
     {full, "motion=fast", "--set motion: error: ", "motion must be a map of keys, not 'fast'", "keys here"},
-    {full, "output.level.peak=-1 dB", "--set output.level.peak: error: ", "exclude each other",
-     "output.level.lufs: null"},
     {full, "motion.speed=1 m/s", "--set motion.speed: error: ",
      "applies only where motion.path is line, four_in_line, circle, polyline or spline", "it is back_and_forth"},
     {full, "include=[x]", "--set include: error: ", "include cannot be set", "scene file"},

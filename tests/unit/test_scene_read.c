@@ -202,7 +202,6 @@ static void make_files(void)
     folder_write("syntax2.yaml", "a: [\n");
     folder_write("dup.yaml", MIN "include: [dup2.yaml]\n");
     folder_write("dup2.yaml", "title: a\ntitle: b\n");
-    folder_write("both.yaml", "include: [base.yaml]\noutput: {level: {peak: -1 dB}}\n");
     for (int i = 0; i < 20; i++) {
         char name[32], text[64];
         snprintf(name, sizeof name, "deep%d.yaml", i);
@@ -252,8 +251,6 @@ START_TEST(test_bad_files)
         {"cycle.yaml", "sub/cycle2.yaml", ":1:11: error: ", "cycle.yaml' includes itself", "remove", ERR_SCENE},
         {"syntax.yaml", "syntax2.yaml", ":2:1: error: ", "not valid YAML", "brackets", ERR_SCENE},
         {"dup.yaml", "dup2.yaml", ":2:1: error: ", "duplicate key 'title'", "first set on line 1", ERR_SCENE},
-        {"both.yaml", "both.yaml", ":2:18: error: ", "output.level.peak and output.level.lufs exclude each other",
-         "output.level.lufs: null", ERR_SCENE},
         {"deep0.yaml", "deep16.yaml", ":1:11: error: ", "too many includes", "remove", ERR_SCENE},
         {"no.yaml", "no.yaml", ": error: ", "cannot be read: No such file", "", ERR_INPUT},
         {"sub", "sub", ": error: ", "cannot be read: Is a directory", "", ERR_INPUT},

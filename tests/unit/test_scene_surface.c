@@ -253,8 +253,6 @@ START_TEST(test_bad_recipe)
         {"sub/bare.yaml", "sub/bare.yaml", ": error: ", "there is nothing in it", "", ERR_SCENE},
         {"sub/plank_wrong.yaml", "sub/plank_wrong.yaml",
          ":3:1: error: ", "surface.object.thickness is missing: a plate has one", "thickness: 5 mm", ERR_SCENE},
-        {"sub/plank.yaml, response: a.csv", "t.yaml",
-         ":2:35: error: ", "surface.response and surface.object exclude each other", "surface.object: null", ERR_SCENE},
         {"sub/none.yaml", "t.yaml", ":2:19: error: ", "none.yaml': No such file", "relative to that file's folder",
          ERR_INPUT},
         {"sub", "t.yaml", ":2:19: error: ", "': Is a directory", "", ERR_INPUT},
