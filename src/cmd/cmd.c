@@ -169,6 +169,7 @@ const struct args_option *cmd_options(const struct command *m, struct arena *a)
 /* ------------------------------------------------------------------ every command, in the order of the usage */
 
 const struct command *const cmd_table[] = {&render_command,
+                                           &play_command,
                                            &plan_command,
                                            &batch_command,
                                            &batch_merge_command,
@@ -370,7 +371,8 @@ int cmd_main(int (*run)(int argc, char **argv), int argc, char **argv)
     errno = 0;
     if (fclose(stdout) != 0) failed |= pending || errno != EBADF;
     if (!failed) return code;
-    fprintf(stderr, "rasp: error: cannot write to standard output: %s\n",
-            errno ? strerror(errno) : "what was printed is not complete");
+    if (errno != EPIPE) /* of which who reads it knows: rasp explain | head */
+        fprintf(stderr, "rasp: error: cannot write to standard output: %s\n",
+                errno ? strerror(errno) : "what was printed is not complete");
     return code ? code : ERR_IO;
 }

@@ -44,7 +44,7 @@ struct command {
 
 extern const struct command check_command, explain_command, new_command, render_command, plan_command, compare_command,
     plot_command, accuracy_command, analyse_command, surface_command, modes_command, completion_command, batch_command,
-    batch_merge_command, export_command, golden_command, judge_command, decompose_command;
+    batch_merge_command, export_command, golden_command, judge_command, decompose_command, play_command;
 
 /* Rows for the option table of every command that reads scenes; cmd_read_scene heeds them. */
 #define CMD_SCENE_OPTIONS                                                                                              \
@@ -128,6 +128,11 @@ void version_print(bool verbose);
 bool version_asked(int argc, char **argv);
 /* "0.1.0", and of what state of the source the program was built: "f650ae05d2ab"; "unknown". */
 extern const char version_number[], version_revision[];
+
+/* render.c: a scene rendered into a folder of its own, which goes with the program or with render_scratch_end. Gives
+   the WAV's name; warnings are printed. NULL: it has no sound, or the errors of a render. */
+const char *render_scratch(struct cmd_call *c, const char *file, const char **folder, struct err *e);
+void render_scratch_end(const char *folder, struct arena *a); /* NULL: there is none */
 
 /* new.c: the starter scenes and designs. */
 struct new_starter {

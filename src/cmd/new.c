@@ -11,8 +11,8 @@
 
 /* Starter scenes as texts of keys and values, which are off behind a #; the comment above a key is its meaning. Each
    renders as it is, and what rings is an object of a material, whose modes are made where the motion is. So any
-   material, and any path within the object, can take the place of what is written, and no file is needed. "-" begins one
-   of several contacts, "." ends them. */
+   material, and any path within the object, can take the place of what is written, and no file is needed. "-" begins
+   one of several contacts, "." ends them. */
 
 #define ROUGHNESS                                                                                                      \
     "surface.roughness.exponent -2.4; surface.roughness.rms 4 um; surface.roughness.longest 2 mm; "                    \

@@ -6,8 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/file_cache.h"
+#include "base/interrupt.h"
 #include "base/outfile.h"
 #include "base/relpath.h"
 #include "base/text.h"
@@ -140,7 +142,8 @@ static bool render_verify(struct cmd_call *c, const char *file, const struct sce
 
 static const struct args_option render_options[] = {
     {"output", 'o', "FILE|FOLDER/", false,
-     "where to write: NAME.wav for one scene, or a folder (ending in /); default: the current folder"},
+     "where to write: NAME.wav for one scene, a folder (ending in /), or -, the sound alone to standard output; "
+     "default: the current folder"},
     CMD_SCENE_OPTIONS,
     {"json", 0, NULL, false,
      "print the summary (level, cost per stage, real-time factor) on stdout as JSON; of several scenes, an array"},
@@ -200,9 +203,72 @@ static struct outputs *render_read(struct cmd_call *c, struct file_cache *file_c
     return all;
 }
 
+/* ------------------------------------------------------------------ a sound that is not kept */
+
+const char *render_scratch(struct cmd_call *c, const char *file, const char **folder, struct err *e)
+{
+    struct scene *s = ARENA_TAKE(c->arena, struct scene, 1);
+    struct render_report report;
+    *folder = outfile_scratch_make_folder("rasp-sound", c->arena, e);
+    if (!*folder || !cmd_read_scene(c, file, s, e)) return NULL;
+    s->output.diagnostics.given = false;
+    s->output.stems = NULL;
+    s->output.impacts = LISTING_NONE;
+    if (!render_scene(s, arena_format(c->arena, "%s/sound", *folder), c->arena, &report, e)) {
+        scene_places_report(s, e);
+        return NULL;
+    }
+    for (int k = 0; k < report.n_warnings; k++)
+        message_warning(c, s->file, report.warnings[k]);
+    for (int k = 0; k < report.n_files; k++)
+        if (text_ends(report.files[k].path, ".wav")) return report.files[k].path;
+    return err_set(e, ERR_SCENE,
+                   "%s makes no sound: give surface.response or surface.object, or set output.quantity to force", file),
+           NULL;
+}
+
+void render_scratch_end(const char *folder, struct arena *a)
+{
+    static const char *const files[] = {"sound.wav", "sound.scene.yaml", "sound.json"};
+    if (!folder) return;
+    for (int i = 0; i < 3; i++)
+        unlink(arena_format(a, "%s/%s", folder, files[i]));
+    rmdir(folder);
+    interrupt_forget(folder);
+}
+
+/* -o -: the sound to standard output. */
+static int render_stream(struct cmd_call *c, struct err *e)
+{
+    const char *folder = NULL, *sound;
+    char some[1 << 16];
+    size_t n;
+    for (int i = 0; i < 2; i++) {
+        const char *without = i ? "verify" : "json";
+        if (args_given(&c->args, without))
+            return err_set(e, ERR_USAGE, "--%s and --output - exclude each other", without), 0;
+    }
+    if (c->args.n_operands > 1) return err_set(e, ERR_USAGE, "--output - takes one scene"), 0;
+    if (isatty(STDOUT_FILENO))
+        return err_set(e, ERR_USAGE,
+                       "--output - writes a WAV, and standard output is a terminal: send it to a program or a file"),
+               0;
+    FILE *f = (sound = render_scratch(c, c->args.operands[0], &folder, e)) ? fopen(sound, "rb") : NULL;
+    if (sound && !f) err_set(e, ERR_IO, "%s cannot be read again", sound);
+    while (f && (n = fread(some, 1, sizeof some, f)) > 0 && fwrite(some, 1, n, stdout) == n)
+        ;
+    if (f) fclose(f);
+    render_scratch_end(folder, c->arena);
+    return (int)e->kind;
+}
+
+/* ------------------------------------------------------------------ the command */
+
 static int render_run(struct cmd_call *c, struct err *e)
 {
     int n = c->args.n_operands, done = 0;
+    const char *to = args_value(&c->args, "output");
+    if (to && !strcmp(to, "-")) return render_stream(c, e);
     if (n > 1) message_group(c);
     bool array = n > 1 && args_given(&c->args, "json");
     if (args_given(&c->args, "traps")) run_traps();
@@ -258,6 +324,7 @@ const struct command render_command = {
     .examples = "rasp render scenes/basswood_scrape.yaml\n"
                 "rasp render scenes/basswood_scrape.yaml -o fast.wav --set 'motion.rate=4 Hz'\n"
                 "rasp render scenes/strike.yaml --set 'accuracy.error=-60 dB' --verify\n"
-                "rasp render scenes/*.yaml -o out/ --set accuracy=draft\n",
+                "rasp render scenes/*.yaml -o out/ --set accuracy=draft\n"
+                "rasp new wood_on_sandpaper | rasp render /dev/stdin -o - > sandpaper.wav\n",
     .run = render_run,
 };

@@ -27,7 +27,8 @@ bool report_close(struct report *r, int digits, struct err *e)
                    JSON_INDENT(2) | JSON_REAL_PRECISION((size_t)digits) | (r->ascii ? JSON_ENSURE_ASCII : 0)) == 0;
     fputc('\n', r->out);
     json_decref(r->open.at[0]);
-    return ok || err_set(e, ERR_IO, "the report cannot be written as JSON");
+    return ok || ferror(r->out) /* which the end of the program reports */ ||
+           err_set(e, ERR_IO, "the report cannot be written as JSON");
 }
 
 /* ------------------------------------------------------------------ JSON */

@@ -3,41 +3,15 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/child.h"
 #include "base/interrupt.h"
 #include "base/outfile.h"
 #include "output/mark.h"
-
-/* Runs gnuplot on three descriptors; 0 or an errno. Signals that we ignore or block are not by it. */
-static int spawn(pid_t *pid, const int fd[3])
-{
-    char *argv[] = {(char[]){"gnuplot"}, (char[]){"-d"}, NULL};
-    posix_spawn_file_actions_t files;
-    posix_spawnattr_t how;
-    sigset_t pipes, none;
-    sigemptyset(&none);
-    sigemptyset(&pipes);
-    sigaddset(&pipes, SIGPIPE);
-    posix_spawn_file_actions_init(&files);
-    posix_spawnattr_init(&how);
-    posix_spawnattr_setsigdefault(&how, &pipes);
-    posix_spawnattr_setsigmask(&how, &none);
-    posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
-    for (int k = 0; k < 3; k++)
-        posix_spawn_file_actions_adddup2(&files, fd[k], k);
-    interrupt_hold();
-    int code = posix_spawnp(pid, argv[0], &files, &how, argv, environ);
-    interrupt_child(code == 0 ? *pid : 0);
-    interrupt_go();
-    posix_spawnattr_destroy(&how);
-    posix_spawn_file_actions_destroy(&files);
-    return code;
-}
 
 /* Its standard output goes to the descriptor; no initialisation file is read. ERR_UNBUILT: it is not installed. */
 static bool start(struct gnuplot *g, int output, struct err *e)
@@ -48,7 +22,8 @@ static bool start(struct gnuplot *g, int output, struct err *e)
         if (g->complaints) fclose(g->complaints);
         return err_set(e, err_system(ERR_CREATE), "gnuplot cannot be started: %s", strerror(errno));
     }
-    code = spawn(&g->pid, (const int[3]){ends[0], output, fileno(g->complaints)});
+    code = child_spawn(&g->pid, (const char *const[]){"gnuplot", "-d", NULL},
+                       (const int[3]){ends[0], output, fileno(g->complaints)});
     close(ends[0]);
     g->in = code == 0 ? fdopen(ends[1], "w") : NULL;
     if (g->in) return true;
