@@ -495,7 +495,8 @@ static bool explain_design(json_t *schema, const char *word, const char **names,
     return key || names_designs(word);
 }
 
-static void unknown(json_t *schema, const char *word, const char **names, struct arena *a, struct err *e)
+/* What a word is nearly spelt like, or the paths that end in it; NULL: nothing. */
+static const char *meant_by(json_t *schema, const char *word, const char **names, struct arena *a)
 {
     json_t *keys = json_object_get(schema, "properties"), *unused;
     const char **designs = ARENA_TAKE(a, const char *, json_object_size(keys) + 2), *name,
@@ -506,10 +507,60 @@ static void unknown(json_t *schema, const char *word, const char **names, struct
     if (!meant) meant = text_nearest(word, names);
     if (!meant && (meant = text_nearest(word, designs)) && meant != designs[0])
         meant = arena_format(a, "%s of designs", meant);
+    return meant;
+}
+
+static void unknown(const char *word, const char *meant, struct err *e)
+{
     if (meant)
         err_set(e, ERR_USAGE, "no key, section or scene file '%s'; did you mean %s?", word, meant);
     else
         err_set(e, ERR_USAGE, "no key, section or scene file '%s'; rasp explain shows every key", word);
+}
+
+/* Words that people have for what is called otherwise here. */
+static const char *const synonyms[][2] = {{"repeat", "replicate"}, {"volume", "loudness"}, {"gain", "level"},
+                                          {"pressure", "force"},   {"noise", "random"},    {"length", "duration"},
+                                          {"velocity", "speed"},   {"weight", "mass"},     {"quality", "accuracy"}};
+
+/* Does the text hold the word, or one that means the same? Without an s at its end; letters of either case. */
+static bool speaks_of(const char *text, const char *word, struct arena *a)
+{
+    size_t n = strlen(word);
+    const char *stem = arena_format(a, "%.*s", (int)(n > 3 && word[n - 1] == 's' ? n - 1 : n), word);
+    if (strcasestr(text, stem)) return true;
+    for (size_t i = 0; i < sizeof synonyms / sizeof *synonyms; i++)
+        if (!strcasecmp(synonyms[i][0], stem) && strcasestr(text, synonyms[i][1])) return true;
+    return false;
+}
+
+/* Keys whose name, meaning or words have it, a line each. False: there are none, or more than would help. */
+static bool explain_search(json_t *schema, const char *word, struct arena *a)
+{
+    enum { MOST = 40 };
+    const char *found[MOST][2], *name;
+    json_t *unused;
+    int n = 0;
+    if (strlen(word) < 3) return false;
+    for (const struct key *k = keys_table; k->path && n < MOST; k++) {
+        bool has = k->meaning && (speaks_of(k->path, word, a) || speaks_of(k->meaning, word, a) ||
+                                  speaks_of(units_name(k->dimension), word, a));
+        for (const struct choice *c = k->choices; k->meaning && c && c->word && !has; c++)
+            has = speaks_of(c->word, word, a);
+        if (has) found[n][0] = k->path, found[n++][1] = k->meaning;
+    }
+    json_object_foreach(json_object_get(schema, "properties"), name, unused)
+    {
+        const char *text = design_text(design_key(schema, name));
+        if (n < MOST && (speaks_of(name, word, a) || speaks_of(text, word, a)))
+            found[n][0] = arena_format(a, "%s of designs", name), found[n++][1] = text;
+    }
+    if (n == 0 || n == MOST) return false;
+    printf("no key is called '%s'; these speak of it:\n", word);
+    for (int i = 0; i < n; i++)
+        text_wrap(stdout, arena_format(a, "%.*s", (int)strcspn(found[i][1], ";("), found[i][1]),
+                  printf("  %-30s ", found[i][0]), "                                 ");
+    return true;
 }
 
 /* The keys and knobs at a path or in a map of that path, in the order of the tables; NULL: all. */
@@ -553,7 +604,7 @@ static void explain_json(json_t *schema, const char *word, const char **names, s
     else if (is_scene_file(word))
         err_set(e, ERR_USAGE, "--json is for keys and sections; an effective scene is YAML");
     else
-        unknown(schema, word, names, a, e);
+        unknown(word, meant_by(schema, word, names, a), e);
 }
 
 static int explain_run(struct cmd_call *c, struct err *e)
@@ -584,8 +635,10 @@ static int explain_run(struct cmd_call *c, struct err *e)
     } else if (is_scene_file(word)) {
         struct scene s;
         if (cmd_read_scene(c, word, &s, e)) fputs(scene_write(&s, NULL, c->arena), stdout);
-    } else if (!explain_design(schema, word, names, c->arena))
-        unknown(schema, word, names, c->arena, e);
+    } else if (!explain_design(schema, word, names, c->arena)) {
+        if (endings(word, names, c->arena) || !explain_search(schema, word, c->arena))
+            unknown(word, meant_by(schema, word, names, c->arena), e);
+    }
     json_decref(schema);
     return 0;
 }
@@ -605,8 +658,10 @@ const struct command explain_command = {
     .does =
         "Without an operand: a scene with every key there is, explained. With a key or a section (motion.rate, motion, "
         "accuracy.oversampling): its type, unit, range, default and meaning. With a key of designs (factors, level, "
-        "length): what it is for; with design: all of them; rasp-design(5) has the rest. With a scene file: the "
-        "effective scene, in which every default and accuracy knob is written out; rendering it gives the same bytes.",
+        "length): what it is for; with design: all of them; rasp-design(5) has the rest. With another word: the keys "
+        "that speak of it. With a "
+        "scene file: the effective scene, in which every default and accuracy knob is written out; rendering it gives "
+        "the same bytes.",
     .operands = "[KEY | SECTION | SCENE]",
     .least = 0,
     .most = 1,

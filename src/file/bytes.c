@@ -1,6 +1,7 @@
 /* See bytes.h. A regular file is read in one piece; a pipe into room that doubles. */
 #include "file/bytes.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <pthread.h>
 #include <stdint.h>
@@ -8,8 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/memory.h"
+#include "base/text.h"
 
 bool bytes_stream(FILE *f, size_t room, size_t most, struct arena *a, struct bytes *b)
 {
@@ -107,6 +110,26 @@ struct piped {
 
 static struct piped *all; /* as long as the program */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+
+const char *bytes_near(const char *file, struct arena *a)
+{
+    const char *slash = strrchr(file, '/'), *name = slash ? slash + 1 : file, *best = NULL;
+    int folder = (int)(name - file), n, limit = (int)strcspn(name, ".") / 3;
+    struct dirent **entries;
+    limit = limit > 2 ? 2 : limit;
+    if (access(file, F_OK) == 0) return NULL;
+    n = scandir(folder ? arena_format(a, "%.*s", folder, file) : ".", &entries, NULL, alphasort);
+    for (int i = 0; i < n; i++) {
+        int distance = text_distance(name, entries[i]->d_name);
+        if (distance <= limit) {
+            best = arena_format(a, "%.*s%s", folder, file, entries[i]->d_name);
+            limit = distance - 1;
+        }
+        free(entries[i]);
+    }
+    if (n >= 0) free(entries);
+    return best;
+}
 
 bool bytes_piped(const char *file)
 {

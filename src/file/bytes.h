@@ -33,6 +33,9 @@ double bytes_number(const void *bytes, char kind, size_t size);
 void bytes_put(FILE *f, uint64_t value, size_t size);
 void bytes_put_f64(FILE *f, double value);
 
+/* A file of the same folder whose name is nearly that, where there is none of that name; NULL: none. */
+const char *bytes_near(const char *file, struct arena *a);
+
 /* Texts (scenes, designs, recipes) that come through a pipe: each is read once, until its end, and kept for whoever
    reads it again.
 

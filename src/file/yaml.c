@@ -22,6 +22,9 @@ struct yaml *yaml_open(struct arena *a)
 struct diag_source *yaml_source(struct yaml *y, const char *name, const char *text, size_t size)
 {
     struct diag_source *s = ARENA_TAKE(y->arena, struct diag_source, 1);
+    bool mark = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0; /* of UTF-8, as editors of Windows write it */
+    text += mark ? 3 : 0;
+    size -= mark ? 3 : 0;
     *s = (struct diag_source){.name = name, .text = text, .size = size, .order = y->sources++};
     return s;
 }
@@ -98,14 +101,17 @@ struct diag_source *yaml_bytes_read(struct yaml *y, const char *file, struct dia
     const char *text = waits ? NULL : yaml_bytes_text(file, y->arena, &size);
     bool pipe = waits || (!text && errno == ENXIO);
     const char *why = pipe ? "it is a pipe" : text ? "" : strerror(errno);
+    const char *near = text ? NULL : bytes_near(file, y->arena);
+    if (near) near = arena_format(y->arena, "did you mean %s?", near);
     y->missing = y->missing || !text;
     if (!text && named.source)
         diag_add(y->diag, named,
-                 pipe ? "only what the command line names may be one: save it as a file"
-                      : "a path in a file is relative to that file's folder",
+                 pipe   ? "only what the command line names may be one: save it as a file"
+                 : near ? near
+                        : "a path in a file is relative to that file's folder",
                  "cannot read '%s': %s", file, why);
     else if (!text)
-        diag_add(y->diag, (struct diag_place){yaml_source(y, file, "", 0), 0, 0, 0}, NULL, "cannot be read: %s", why);
+        diag_add(y->diag, (struct diag_place){yaml_source(y, file, "", 0), 0, 0, 0}, near, "cannot be read: %s", why);
     if (!text) return NULL;
     const char *name = arena_text(y->arena, file);
     struct yaml_file *f = ARENA_TAKE(y->arena, struct yaml_file, 1);
@@ -117,18 +123,15 @@ struct diag_source *yaml_bytes_read(struct yaml *y, const char *file, struct dia
     return source;
 }
 
-/* UTF-8 without byte order mark, NUL or control characters, at most 4 MiB; else an error is reported. */
+/* UTF-8 without NUL or control characters, at most 4 MiB; else an error is reported. */
 static bool text_good(struct yaml *y, const struct diag_source *s)
 {
     struct diag_place at = {s, 1, 1, 1}, whole = {s, 0, 0, 0};
-    bool utf8 = s->size >= 3 && memcmp(s->text, "\xef\xbb\xbf", 3) == 0,
-         other = s->size >= 2 && (memcmp(s->text, "\xff\xfe", 2) == 0 || memcmp(s->text, "\xfe\xff", 2) == 0);
+    bool other = s->size >= 2 && (memcmp(s->text, "\xff\xfe", 2) == 0 || memcmp(s->text, "\xfe\xff", 2) == 0);
     if (s->size > SIZE_MAX_BYTES)
         return diag_add(y->diag, whole, "is it a scene? measured data belong in files of their own",
                         "larger than %d MiB", SIZE_MAX_BYTES >> 20);
-    if (utf8 || other)
-        return diag_add(y->diag, whole, "save the file as UTF-8 without a byte order mark (BOM)", "encoded as %s",
-                        utf8 ? "UTF-8 with a byte order mark" : "UTF-16 or UTF-32");
+    if (other) return diag_add(y->diag, whole, "save the file as UTF-8", "encoded as UTF-16 or UTF-32");
     for (size_t i = 0; i < s->size;) {
         uint32_t code = 0;
         int length = text_utf8(s->text + i, s->size - i, &code);

@@ -149,6 +149,21 @@ static struct sound_report report_make(const struct sound *o)
     return r;
 }
 
+/* A level that the whole sound decides, and integers do not hold: which one they would. beyond: the peak over the
+   largest sample. */
+static bool fits(const struct sound *o, double beyond, struct err *e)
+{
+    const struct level *level = &o->scene->output.level;
+    bool loudness = isnan(level->rms);
+    double asked = loudness ? level->lufs : level->rms, over = 20 * real_log10(beyond);
+    if (o->track.format.bits <= 0 || isnan(asked) || beyond <= 1) return true;
+    return err_set(
+        e, ERR_SCENE,
+        "%s: the peak would be %+.2f dB re full scale, beyond the range of %d-bit integers; ask for %.1f %s, "
+        "which fits, or write floating point (output.encoding: float32)",
+        o->track.format.key, over, o->track.format.bits, floor(10 * (asked - over)) / 10, loudness ? "LUFS" : "dB");
+}
+
 bool sound_finish(struct sound *o, struct sound_report *report, struct err *e)
 {
     struct track *t = &o->track;
@@ -167,7 +182,8 @@ bool sound_finish(struct sound *o, struct sound_report *report, struct err *e)
         report->gain = real_exp10((level->lufs - lufs) / 20) / report->peak;
     else
         return false;
-    return note(o, report->gain, e) && track_finish(t, report->gain, e);
+    return fits(o, report->gain * report->peak / largest, e) && note(o, report->gain, e) &&
+           track_finish(t, report->gain, e);
 }
 
 struct track *sound_track(struct sound *o) { return &o->track; }

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/file_cache.h"
+#include "file/bytes.h"
 #include "scene/keys.h"
 #include "scene/scene_places.h"
 #include "scene/scene_write.h"
@@ -37,8 +38,10 @@ static void add(struct missing *m, const char *contact, const char *key, const c
         file =
             arena_format(m->arena, "a folder of responses has its places in index.csv (file_name,x_m,y_m): %s", index);
     const char *between = m->key ? arena_format(m->arena, "; %s: ", scene_places_text(m->scene, p, m->arena)) : "";
-    m->text =
-        arena_format(m->arena, "%s%s%s: %s: %s%s", m->text, between, p ? p->label : key, file, why, p ? p->named : "");
+    const char *near = there ? NULL : bytes_near(read, m->arena);
+    m->text = arena_format(m->arena, "%s%s%s: %s: %s%s%s%s", m->text, between, p ? p->label : key, file, why,
+                           near ? "; did you mean " : "", near ? near : "", near ? "?" : "");
+    if (p) m->text = arena_format(m->arena, "%s%s", m->text, p->named);
     m->contact = m->key ? m->contact : contact;
     m->key = m->key ? m->key : key;
 }

@@ -109,6 +109,19 @@ static const struct key *longer_key(struct yaml *y, const struct key *k, const s
     return NULL;
 }
 
+/* What is out of range, and would not be with a prefix: 48 Hz for 48 kHz, 20 kg for 20 g; NULL: it is not that. */
+static const char *prefix_meant(const struct key *k, double value, struct arena *a)
+{
+    static const double prefixes[] = {1e3, 1e-3, 1e-6};
+    if (k->dimension == KEY_NONE || k->dimension == KEY_DECIBEL || k->dimension == KEY_LUFS ||
+        k->dimension == KEY_ANGLE)
+        return NULL;
+    for (int i = 0; i < 3; i++)
+        if (value * prefixes[i] >= k->low && value * prefixes[i] <= k->high)
+            return units_text(value * prefixes[i], k->dimension, a);
+    return NULL;
+}
+
 bool scene_values_number(const struct scene_part *p, const struct key *k, const struct yaml_node *node,
                          const char *label, double *x)
 {
@@ -126,7 +139,10 @@ bool scene_values_number(const struct scene_part *p, const struct key *k, const 
         const char *range = units_text(k->low, k->dimension, y->arena);
         if (k->low < k->high)
             range = arena_format(y->arena, "from %s to %s", range, units_text(k->high, k->dimension, y->arena));
-        return diag_add(y->diag, node->at, arena_format(y->arena, "%s: %s", k->path, k->meaning),
+        const char *meant = prefix_meant(k, value, y->arena);
+        return diag_add(y->diag, node->at,
+                        meant ? arena_format(y->arena, "did you mean %s?", meant)
+                              : arena_format(y->arena, "%s: %s", k->path, k->meaning),
                         "%s must be %s, not %s", label, range, scene_values_kind(y, node));
     }
     *x = value;

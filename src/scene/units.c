@@ -9,7 +9,10 @@
 
 #include "base/text.h"
 
-enum { LONGEST = 200 /* characters of a quantity */, DEGREES = 1000 /* in place of a power of ten */ };
+enum { LONGEST = 200 /* characters of a quantity */ };
+enum { DEGREES = 1000, MINUTES, HOURS }; /* in place of a power of ten */
+
+static const long double factors[] = {3.14159265358979323846264338327950288L / 180, 60, 3600};
 
 static const struct {
     const char *name, *example;
@@ -17,7 +20,7 @@ static const struct {
 } dimensions[] = {
     [KEY_NONE] = {"a plain number", "0.5", {""}},
     [KEY_LENGTH] = {"a length", "3 cm", {"m", "cm", "mm", "um", "nm"}},
-    [KEY_TIME] = {"a time", "10 ms", {"s", "ms", "us", "ns"}},
+    [KEY_TIME] = {"a time", "10 ms", {"s", "ms", "us", "ns", "min", "h"}},
     [KEY_FREQUENCY] = {"a frequency", "2 Hz", {"Hz", "kHz", "MHz", "mHz"}},
     [KEY_MASS] = {"a mass", "20 g", {"kg", "g", "mg"}},
     [KEY_FORCE] = {"a force", "1.5 N", {"N", "mN", "kN"}},
@@ -56,6 +59,9 @@ static const char *const types[] = {
 static const struct units_unit units[] = {
     {"m", KEY_LENGTH, 0, "numckMG"},
     {"s", KEY_TIME, 0, "numkMG"},
+    {"sec", KEY_TIME, 0, ""},
+    {"min", KEY_TIME, MINUTES, ""},
+    {"h", KEY_TIME, HOURS, ""},
     {"Hz", KEY_FREQUENCY, 0, "numkMG"},
     {"g", KEY_MASS, -3, "numkMG"},
     {"N", KEY_FORCE, 0, "numkMG"},
@@ -288,8 +294,8 @@ bool units_read(const char *text, enum key_dimension d, double *x, struct arena 
         const struct units_unit *u = units_find(unit, &power);
         if (!u || !units_fits(u, d)) return unit_fault(f, number, unit, d, a);
     }
-    if (text_scaled(text, n, power == DEGREES ? 0 : power, x)) {
-        if (power == DEGREES) *x = (double)(strtold(number, NULL) * (3.14159265358979323846264338327950288L / 180));
+    if (text_scaled(text, n, power >= DEGREES ? 0 : power, x)) {
+        if (power >= DEGREES) *x = (double)(strtold(number, NULL) * factors[power - DEGREES]);
         return true;
     }
     return fault_set(f, "is a number too large, too small or too long to be read", example_cure(d, a));
@@ -320,7 +326,7 @@ const char *units_text(double x, enum key_dimension d, struct arena *a)
     /* The largest common unit that leaves at least 1, else the smallest; SI's for a zero. */
     for (const char *const *common = dimensions[d].common; !bare && x != 0 && *common; common++) {
         int p;
-        if (!units_find(*common, &p) || p == DEGREES || p == -2) continue;
+        if (!units_find(*common, &p) || p >= DEGREES || p == -2) continue;
         bool has_rest = exponent - p >= 1, best_has_rest = *name && exponent - power >= 1;
         if (!*name || (has_rest && (!best_has_rest || p > power)) || (!has_rest && !best_has_rest && p < power)) {
             power = p;

@@ -483,6 +483,10 @@ static double stage_work(const struct contact *c, const struct scene *s)
     return cycles[c->motion.path] * s->accuracy.oversampling;
 }
 
+/* What is legal, and hardly ever meant: a bare 20 is 20 kg. */
+#define MOST_MASS 5.0  /* kg */
+#define MOST_RATE 20.0 /* Hz; hands reach 10 */
+
 static bool stage_open(struct stage_run *r, struct err *e)
 {
     struct trajectory *tr = ARENA_TAKE(r->arena, struct trajectory, 1);
@@ -490,6 +494,12 @@ static bool stage_open(struct stage_run *r, struct err *e)
         return err_at(e, "contact '%s'", r->contact->name);
     r->board->trajectory = tr;
     r->board->moving = trajectory_frames(tr, r->board->rate);
+    const struct contact *c = r->contact;
+    if (c->scraper.mass > MOST_MASS)
+        board_warn(r->board, arena_format(r->arena, "scraper.mass is %.6g kg: are grams meant?", c->scraper.mass));
+    if (c->motion.rate > MOST_RATE)
+        board_warn(r->board, arena_format(r->arena, "motion.rate is %.6g Hz, faster than any hand: is it meant?",
+                                          c->motion.rate));
     return true;
 }
 
