@@ -13,6 +13,7 @@
 #include "base/outfile.h"
 #include "base/relpath.h"
 #include "base/text.h"
+#include "batch/pool.h"
 #include "cmd/accuracy.h"
 #include "cmd/cmd.h"
 #include "cmd/message.h"
@@ -154,6 +155,9 @@ static const struct args_option render_options[] = {
      "stop at the first invalid operation (0/0, a division by 0, an overflow) of a stage, and name it, also where it "
      "comes to nothing in the sound"},
     {"force", 'f', NULL, false, "replaces files that rasp did not write, and writes through symbolic links"},
+    {"jobs", 'j', "N", false, "how many scenes are rendered at once, 1 to 256; default: 1"},
+    {"keep-going", 'k', NULL, false,
+     "render the others where one fails, whose error is reported; the exit code is that of the first that failed"},
     {"quiet", 'q', NULL, false, "print only warnings and errors"},
     {0},
 };
@@ -180,18 +184,37 @@ static const char *render_base(struct cmd_call *c, const char *file, struct err 
     return arena_format(c->arena, "%.*s", (int)n - 4, o);
 }
 
-/* All scenes, and what each would write; nothing is written yet. */
-static struct outputs *render_read(struct cmd_call *c, struct file_cache *file_cache, struct err *e)
+/* One scene's error, where the others go on: it is reported at once, and the exit code is the first's. */
+static void render_failed(struct cmd_call *c, struct err *first, struct err *e)
 {
-    int n = c->args.n_operands;
-    struct scene *scenes = ARENA_TAKE(c->arena, struct scene, n);
-    struct outputs *all = ARENA_TAKE(c->arena, struct outputs, n);
-    for (int i = 0; i < n; i++) {
+    message_error(c, "render", e);
+    int failed = first->kind ? atoi(first->text) + 1 : 1; /* the text counts them */
+    if (!first->kind) first->kind = e->kind;
+    snprintf(first->text, sizeof first->text, "%d of %d scenes failed", failed, c->args.n_operands);
+    *e = (struct err){0};
+}
+
+/* All scenes, and what each would write; nothing is written yet. With --keep-going those that are none are reported and
+   left out, and *e is the first's error. */
+static struct outputs *render_read(struct cmd_call *c, struct file_cache *file_cache, int *n_read, struct err *first,
+                                   struct err *e)
+{
+    int n = 0;
+    struct scene *scenes = ARENA_TAKE(c->arena, struct scene, c->args.n_operands);
+    struct outputs *all = ARENA_TAKE(c->arena, struct outputs, c->args.n_operands);
+    for (int i = 0; i < c->args.n_operands; i++) {
         const char *file = c->args.operands[i], *base = render_base(c, file, e);
-        if (!base || !cmd_read_scene(c, file, &scenes[i], e)) return NULL;
-        scenes[i].file_cache = file_cache;
-        all[i] = outputs_make(&scenes[i], base, c->arena);
+        if (!base) return NULL;
+        if (!cmd_read_scene(c, file, &scenes[n], e)) {
+            if (!args_given(&c->args, "keep-going") || e->kind == ERR_INTERRUPTED) return NULL;
+            render_failed(c, first, e);
+            continue;
+        }
+        scenes[n].file_cache = file_cache;
+        all[n] = outputs_make(&scenes[n], base, c->arena);
+        n++;
     }
+    *n_read = n;
     if (!outputs_distinct(all, n, c->arena, e) || !outputs_check_overwrite(all, n, c->arena, e) ||
         !outputs_replace(all, n, args_given(&c->args, "force"), c->arena, e))
         return NULL;
@@ -264,38 +287,81 @@ static int render_stream(struct cmd_call *c, struct err *e)
 
 /* ------------------------------------------------------------------ the command */
 
+/* Scenes rendered by several threads, each with an arena of its own, and reported in order. */
+struct render_job {
+    struct arena *arena;
+    struct render_report report;
+    struct err error;
+};
+
+struct render_all {
+    struct cmd_call *call;
+    const struct outputs *outputs;
+    struct render_job *jobs;
+    int done;         /* summaries that are printed */
+    struct err first; /* of those that failed; without --keep-going the only one */
+};
+
+static bool job(void *all, int i)
+{
+    struct render_all *r = all;
+    struct render_job *j = &r->jobs[i];
+    j->arena = arena_open();
+    return render_scene(r->outputs[i].scene, r->outputs[i].base, j->arena, &j->report, &j->error) ||
+           args_given(&r->call->args, "keep-going");
+}
+
+static void took(void *all, int i)
+{
+    struct render_all *r = all;
+    struct render_job *j = &r->jobs[i];
+    struct render_report *report = &j->report;
+    const struct args *args = &r->call->args;
+    const struct outputs *o = &r->outputs[i];
+    struct err *e = &j->error;
+    bool ok = !e->kind || scene_places_report(o->scene, e), json = args_given(args, "json"),
+         stopped = r->first.kind && !args_given(args, "keep-going");
+    if (stopped || !j->arena) return;
+    if (ok) {
+        ok = !args_given(args, "verify") || render_verify(r->call, o->scene->file, o->scene, report, e);
+        fputs(!json || args->n_operands == 1 ? "" : r->done++ ? "," : "[", stdout); /* several are one array */
+        for (int k = 0; k < report->n_warnings; k++)
+            message_warning(r->call, o->scene->file, arena_text(r->call->arena, report->warnings[k]));
+        if (json) fputs(report->summary, stdout);
+        double seconds = (double)report->frames / o->scene->output.sample_rate;
+        bool words = !json && !args_given(args, "quiet");
+        for (int k = 0; words && k < report->n_files; k++)
+            if (strcmp(report->files[k].kind, "scene") != 0 && strcmp(report->files[k].kind, "summary") != 0)
+                printf("%s  %.3f s, %.3g times real time\n", text_shown(j->arena, report->files[k].path), seconds,
+                       seconds / (report->cpu > 1e-9 ? report->cpu : 1e-9));
+        for (int k = 0; words && k < report->n_notes; k++)
+            printf("%s\n", text_shown(j->arena, report->notes[k]));
+    }
+    if (!ok && args_given(args, "keep-going") && e->kind != ERR_INTERRUPTED)
+        render_failed(r->call, &r->first, e);
+    else if (!ok)
+        r->first = *e;
+    arena_close(j->arena);
+}
+
 static int render_run(struct cmd_call *c, struct err *e)
 {
-    int n = c->args.n_operands, done = 0;
+    int n = 0;
+    long threads = 1;
     const char *to = args_value(&c->args, "output");
     if (to && !strcmp(to, "-")) return render_stream(c, e);
-    if (n > 1) message_group(c);
-    bool array = n > 1 && args_given(&c->args, "json");
+    if (!args_whole(&c->args, "jobs", (const long[2]){1, 256}, &threads, e)) return 0;
+    if (c->args.n_operands > 1) message_group(c);
     if (args_given(&c->args, "traps")) run_traps();
     struct file_cache *file_cache = file_cache_open(FILE_CACHE_MOST);
-    const struct outputs *all = render_read(c, file_cache, e);
-    bool ok = all != NULL;
-    for (int i = 0; ok && i < n; i++) {
-        struct render_report report;
-        const struct outputs *o = &all[i];
-        ok = render_scene(o->scene, o->base, c->arena, &report, e) || scene_places_report(o->scene, e);
-        if (!ok) break;
-        ok = !args_given(&c->args, "verify") || render_verify(c, c->args.operands[i], o->scene, &report, e);
-        fputs(!array ? "" : done++ ? "," : "[", stdout); /* several scenes' summaries are one array */
-        for (int k = 0; k < report.n_warnings; k++)
-            message_warning(c, o->scene->file, report.warnings[k]);
-        if (args_given(&c->args, "json")) fputs(report.summary, stdout);
-        if (args_given(&c->args, "json") || args_given(&c->args, "quiet")) continue;
-        double seconds = (double)report.frames / o->scene->output.sample_rate;
-        for (int k = 0; k < report.n_files; k++)
-            if (strcmp(report.files[k].kind, "scene") != 0 && strcmp(report.files[k].kind, "summary") != 0)
-                printf("%s  %.3f s, %.3g times real time\n", text_shown(c->arena, report.files[k].path), seconds,
-                       seconds / (report.cpu > 1e-9 ? report.cpu : 1e-9));
-        for (int k = 0; k < report.n_notes; k++)
-            printf("%s\n", text_shown(c->arena, report.notes[k]));
-    }
-    if (array && done) puts("]");
+    struct render_all all = {.call = c};
+    all.outputs = render_read(c, file_cache, &n, &all.first, e);
+    all.jobs = ARENA_TAKE(c->arena, struct render_job, n + 1);
+    if (all.outputs)
+        pool_run(&(struct pool_work){.n = n, .threads = (int)threads, .context = &all, .job = job, .took = took});
+    if (all.done) puts("]");
     file_cache_close(file_cache);
+    if (!e->kind && all.first.kind) *e = all.first;
     return (int)e->kind;
 }
 
@@ -316,7 +382,7 @@ const struct command render_command = {
             "rasp(1), FILES. Where the scene asks for an error (accuracy.error), the knobs that it leaves unsaid are "
             "chosen as the cheapest that keep it, and told; what cannot be kept is refused. A NAME.csv or NAME.wav of "
             "an earlier render that this one does not replace stays, with a warning. Several scenes are all read "
-            "before the first is rendered; the first that fails ends the run.",
+            "before the first is rendered; the first that fails ends the run, unless --keep-going is given.",
     .operands = "SCENE...",
     .least = 1,
     .most = -1,

@@ -50,8 +50,9 @@ static bool look_over(const char *path, struct heightfile *h, struct err *e)
     int power;
     for (size_t i = 0; i < h->rows * h->columns; i++) {
         if (isinf(h->z[i]))
-            return err_set(e, ERR_SCENE, "%s: the height at row %zu, column %zu (counted from 0) is infinite", path,
-                           i / h->columns, i % h->columns);
+            return err_set(e, ERR_SCENE,
+                           "%s: the height at row %zu, column %zu (counted from 0) is infinite; write NaN for a hole",
+                           path, i / h->columns, i % h->columns);
         if (isnan(h->z[i])) {
             h->first_hole = h->holes ? h->first_hole : i;
             h->holes++;
