@@ -39,7 +39,7 @@ PACKAGES = $(shell for package in $(PKGS) sleef openblas lapacke; do printf '%s 
 
 # Of a source archive (make dist) the file REVISION says it.
 REVISION := $(shell head -n 1 REVISION 2> /dev/null || git describe --always --dirty --abbrev=12 2> /dev/null || echo unknown)
-VERSION := $(shell sed -n 's/^.define VERSION "\(.*\)"/\1/p' src/cmd/version.c)
+VERSION := $(shell sed -n 's/^.define VERSION "\(.*\)"/\1/p' src/base/version.h)
 
 SRC = $(filter-out src/main%.c,$(wildcard src/*.c src/*/*.c))
 OBJ = $(SRC:src/%.c=$(BUILD)/%.o)

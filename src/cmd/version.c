@@ -1,6 +1,7 @@
 /* The version of rasp, of the compiler and its flags, of the instruction set and of every library.
    The build may define RASP_REVISION, RASP_FLAGS and RASP_PACKAGES ("NAME VERSION;" of each, by pkg-config), quoted
    texts. OpenBLAS and LAPACKE are rasp-modes'. */
+#include "base/version.h"
 #include "cmd/cmd.h"
 
 #include <ebur128.h>
@@ -18,7 +19,6 @@
 
 #include "num/lanes.h"
 
-#define VERSION "0.1.0"
 #ifndef RASP_REVISION
 #define RASP_REVISION "unknown"
 #endif

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/version.h"
 #include "convolution/ring_choice.h"
 #include "file/json_value.h"
 #include "num/real.h"
@@ -131,6 +132,18 @@ static void warn_cut(const struct scene *s, struct render_report *report, struct
              fmax(0, -decibel(o->end / o->before_ramps)) + 0.0)); /* not -0 */
 }
 
+/* Up to the second point: "rasp 0.2". */
+static void warn_written_by(const struct scene *s, struct render_report *report, struct arena *a)
+{
+    static const char own[] = "rasp " VERSION;
+    const char *by = s->written_by, *point = strrchr(own, '.');
+    if (!by || !*by || strncmp(by, own, (size_t)(point - own) + 1) == 0) return;
+    warn(report, arena_format(a,
+                              "written_by: this scene was written by %s, and this is %s, whose sounds are others "
+                              "(CHANGELOG.md): the sound is not quite that one's",
+                              by, own));
+}
+
 void summary_warnings(const struct scene *s, const struct run *const *runs, struct render_report *report,
                       struct arena *a)
 {
@@ -139,7 +152,7 @@ void summary_warnings(const struct scene *s, const struct run *const *runs, stru
         older++;
     report->warnings =
         ARENA_TAKE(a, const char *,
-                   s->n_contacts *(MOST_OF_BOARD + 8 + REPORTS * STAGE_WARNINGS) + 2 * report->n_files + 4 + older);
+                   s->n_contacts *(MOST_OF_BOARD + 8 + REPORTS * STAGE_WARNINGS) + 2 * report->n_files + 5 + older);
     for (int i = 0; i < s->n_contacts; i++)
         if (runs[i]) warn_contact(&s->contacts[i], runs[i], report, a);
     const struct error_budget *b = &report->error_budget;
@@ -171,6 +184,7 @@ void summary_warnings(const struct scene *s, const struct run *const *runs, stru
                           "output.ramp: the sound is too short for ramps of %.4g s; they take half of it each, %.4g s",
                           s->output.ramp, report->sound.ramp));
     warn_cut(s, report, a);
+    warn_written_by(s, report, a);
     for (int i = 0; i < older; i++)
         warn(report,
              arena_format(a, "%s is not of this render, which writes no such file; it is older, and stays as it is",

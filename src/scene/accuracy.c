@@ -9,8 +9,7 @@
 #include "scene/scene_values.h"
 
 static const char STANDARD[] = "standard",
-                  PRESETS[] =
-                      "presets: draft, standard, high, reference; for an error that must hold: {error: -60 dB}";
+                  PRESETS[] = "presets: draft, standard, high, reference; for an error that must hold: {error: -60 dB}";
 
 #define LEAST_ERROR (-240.0) /* dB; doubles hold -313 */
 

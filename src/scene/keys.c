@@ -7,11 +7,15 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/version.h"
 #include "scene/rows.h"
 
 static const struct key scene_own[] = {
     {ROW_COUNT(scene, version, "rasp"), KEY_NONE, 1, 1, NULL, NULL, "version of the scene format; this is version 1",
      .shown = "1"},
+    {ROW_TEXT(scene, written_by, "written_by"), KEY_NONE, 0, 0, "", NULL,
+     "the version of rasp that wrote an effective scene; one whose sounds are others says so",
+     .shown = "\"rasp " VERSION "\""},
     {ROW_TEXT(scene, title, "title"), KEY_NONE, 0, 0, "", NULL,
      "what the scene shows, for people; goes into the WAV as its title",
      .shown = "\"a tool scraped back and forth on a rough plank\"", .on = true},

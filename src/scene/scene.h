@@ -318,6 +318,7 @@ struct scene {
     const char *file;     /* where it was read from                                            */
     const char **sources; /* every text file that was read for it, itself first; ends with NULL */
     int version;
+    const char *written_by; /* of an effective scene: "rasp 0.2.0"; NULL: by hand                       */
     const char *title;
     uint64_t seed;
     struct contact *contacts;

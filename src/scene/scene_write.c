@@ -11,6 +11,7 @@
 #include "base/file_cache.h"
 #include "base/memory.h"
 #include "base/relpath.h"
+#include "base/version.h"
 #include "file/csv.h"
 #include "scene/accuracy.h"
 #include "scene/keys.h"
@@ -246,11 +247,13 @@ static void write_contacts(struct writer *w, const struct scene *s)
     }
 }
 
-const char *scene_write(const struct scene *s, const char *beside, struct arena *a)
+const char *scene_write(const struct scene *given, const char *beside, struct arena *a)
 {
+    struct scene own = *given, *s = &own;
     char *memory = NULL;
     size_t size = 0;
     int n_keys = 0;
+    own.written_by = "rasp " VERSION;
     while (keys_table[n_keys].path)
         n_keys++;
     struct writer w = {memory_stream(&memory, &size), beside, a, ARENA_TAKE(a, struct keys_line, n_keys), 0};
