@@ -2,9 +2,9 @@
 
    A quantity is a decimal number, optional spaces, and a unit of the key's dimension; a bare number is SI. Powers of
    ten move the number's decimal exponent before the one rounding to double, so that 20 g is the double nearest to 0.02;
-   degrees are multiplied by pi/180, minutes by 60 and hours by 3600, in 64-bit-mantissa arithmetic, and rounded once. Prefixes n, u (both code points of
-   micro), m, k, M, G with m, s, Hz, g, N, Pa, rad and what is made of them, c with metres; numbers per area are per
-   m^2, cm^2, mm^2 or um^2, rates are per second: 12 1/s or 12 /s. */
+   degrees are multiplied by pi/180, minutes by 60 and hours by 3600, in 64-bit-mantissa arithmetic, and rounded once.
+   Prefixes n, u (both code points of micro), m, k, M, G with m, s, Hz, g, N, Pa, rad and what is made of them, c with
+   metres; numbers per area are per m^2, cm^2, mm^2 or um^2, rates are per second: 12 1/s or 12 /s. */
 #ifndef SCENE_UNITS_H
 #define SCENE_UNITS_H
 #include <stdbool.h>
