@@ -4,13 +4,17 @@
    table of an answer: one for each sound that was rated, else one; save() offers them as a download. */
 #include "cmd/export.h"
 
+/* The players stand in one column whatever they are called, and words of a scale at their place on the slider. */
 #define STYLE                                                                                                          \
     "<style>\n"                                                                                                        \
-    "body { font: 18px/1.5 sans-serif; text-align: center; max-width: 50em; margin: 2em auto; padding: 0 1em }\n"      \
-    "button { font: inherit; margin: .3em; padding: .4em 1.2em }\n"                                                    \
-    "audio { vertical-align: middle }\n"                                                                               \
-    "input[type=range] { width: 24em; max-width: 100% }\n"                                                             \
-    ".scale { display: flex; justify-content: space-between; max-width: 26em; margin: auto; font-size: .8em }\n"       \
+    "body { font: 18px/1.5 sans-serif; text-align: center }\n"                                                         \
+    "main { max-width: 50em; margin: 2em auto; padding: 0 1em }\n"                                                     \
+    "main button { font: inherit; margin: .3em; padding: .4em 1.2em }\n"                                               \
+    ".sound { display: grid; grid-template-columns: minmax(min-content, 5em) auto minmax(0, 5em);\n"                   \
+    "  justify-content: center; align-items: center; margin: 1em 0 }\n"                                                \
+    "audio, input[type=range] { width: 20rem; max-width: 100%; margin: auto }\n"                                       \
+    ".scale { display: flex; max-width: 100%; margin: auto; font-size: .8em; line-height: 1.2 }\n"                     \
+    ".scale span { flex: 1 1 0 }\n"                                                                                    \
     "</style>\n"
 
 const char export_pages_study[] =
@@ -29,9 +33,11 @@ const char export_pages_study[] =
     "const html = text => String(text ?? '').replace(/[&<>\"]/g, c => '&#' + c.charCodeAt(0) + ';');\n"
     "const paragraph = text => text ? '<p>' + html(text) + '</p>' : '';\n"
     "const head = t => (t.training ? '<p><i>Training</i></p>' : '') + paragraph(study.question) + paragraph(t.text);\n"
-    "const player = (s, name) => `<p>${name} <audio controls preload=\"auto\" src=\"${html(s.file)}\"></audio></p>`;\n"
-    "const scale = () => '<div class=\"scale\">' + study.answers.map(a => '<span>' + html(a.text) + "
-    "'</span>').join('') + '</div>';\n"
+    "const player = (s, name) =>\n"
+    "  `<div class=\"sound\"><span>${name}</span> <audio controls preload=\"auto\" "
+    "src=\"${html(s.file)}\"></audio></div>`;\n"
+    "const scale = (n = study.answers.length) => `<div class=\"scale\" style=\"width: ${20 * n / (n - 1)}rem\">` +\n"
+    "  study.answers.map(a => '<span>' + html(a.text) + '</span>').join('') + '</div>';\n"
     "const slider = k => `<input type=\"range\" name=\"${k}\" min=\"0\" max=\"100\" value=\"50\">`;\n"
     "\n"
     "/* All sounds of a trial: a reference by itself, too, then each with a slider or its letter. */\n"
@@ -130,10 +136,13 @@ const char export_pages_jspsych[] =
     "<script src=\"node_modules/@jspsych/plugin-survey-html-form/dist/index.browser.min.js\"></script>\n"
     "<script src=\"node_modules/@jspsych/plugin-preload/dist/index.browser.min.js\"></script>\n"
     "<link rel=\"stylesheet\" href=\"node_modules/jspsych/css/jspsych.css\">\n" STYLE
+    "<style>\n/* jsPsych's plugins for sounds have the question last: first is where it is read */\n"
+    "#jspsych-content { display: flex; flex-direction: column; align-items: center }\n"
+    "[id$=btngroup], [id$=response-wrapper], #jspsych-audio-slider-response-next { order: 1 }\n</style>\n"
     "<script src=\"study.js\"></script>\n</head>\n<body>\n<script>\n"
     "begin(() => {\n"
     "  const all = [], from_disk = location.protocol == 'file:';\n"
-    "  const jsPsych = initJsPsych({use_webaudio: !from_disk, on_finish: () => save(all)});\n"
+    "  const jsPsych = initJsPsych({show_progress_bar: true, use_webaudio: !from_disk, on_finish: () => save(all)});\n"
     "  const labels = study.answers.map(a => html(a.text));\n"
     "  const take = (t, answer) => data => { all.push(...data.rows = rows(t, answer(data.response), data.rt)); };\n"
     "  const held = () => hold([...document.querySelectorAll('button, input[type=submit]')]);\n"

@@ -23,6 +23,9 @@ addEventListener('load', () => {
     });
     const audio = [...document.querySelectorAll('audio')];
     const b = [...document.querySelectorAll('button, input[type=submit]')].find(b => !b.disabled);
+    const place = what => what.getBoundingClientRect(), q = [...document.querySelectorAll('p')].find(p => p.textContent === study.question);
+    if (q && b && place(q).top > place(b).top) fetch('/failed', {method: 'POST', body: 'the question stands below the answers'});
+    if (q && Math.abs(place(q).left + place(q).right - innerWidth) > 20) fetch('/failed', {method: 'POST', body: 'the page is not centred'});
     if (b && audio.every(a => a.ended)) b.click();
     else if (b) fetch('/failed', {method: 'POST', body: 'answers are taken before all is heard'});
   }, 100);
