@@ -128,13 +128,28 @@ static json_t *webmushra_trial(struct export *x, const struct export_list *l, in
     return page;
 }
 
+/* webMUSHRA puts names and answers between apostrophes, and sends them as part of a form without saying so. */
+static bool webmushra_word(const struct export *x, const char *word, struct err *e)
+{
+    return !word[strcspn(word, "&+%'")] ||
+           err_set(e, ERR_SCENE,
+                   "%s: '%s' does not survive webMUSHRA, which loses & + %% and ': write another label, or name:",
+                   x->design->file, word);
+}
+
 static bool webmushra_files(struct export *x, struct err *e)
 {
-    return x->design->trials->task != DESIGN_TASK_COMPARE ||
-           err_set(e, ERR_SCENE,
-                   "%s: trials.task: webMUSHRA has no page on which one of two sounds is chosen; --for jspsych, page "
-                   "and psychopy do",
-                   x->design->file);
+    const struct design_trials *w = x->design->trials;
+    if (w->task == DESIGN_TASK_COMPARE)
+        return err_set(e, ERR_SCENE,
+                       "%s: trials.task: webMUSHRA has no page on which one of two sounds is chosen; --for jspsych, "
+                       "page and psychopy do",
+                       x->design->file);
+    for (int i = 0; i < x->design->n_stimuli; i++)
+        if (!webmushra_word(x, x->design->stimuli[i].name, e)) return false;
+    for (int i = 0; i < w->n_answers && w->task == DESIGN_TASK_CHOOSE; i++)
+        if (!webmushra_word(x, w->answers[i].label, e)) return false;
+    return true;
 }
 
 static bool webmushra_list(struct export *x, const struct export_list *l, json_t *trials, struct err *e)

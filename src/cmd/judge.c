@@ -160,16 +160,16 @@ static const struct action actions[] = {
      "ANSWERS",
      1,
      1,
-     {"column", "classes", "groups", "reference", "confidence", "simultaneous", "bound", "draws", "seed", "output",
-      "force", "paper", "item", "json"},
+     {"column", "design", "classes", "groups", "reference", "confidence", "simultaneous", "bound", "draws", "seed",
+      "output", "force", "paper", "item", "json"},
      choices},
     {"similarity",
      "TABLE...",
      1,
      -1,
-     {"column", "classes", "groups", "reference", "paper", "item", "json"},
+     {"column", "design", "classes", "groups", "reference", "paper", "item", "json"},
      similarity},
-    {"ratings", "RATINGS", 1, 1, {"column", "factors", "tukey", "paper", "item", "json"}, ratings},
+    {"ratings", "RATINGS", 1, 1, {"column", "design", "factors", "tukey", "paper", "item", "json"}, ratings},
     {"pairs", "ANSWERS", 1, 1, {"column", "paper", "item", "json"}, pairs},
     {"listen",
      "SET",
@@ -185,6 +185,8 @@ static const struct args_option options[] = {
     {"column", 'c', "ROLE=NAME", true,
      "which column is the participant, condition, played, chosen, rating, a, b, answer or set; default: the one called "
      "so"},
+    {"design", 0, "DESIGN", false,
+     "choices, similarity, ratings: of tables of webMUSHRA's service: the design that was exported"},
     {"classes", 0, "WORD,...", false,
      "choices, similarity: all that could be chosen, in this order; default: all that was played"},
     {"groups", 0, "A+B,...", false, "choices, similarity: these classes count as one"},
@@ -196,7 +198,7 @@ static const struct args_option options[] = {
     {"draws", 0, "N", false, "choices: changes of sign that are drawn where not all can be tried (default 10000)"},
     {"seed", 0, "NUMBER", false, "choices: of these draws (default 1)"},
     {"factors", 0, "COLUMN,...", false,
-     "ratings: the columns that are factors; default: all but participant and rating"},
+     "ratings: the columns that are factors; default: all but participant and rating, or the design's"},
     {"tukey", 0, "FACTOR:...", true,
      "ratings: compares the means of a factor's levels, or of combinations of levels; 100 means at most"},
     {"templates", 't', "SET", true,
@@ -223,7 +225,8 @@ const struct command judge_command = {
         "row for each answer (columns participant, condition, played, chosen; participant and condition may be "
         "missing), or is matrices already (condition, played, and a column for each class that could be chosen: "
         "answers, shares, or percent; a first line '# cells: answers' (or shares, percent) says which, else whole "
-        "numbers are answers). Rows for training in the tables that rasp export's pages give do not count. With "
+        "numbers are answers). Rows for training in the tables that rasp export's pages give do not count. "
+        "The tables of webMUSHRA's service (mushra.csv, lms.csv, lss.csv) are taken with --design. With "
         "--reference each other condition is compared with it: equation 14 of "
         "Agarwal and others (2021); the share of right answers by a permutation test over listeners, and by two "
         "one-sided t tests of equivalence; each row by chi-squared, which takes answers as independent.\n"

@@ -47,8 +47,8 @@ struct judge_factor { /* a column whose cells are words */
     int n, *of_row;      /* of_row [rows]: which level it is */
 };
 
-/* A table of answers, less the rows of training where it is from a page of `rasp export` (columns trial_id, training);
-   the report says how many. As csv_table_read. */
+/* A table of answers, also as webMUSHRA writes it, less the rows of training where it is from a page of `rasp export`
+   (columns trial_id, training); the report says how many. As csv_table_read. */
 bool judge_table_answers(struct judge *j, const char *file, struct csv *t, struct err *e);
 
 /* The column of that role; `--column ROLE=NAME` names another. -1: it is not there (ERR_SCENE if it must be). */
@@ -101,5 +101,11 @@ bool judge_choices_report(struct judge *j, const struct judge_choices *m, struct
 bool judge_ratings_run(struct judge *j, struct err *e);
 bool judge_ratings_pairs(struct judge *j, struct err *e);
 bool judge_listen_run(struct judge *j, struct err *e);
+
+/* ------------------------------------------------------------------ judge_webmushra.c */
+
+/* A table of webMUSHRA's service (it has session_test_id and texts) as a page of `rasp export` gives it, by --design.
+   ERR_USAGE, ERR_INPUT, ERR_SCENE */
+bool judge_webmushra(struct judge *j, struct csv *t, struct err *e);
 
 #endif

@@ -195,11 +195,14 @@ static bool cells_take(struct judge *j, struct ratings *t, const struct csv *v, 
     return true;
 }
 
+/* Without --factors: all columns but two; of the table of a page of rasp export those between role and rating. */
 static bool factors_take(struct judge *j, struct ratings *t, const struct csv *v, int person, int rating, struct err *e)
 {
     int n;
     const char **given = judge_words(j->call, "factors", &n, e);
-    for (int k = 0; k < (n ? n : (int)v->columns) && !e->kind; k++) {
+    bool page = !n && csv_column(v, "trial_id") >= 0 && csv_column(v, "role") >= 0;
+    int begin = page ? csv_column(v, "role") + 1 : 0, end = n ? n : page ? rating : (int)v->columns;
+    for (int k = begin; k < end && !e->kind; k++) {
         int column = n ? csv_column(v, given[k]) : k;
         if (!n && (k == person || k == rating)) continue;
         if (column < 0) return err_set(e, ERR_USAGE, "--factors: %s has no column '%s'", v->file, given[k]);

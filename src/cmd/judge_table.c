@@ -15,6 +15,7 @@ bool judge_table_answers(struct judge *j, const char *file, struct csv *t, struc
 {
     size_t n = 0;
     if (!csv_table_read(file, j->arena, t, e)) return false;
+    if (!t->numbers && csv_column(t, "session_test_id") >= 0 && !judge_webmushra(j, t, e)) return false;
     int training = t->numbers || csv_column(t, "trial_id") < 0 ? -1 : csv_column(t, "training");
     for (size_t i = 0; i < t->rows && training >= 0; i++) {
         const char **row = t->cells + i * t->columns;
