@@ -110,7 +110,7 @@ END
 ![figure 2](papers_trajectory.png)
 
 The three experiments: what they are like, before anybody listens. The gain says how loud the force was: without the non-linearity it is "unrealistically high", and the sound brighter, "unrealistically rough".
-"Our model" is `full`; `physical`, `signal`, `noise`, `coupled` are the paper's baselines, of which it prints names (the designs' heads say what is ours).
+"Our model" is `full`; `physical`, `signal`, `noise`, `coupled` are the paper's baselines, of which it prints names (the designs' heads say what is ours). `physical` has no cross-faded responses: these planks have the same poles everywhere.
 
 END
     for n in 1 2 3; do

@@ -157,9 +157,10 @@ scraping_baselines() {
     cat << 'END'
 # The paper's three baselines are its own implementations of other papers' methods, of which it says no more than this:
 #   physical  Traer, Cusimano and McDermott 2019: "force derived from a surface depth map", the scraper's way "the same as the surface depth profile", equation 3
-#             (which is theirs), impulse responses "cross-faded" from place to place. Here equations 2 and 3 as printed, no limiter, a hand that presses evenly. These
-#             planks have the same poles everywhere and responses at 33 places: a cross-fade is straight lines between gains where the full model has
-#             splines, 25 dB below the sound, and is left out. Of a table with poles by place surface.pairing: 0 is a cross-fade.
+#             (which is theirs), impulse responses "cross-faded" from place to place. Here equations 2 and 3 as printed, no limiter, a hand that presses evenly, and no
+#             cross-fade. These planks have the same poles everywhere: a cross-fade of the responses at their 33 places is straight lines between gains where the
+#             full model has splines. Tried with a folder of 33 WAVs as surface.response: basswood's sounds change by 14 to 21 dB less than they are loud, and by
+#             less than 1 dB in any third of an octave. Of a table with poles by place surface.pairing: 0 is a cross-fade.
 #   signal    Conan et al. 2014 (papers/004), whole: random impacts, here those of rubbing, as both rods are soft, low-passed by the hand's speed, through
 #             one response. Its object is one filter: it knows neither place nor rod.
 #   noise     Thoret et al. 2014: "minimalist modulated noise"; what a listener hears is "the velocity profile of the writer's gesture" (004). Here 004's low-pass,
