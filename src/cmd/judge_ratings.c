@@ -23,6 +23,17 @@ static const char *effect_name(const struct ratings *t, unsigned mask, struct ar
     return name;
 }
 
+/* 5e9 for 5000000000. */
+static const char *level_name(const char *word, struct arena *a)
+{
+    size_t n = strlen(word), zeros = 0;
+    while (zeros < n && word[n - 1 - zeros] == '0')
+        zeros++;
+    return zeros < 5 || zeros == n || strspn(word, "0123456789") < n
+               ? word
+               : arena_format(a, "%.*se%zu", (int)(n - zeros), word, zeros);
+}
+
 /* "kappa=1:mu=2", of a cell's levels of a mask. */
 static const char *cell_name(const struct ratings *t, unsigned mask, int cell, struct arena *a)
 {
@@ -31,7 +42,7 @@ static const char *cell_name(const struct ratings *t, unsigned mask, int cell, s
         below /= t->design.levels[k];
         if (mask >> k & 1)
             name = arena_format(a, "%s%s%s=%s", name, *name ? ":" : "", t->factor[k].name,
-                                t->factor[k].levels[cell / below % t->design.levels[k]]);
+                                level_name(t->factor[k].levels[cell / below % t->design.levels[k]], a));
     }
     return name;
 }
@@ -294,7 +305,10 @@ static bool score(struct judge *j, const struct csv *t, const struct pairs *q, i
         if (a == b || seen[at + a * n + b])
             return err_set(e, ERR_SCENE, "%s:%d: column '%s': listener '%s' compares '%s' with %s", t->file,
                            t->lines[i], t->names[q->b], q->person.levels[who], q->level.levels[a],
-                           a == b ? "itself" : "this one a second time in the set: each pair comes once");
+                           a == b ? "itself"
+                                  : "this one a second time: each pair comes once in a set of a condition; --column "
+                                    "set=NAME says which "
+                                    "column that is");
         seen[at + a * n + b] = seen[at + b * n + a] = true;
         score_of[who * n + a] += more / sets;
         score_of[who * n + b] += (1 - more) / sets;
