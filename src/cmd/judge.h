@@ -48,7 +48,7 @@ struct judge_factor { /* a column whose cells are words */
 };
 
 /* A table of answers, also as webMUSHRA writes it, less the rows of training where it is from a page of `rasp export`
-   (columns trial_id, training); the report says how many. As csv_table_read. */
+   (columns trial_id, training), whose rows then are by trial; the report says how many. As csv_table_read. */
 bool judge_table_answers(struct judge *j, const char *file, struct csv *t, struct err *e);
 
 /* The column of that role; `--column ROLE=NAME` names another. -1: it is not there (ERR_SCENE if it must be). */

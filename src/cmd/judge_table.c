@@ -11,21 +11,53 @@
 #include "cmd/judge.h"
 #include "output/mark.h"
 
+struct row {
+    const char **cells, *key[2]; /* trial, stimulus */
+    int line;
+};
+
+static int by_trial(const void *pa, const void *pb)
+{
+    const struct row *a = pa, *b = pb;
+    int order = strcmp(a->key[0], b->key[0]);
+    order = order ? order : strcmp(a->key[1], b->key[1]);
+    return order ? order : a->line - b->line;
+}
+
+/* Each listener had an order of their own; trials are numbered by the design's levels, which so come in its order. */
+static void page_sort(struct csv *t, struct arena *a)
+{
+    int stimulus = csv_column(t, "stimulus_id"), trial = csv_column(t, "trial_id");
+    struct row *rows = ARENA_TAKE(a, struct row, t->rows + 1);
+    const char **cells = ARENA_TAKE(a, const char *, t->rows * t->columns + 1);
+    for (size_t i = 0; i < t->rows; i++) {
+        const char **row = t->cells + i * t->columns;
+        rows[i] = (struct row){row, {row[trial], stimulus < 0 ? "" : row[stimulus]}, t->lines[i]};
+    }
+    qsort(rows, t->rows, sizeof *rows, by_trial);
+    for (size_t i = 0; i < t->rows; i++) {
+        memcpy(cells + i * t->columns, rows[i].cells, t->columns * sizeof *cells);
+        t->lines[i] = rows[i].line;
+    }
+    t->cells = cells;
+}
+
 bool judge_table_answers(struct judge *j, const char *file, struct csv *t, struct err *e)
 {
     size_t n = 0;
     if (!csv_table_read(file, j->arena, t, e)) return false;
     if (!t->numbers && csv_column(t, "session_test_id") >= 0 && !judge_webmushra(j, t, e)) return false;
     int training = t->numbers || csv_column(t, "trial_id") < 0 ? -1 : csv_column(t, "training");
-    for (size_t i = 0; i < t->rows && training >= 0; i++) {
+    if (training < 0) return true;
+    for (size_t i = 0; i < t->rows; i++) {
         const char **row = t->cells + i * t->columns;
         if (!strcmp(row[training], "1")) continue;
         memmove(t->cells + n * t->columns, row, t->columns * sizeof *row);
         t->lines[n++] = t->lines[i];
     }
-    if (training < 0 || n == t->rows) return true;
-    report_text(&j->report, "%s: %zu rows are of training and do not count\n", file, t->rows - n);
+    if (n < t->rows) report_text(&j->report, "%s: %zu rows are of training and do not count\n", file, t->rows - n);
     t->rows = n;
+    page_sort(t, j->arena);
     return true;
 }
 

@@ -46,8 +46,8 @@ for design in rate trained likert choose; do
     rasp judge $action $design.csv --design $design.yaml "${also[@]}" > webmushra.txt 2>&1 || true
     rasp judge $action $design.page.csv "${also[@]}" > page.txt 2>&1 || true
     echo "-- $design"
-    diff <(sort webmushra.txt) <(sed "s/$design.page.csv/$design.csv/" page.txt | sort) # levels are in the order in which they come
-    head -n 4 webmushra.txt
+    diff webmushra.txt <(sed "s/$design.page.csv/$design.csv/" page.txt)
+    head -n 6 webmushra.txt
 done
 try() { rasp judge "$@" 2>&1 || echo "exit code $?"; }
 try ratings rate.csv
