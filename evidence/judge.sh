@@ -60,8 +60,11 @@ END_PYTHON
             print "| condition | eq. 14, spectral: mean | least to most | Frobenius | right, % | what 000 says |"; print "|---|---|---|---|---|---|" }
         !($1 in count) { order[++rows] = $1; low[$1] = $2; high[$1] = $2 }
         { count[$1]++; spectral[$1] += $2; frobenius[$1] += $3; right[$1] += $4; if ($2 < low[$1]) low[$1] = $2; if ($2 > high[$1]) high[$1] = $2 }
+        function beside(c, d) { d = (spectral[c] - spectral["full"]) / n; return "`" c "` is " (d < 0 ? "below" : "above") sprintf(" the full model by %.2f", d < 0 ? -d : d) }
         END { for (i = 1; i <= rows; i++) { c = order[i]; n = count[c]
-            printf "| %s | %.2f | %.2f to %.2f | %.2f | %.0f | %s |\n", c, spectral[c] / n, low[c], high[c], frobenius[c] / n, right[c] / n, paper[c] } }'
+                printf "| %s | %.2f | %.2f to %.2f | %.2f | %.0f | %s |\n", c, spectral[c] / n, low[c], high[c], frobenius[c] / n, right[c] / n, paper[c] }
+            print "\n000 has both below it: " beside("constant_force") ", " beside("no_nonlinearity") \
+                (spectral["constant_force"] < spectral["full"] ? "." : "; by the templates of a constant force its own sounds are the nearest, so that 000'"'"'s order does not come out of these.") }'
 }
 
 # own NAME TABLE: the matrix that stands for C_recorded, of templates, each judged without itself, into NAME.csv.
