@@ -1,5 +1,6 @@
 # What an export is for plays it: the page by itself and jsPsych's own library, in headless Chromium, where a listener who is a program hears each sound to
 # its end and answers; webMUSHRA's YAML in the parser that it bundles, and webMUSHRA itself where WEBMUSHRA names a folder with a copy of it.
+# BIDS_VALIDATOR names bids-validator (npm, 700 MB) where it is to judge the folders for BIDS, too: no error, and of warnings those that are known.
 # NODE_MODULES names a folder with what npm install jspsych ... gives; else it is fetched.
 # shellcheck disable=SC1091
 for browser in chromium chromium-browser google-chrome; do command -v $browser > /dev/null && break; browser=; done
@@ -42,4 +43,12 @@ if [ -n "${WEBMUSHRA:-}" ]; then
     script='<script>addEventListener("load", () => setTimeout(() => fetch("/done", {method: "POST", body: document.title + "\n"}), 8000));</script>'
     timeout 120 node "$ROOT/tests/lib/browser.js" $browser mushra 'index.html?config=rate_p01.yaml' "$script" > mushra.txt
     diff mushra.txt <(echo 'Rating: "A & B" – π')
+fi
+if [ -n "${BIDS_VALIDATOR:-}" ]; then
+    for of in "${lists[@]}"; do
+        design=${of%:*}
+        rasp export $design.yaml set_$design --for bids -o $design.bids -p 2 > /dev/null
+        "$BIDS_VALIDATOR" $design.bids --json > bids.json 2> /dev/null
+        python3 -c 'import json; i = json.load(open("bids.json"))["issues"]; k = {x["key"] for x in i["warnings"]} - {"UNUSED_STIMULUS", "NO_AUTHORS", "README_FILE_SMALL"}; assert not i["errors"] and not k, (i["errors"], k)'
+    done
 fi
