@@ -19,7 +19,7 @@ map() {
 rasp: 1
 surface: {height_map: map.gsf, off_map: mirror, response: basswood_plank.csv, extrapolate: nearest}
 scraper: {mass: 8 g, response: pvc_rod.csv, weight: 0.2}
-motion: {path: circle, center: [15 cm, 3.7 cm], radius: 5 mm, turns: 3, speed: 6 cm/s}
+motion: {path: circle, center: [15 cm, 0 cm], radius: 5 mm, turns: 3, speed: 6 cm/s}
 load: {constant: 0.8 N}
 YAML
     table map_circle.yaml

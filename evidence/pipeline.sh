@@ -38,7 +38,7 @@ presets() {
 engines() {
     echo '| gain_ramp | nodes every (samples) | SNR against resonators (dB) | CPU time, ratio to resonators |'
     echo '|---|---|---|---|'
-    local long=(--set surface.modes=20 --set motion.duration=0.5s --set motion.rate=8Hz --set 'motion.from=[12.6 cm, 3.7 cm]' --set 'motion.to=[13.6 cm, 3.7 cm]')
+    local long=(--set surface.modes=20 --set motion.duration=0.5s --set motion.rate=8Hz --set 'motion.from=[12.6 cm, 0 cm]' --set 'motion.to=[13.6 cm, 0 cm]')
     sound exact basswood_scrape "${long[@]}" --set accuracy.gain_ramp=1
     for ramp in 1024 256 64 16; do
         sound ola basswood_scrape "${long[@]}" --set surface.convolution=overlap_add --set accuracy.gain_ramp=$ramp

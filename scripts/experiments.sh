@@ -99,8 +99,8 @@ ball() { printf 'ball: {radius: %s, body: hollow, wall: %s, material: %s, respon
 ball ceramic '10 cm' '5 mm' ceramic
 ball glass '10 cm' '4 mm' glass
 ball wood '6 cm' '5 mm' poplar
-echo 'motion: {from: [2 cm, 3.7 cm], to: [38 cm, 3.7 cm], incline: -3 deg, start_speed: 10 cm/s}' > parts/down.yaml
-echo 'motion: {from: [2 cm, 3.7 cm], to: [38 cm, 3.7 cm], incline: 3 deg, start_speed: 50 cm/s}' > parts/up.yaml
+echo 'motion: {from: [2 cm, 0 cm], to: [38 cm, 0 cm], incline: -3 deg, start_speed: 10 cm/s}' > parts/down.yaml
+echo 'motion: {from: [2 cm, 0 cm], to: [38 cm, 0 cm], incline: 3 deg, start_speed: 50 cm/s}' > parts/up.yaml
 for ball in ceramic glass wood; do
     for surface in ceramic basswood poplar; do
         for way in up down; do
@@ -119,7 +119,7 @@ cat > "$to/000_scraping/parts/scrape.yaml" << 'END'
 # a hand (equations 8 and 9), curvature is limited by it, the surface rings by place, and the rod rings with it. The sample rate and the values of alpha, zeta, beta_1 and
 # beta_2 are the paper's.
 # The paper does not state: sizes, masses, angle and friction of the grip, eta, speeds, durations. Ours: planks and tile of irs/ (40 cm long), whose modes lie
-# along the line y = 3.7 cm and count as at the nearest place of it beside; roughness of surfaces/; a rod of 25 cm held at 30 degrees, which weighs what such a
+# along the line y = 0 cm and count as at the nearest place of it beside; roughness of surfaces/; a rod of 25 cm held at 30 degrees, which weighs what such a
 # rod does; friction 0.3, of plastic or wood on wood or a tile; eta 0.1, since the hand damps the rod.
 rasp: 1
 surface: {extrapolate: nearest}
@@ -146,7 +146,7 @@ scraping_conditions() {
     - {label: physical, text: "baseline: physical synthesis", set: {contact.force: paper, contact.limiter.curve: none, contact.smoothing: 0, grip: null}}
     - label: signal
       text: "baseline: signal manipulation"
-      set: {contact: {model: impacts, impacts: {prototype: rub}, gesture: {}}, grip: null, scraper.mass: null, scraper.response: null, scraper.weight: null, surface.recipe: null, ablation: {response: constant, place: [13.7 cm, 3.7 cm]}}
+      set: {contact: {model: impacts, impacts: {prototype: rub}, gesture: {}}, grip: null, scraper.mass: null, scraper.response: null, scraper.weight: null, surface.recipe: null, ablation: {response: constant, place: [13.7 cm, 0 cm]}}
     - label: noise
       text: "baseline: modulated noise"
       set: {contact: {model: impacts, impacts: {prototype: rub}, gesture: {}}, grip: null, scraper.mass: null, scraper.response: null, scraper.weight: null, surface.recipe: null, surface.response: null, surface.extrapolate: null, output.quantity: force}
@@ -201,11 +201,11 @@ END
     surfaces basswood
     cat << 'END'
   motion:
-    - {label: slow, text: Slow back and forth motion, set: {motion: {path: back_and_forth, from: [10 cm, 3.7 cm], to: [20 cm, 3.7 cm], rate: 0.75 Hz, duration: 4 s}}}
-    - {label: fast, text: Fast back and forth motion, set: {motion: {path: back_and_forth, from: [10 cm, 3.7 cm], to: [20 cm, 3.7 cm], rate: 2.5 Hz, duration: 4 s}}}
+    - {label: slow, text: Slow back and forth motion, set: {motion: {path: back_and_forth, from: [10 cm, 0 cm], to: [20 cm, 0 cm], rate: 0.75 Hz, duration: 4 s}}}
+    - {label: fast, text: Fast back and forth motion, set: {motion: {path: back_and_forth, from: [10 cm, 0 cm], to: [20 cm, 0 cm], rate: 2.5 Hz, duration: 4 s}}}
     - {label: circle, text: Circular motion, set: {motion: {path: circle, center: [15 cm, 5 cm], radius: 3 cm, turns: 6, duration: 4 s}}}
-    - {label: short, text: Short single scrape, set: {motion: {path: line, from: [10 cm, 3.7 cm], to: [18 cm, 3.7 cm], duration: 0.4 s, law: minimum_jerk}}}
-    - {label: long, text: Long single scrape, set: {motion: {path: line, from: [5 cm, 3.7 cm], to: [35 cm, 3.7 cm], duration: 2 s, law: minimum_jerk}}}
+    - {label: short, text: Short single scrape, set: {motion: {path: line, from: [10 cm, 0 cm], to: [18 cm, 0 cm], duration: 0.4 s, law: minimum_jerk}}}
+    - {label: long, text: Long single scrape, set: {motion: {path: line, from: [5 cm, 0 cm], to: [35 cm, 0 cm], duration: 2 s, law: minimum_jerk}}}
 END
     scraping_conditions
     cat << 'END'
@@ -240,9 +240,9 @@ set: {scraper.mass: 27 g, scraper.response: ../../irs/pvc_rod.csv, surface.recip
 factors:
   motion:
     - {label: scribble, text: a scribble, set: {motion: {path: scribble, center: [20 cm, 5 cm], size: [8 cm, 6 cm], rate: 2 Hz, duration: 2 s}}}
-    - {label: four_in_line, text: four scrapes in a straight line, set: {motion: {path: four_in_line, from: [8 cm, 3.7 cm], to: [32 cm, 3.7 cm], duration: 2 s}}}
-    - {label: back_and_forth, text: four back-and-forth scrapes, set: {motion: {path: back_and_forth, from: [17 cm, 3.7 cm], to: [23 cm, 3.7 cm], rate: 1 Hz, duration: 2 s}}}
-    - {label: line, text: a single long line, set: {motion: {path: line, from: [5.8629 cm, 3.7 cm], to: [34.1371 cm, 3.7 cm], duration: 2 s, law: minimum_jerk}}}
+    - {label: four_in_line, text: four scrapes in a straight line, set: {motion: {path: four_in_line, from: [8 cm, 0 cm], to: [32 cm, 0 cm], duration: 2 s}}}
+    - {label: back_and_forth, text: four back-and-forth scrapes, set: {motion: {path: back_and_forth, from: [17 cm, 0 cm], to: [23 cm, 0 cm], rate: 1 Hz, duration: 2 s}}}
+    - {label: line, text: a single long line, set: {motion: {path: line, from: [5.8629 cm, 0 cm], to: [34.1371 cm, 0 cm], duration: 2 s, law: minimum_jerk}}}
     - {label: circle, text: a circle, set: {motion: {path: circle, center: [20 cm, 5 cm], radius: 4.5 cm, turns: 1, duration: 2 s, law: minimum_jerk}}}
 END
     scraping_conditions
@@ -290,20 +290,20 @@ END
     surfaces 'bass wood'
     cat << 'END'
   way:
-    - {label: up, text: up, set: {motion.from: [2 cm, 3.7 cm], motion.to: [38 cm, 3.7 cm], motion.incline: 3 deg, motion.start_speed: 50 cm/s}}
-    - {label: down, text: down, set: {motion.from: [2 cm, 3.7 cm], motion.to: [38 cm, 3.7 cm], motion.incline: -3 deg, motion.start_speed: 10 cm/s}}
+    - {label: up, text: up, set: {motion.from: [2 cm, 0 cm], motion.to: [38 cm, 0 cm], motion.incline: 3 deg, motion.start_speed: 50 cm/s}}
+    - {label: down, text: down, set: {motion.from: [2 cm, 0 cm], motion.to: [38 cm, 0 cm], motion.incline: -3 deg, motion.start_speed: 10 cm/s}}
   condition:
     - {label: full, text: full model, set: {}}
     - {label: only_surface, text: only the surface's impulse response, set: {ablation.sound: surface}}
-    - {label: constant_response, text: a constant surface impulse response (no morphing), set: {ablation.response: constant, ablation.place: [13.7 cm, 3.7 cm]}}
+    - {label: constant_response, text: a constant surface impulse response (no morphing), set: {ablation.response: constant, ablation.place: [13.7 cm, 0 cm]}}
     - {label: only_ball, text: only the ball's impulse response, set: {ablation.sound: ball}}
     - {label: no_nonlinearity, text: no non-linearity in the contact force, set: {ablation.nonlinearity: omitted}}
     - label: coupled
       text: "baseline: physics-based synthesis"
-      set: {contact: {model: roll_coupled, roll: {follows: null, kappa: 5e9, mu: 1, ground: rigid}}, ball.offset: 1 mm, ablation: {response: constant, place: [13.7 cm, 3.7 cm]}}
+      set: {contact: {model: roll_coupled, roll: {follows: null, kappa: 5e9, mu: 1, ground: rigid}}, ball.offset: 1 mm, ablation: {response: constant, place: [13.7 cm, 0 cm]}}
     - label: signal
       text: "baseline: signal-based synthesis"
-      set: {contact: {model: impacts, gravity: 6 m/s^2, roll: null, impacts: {prototype: roll, size: 0.9}}, ball: null, surface: {recipe: null, roughness: null, along: null}, ablation: {response: constant, place: [13.7 cm, 3.7 cm]}}
+      set: {contact: {model: impacts, gravity: 6 m/s^2, roll: null, impacts: {prototype: roll, size: 0.9}}, ball: null, surface: {recipe: null, roughness: null, along: null}, ablation: {response: constant, place: [13.7 cm, 0 cm]}}
 name: "{ball_material}_on_{surface}_{way}/{condition}"
 level: {each: {lufs: -26}}
 length: own

@@ -16,7 +16,8 @@ table() {
     "$rasp" modes object --force --quiet "$@" -o "$to/$name.csv" "$here/irs/$name.yaml"
 }
 
-# Planks: along the line y = 3.7 cm that scenes scrape, heard at one place of their own, off all low nodal lines.
+# Planks, each heard at one place of its own, off all low nodal lines. As of all that is scraped along x their tables begin at the scene's (0, 0)
+# (origin of the recipes); here places are the object's own.
 table basswood_plank --line 0,3.7cm,40cm,3.7cm --places 33 --listen 11.7cm,2.9cm
 table poplar_plank --line 0,3.7cm,40cm,3.7cm --places 33 --listen 11.7cm,2.9cm
 table ceramic_tile --line 0,3.7cm,40cm,3.7cm --places 33 --listen 11.7cm,7.1cm
@@ -34,7 +35,7 @@ printf '%b' "$(awk -v place=13 -v rate=48000 -v samples=12000 -f "$here/scripts/
 
 # What such a tap sounds besides its modes, for scenes/residual_strike.yaml: a burst of noise comes with it, and is what the residual finds.
 printf '%b' "$(awk -v place=13 -v rate=48000 -v samples=9600 -v burst=3 -f "$here/scripts/ir_wav.awk" "$to/ceramic_tile.csv")" > "$to/tap.wav"
-(cd "$to" && "$rasp" modes residual tap.wav@15cm,3.7cm ceramic_tile.csv --impulse --quantity velocity --scale 1 --force --quiet -o ceramic_tile_residual)
+(cd "$to" && "$rasp" modes residual tap.wav@15cm,0 ceramic_tile.csv --impulse --quantity velocity --scale 1 --force --quiet -o ceramic_tile_residual)
 rm "$to/tap.wav"
 
 # solid NAME TITLE SHAPE OPTION...: NAME.csv by finite elements. A table that is current is left as it is.

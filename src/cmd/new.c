@@ -25,9 +25,9 @@
 #define STEEL "surface.material steel; " PLATE
 #define SCRAPER "scraper.mass 20 g; "
 #define STROKES                                                                                                        \
-    "motion.path back_and_forth; motion.from [0 cm, 0 cm]; motion.to [10 cm, 0 cm]; motion.rate 2 Hz; "                \
+    "motion.path back_and_forth; motion.from [0 cm, 0 cm]; motion.to [8 cm, 0 cm]; motion.rate 2 Hz; "                \
     "motion.duration 2 s; "
-#define LINE "motion.path line; motion.from [0 cm, 0 cm]; motion.to [10 cm, 0 cm]; "
+#define LINE "motion.path line; motion.from [0 cm, 0 cm]; motion.to [8 cm, 0 cm]; "
 #define CIRCLE                                                                                                         \
     "motion.path circle; motion.center [4 cm, 1 cm]; motion.radius 2 cm; motion.turns 3; motion.speed 20 cm/s; "
 #define STROKE_OF_A_PEN                                                                                                \

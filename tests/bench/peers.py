@@ -12,7 +12,7 @@ MODES = [(100 * 150 ** (k / 49), 0.9 * (150 ** (k / 49)) ** -0.3, 1 / (1 + k)) f
 
 
 def rasp_job(moving):
-    motion = "{path: back_and_forth, from: [10 cm, 3.7 cm], to: [20 cm, 4.7 cm], rate: 1 Hz, duration: D s}" if moving else "{path: still, at: [10 cm, 3.7 cm], duration: D s}"
+    motion = "{path: back_and_forth, from: [10 cm, 0 cm], to: [20 cm, 1 cm], rate: 1 Hz, duration: D s}" if moving else "{path: still, at: [10 cm, 0 cm], duration: D s}"
     name = "moving" if moving else "still"
     with open(name + ".yaml", "w") as out:
         out.write("rasp: 1\nsurface: {material: glass, object: {shape: plate, length: 40 cm, width: 20 cm, thickness: 3 mm, edges: supported}}\n"

@@ -16,11 +16,11 @@ SCENES = {
     "ball of 2 cm, 5 um of 100 um and more, patch 100 um": ("rms: 5 um, shortest: 100 um, longest: 5 mm", ROLL + "{radius: 2 cm, material: glass, patch: 100 um}", "path: line, from: [10 cm, 5 cm], to: [20 cm, 6 cm], speed: 50 cm/s"),
     "ball of 5 mm, 1 um, patch 100 um": ("rms: 1 um", ROLL + "{radius: 5 mm, material: glass, patch: 100 um}", "path: line, from: [10 cm, 5 cm], to: [13 cm, 6 cm], speed: 30 cm/s"),
     "ball of 2 mm, 0.1 um of 5 to 200 um": ("rms: 0.1 um, shortest: 5 um, longest: 0.2 mm", ROLL + "{radius: 2 mm, material: glass}", "path: line, from: [10 cm, 5 cm], to: [12 cm, 5.5 cm], speed: 20 cm/s"),
-    "tip of 0.5 mm, circle, 3 um": ("rms: 3 um, longest: 1 mm", TIP + "{mass: 20 g, radius: 0.5 mm, patch: 15 um}", "path: circle, center: [15 cm, 3.7 cm], radius: 5 mm, turns: 2, speed: 6 cm/s"),
+    "tip of 0.5 mm, circle, 3 um": ("rms: 3 um, longest: 1 mm", TIP + "{mass: 20 g, radius: 0.5 mm, patch: 15 um}", "path: circle, center: [15 cm, 0 cm], radius: 5 mm, turns: 2, speed: 6 cm/s"),
     "no tip, line, 5 um": ("rms: 5 um", TIP + "{mass: 20 g}", "path: line, from: [1 cm, 3 cm], to: [39 cm, 6 cm], speed: 20 cm/s"),
     "no tip, circle, 5 um": ("rms: 5 um", TIP + "{mass: 20 g}", "path: circle, center: [10 cm, 5 cm], radius: 2 cm, turns: 8, duration: 5 s"),
-    "no tip, to and fro, 5 um": ("rms: 5 um", TIP + "{mass: 20 g}", "path: back_and_forth, from: [10 cm, 3.7 cm], to: [20 cm, 4.7 cm], rate: 1 Hz, duration: 4 s"),
-    "no tip, to and fro, 5 um of 50 um and more": ("rms: 5 um, shortest: 50 um", TIP + "{mass: 20 g}", "path: back_and_forth, from: [10 cm, 3.7 cm], to: [20 cm, 4.7 cm], rate: 1 Hz, duration: 4 s"),
+    "no tip, to and fro, 5 um": ("rms: 5 um", TIP + "{mass: 20 g}", "path: back_and_forth, from: [10 cm, 0 cm], to: [20 cm, 1 cm], rate: 1 Hz, duration: 4 s"),
+    "no tip, to and fro, 5 um of 50 um and more": ("rms: 5 um, shortest: 50 um", TIP + "{mass: 20 g}", "path: back_and_forth, from: [10 cm, 0 cm], to: [20 cm, 1 cm], rate: 1 Hz, duration: 4 s"),
     "tip of 2 mm, to and fro, 5 um": ("rms: 5 um", TIP + "{mass: 20 g, radius: 2 mm, patch: 20 um}", "path: back_and_forth, from: [10 cm, 5 cm], to: [13 cm, 5 cm], rate: 2 Hz, duration: 2 s"),
 }
 SCENES = {name: scene for name, scene in SCENES.items() if os.environ.get("ONLY", "") in name}

@@ -116,7 +116,7 @@ def silence(rasp):
     """What modes without gain, and a sound whose motion is over, still cost."""
     given, scrape = JOBS["object at rest, 50 modes, given force"][0], JOBS["scrape, profile, draft"][0]
     tails = [(f"the tail of a profile's draft, {a} to {a + 2} s after the motion", [(scrape.replace("tail: 0", f"tail: {a + b} s"), 2.0) for b in (0, 2)]) for a in (2, 28)]
-    corner = given.replace("10 cm, 3.7 cm", "0 cm, 0 cm")
+    corner = given.replace("10 cm, 0 cm", "0 cm, 0 cm")
     rows = [("given force, 50 modes that move", [(given, SHORT), (given, LONG)]), ("the same in the corner, where none moves", [(corner, SHORT), (corner, LONG)])]
     print("\n## Silent modes and finished tails\n\n| job | instructions a sample | of these the modes' recursion |\n|---|---|---|")
     for what, pair in rows + tails:

@@ -21,7 +21,7 @@ for seed in 1 2; do
 done
 echo "-- an error is measured with the noise that is there"
 printf '%s\n' 'rasp: 1' 'surface: {roughness: {exponent: -2.4, rms: 5 um}, response: modes.csv}' 'scraper: {mass: 20 g}' 'grip: {angle: 30 deg, friction: 0.3}' \
-    'motion: {path: back_and_forth, from: [12 cm, 3.7 cm], to: [14 cm, 3.7 cm], rate: 8 Hz, duration: 0.1 s}' 'output: {tail: 0.05 s}' > noisy.yaml
+    'motion: {path: back_and_forth, from: [12 cm, 0 cm], to: [14 cm, 0 cm], rate: 8 Hz, duration: 0.1 s}' 'output: {tail: 0.05 s}' > noisy.yaml
 for seed in 1 2; do
     printf '%s\n' 'rasp-design: 1' 'base: noisy.yaml' "seed: $seed" 'set: {accuracy.error: -122 dB}' 'replicates: 4' > set.yaml
     counts

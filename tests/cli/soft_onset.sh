@@ -4,7 +4,7 @@ scene()
     cat > s.yaml << END
 rasp: 1
 surface: {$1}
-motion: {path: line, from: [5 cm, 3.7 cm], to: [9 cm, 3.7 cm], duration: 0.1 s}
+motion: {path: line, from: [5 cm, 0 cm], to: [9 cm, 0 cm], duration: 0.1 s}
 contact: {$2}
 ${3:-}
 END
@@ -54,6 +54,6 @@ echo "== playback"
 scene "response: $table" "model: playback"
 scene "response: $table, fractal: {exponent: -1, maximum: 1 um, pitch: 50 um}" "model: playback}
 grip: {angle: 10 deg"
-sed -e 's/grip.*/load: {approach: 1 ms}/' -e 's/path: line.*duration/path: still, at: [6 cm, 3.7 cm], duration/' s.yaml > still.yaml
+sed -e 's/grip.*/load: {approach: 1 ms}/' -e 's/path: line.*duration/path: still, at: [6 cm, 0 cm], duration/' s.yaml > still.yaml
 rasp check still.yaml
 true
