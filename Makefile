@@ -180,6 +180,7 @@ install: all
 	for page in man/*.5; do install -D -m 644 -t "$(TO)"/share/man/man5 $$page || exit 1; done
 	for page in man/*.7; do install -D -m 644 -t "$(TO)"/share/man/man7 $$page || exit 1; done
 	for folder in scenes surfaces irs; do install -d "$(TO)"/share/rasp/$$folder && cp -R $$folder/. "$(TO)"/share/rasp/$$folder || exit 1; done
+	install -m 644 -t "$(TO)"/share/rasp scripts/rasp.py
 	chmod -R u+rwX,go+rX,go-w "$(TO)"/share/rasp
 	for kind in scene design; do $(BUILD)/rasp explain --schema=$$kind > $(BUILD)/$$kind.schema.json && \
 	    install -m 644 -t "$(TO)"/share/rasp $(BUILD)/$$kind.schema.json || exit 1; done
@@ -187,7 +188,7 @@ install: all
 	install -D -m 644 $(BUILD)/completion.bash "$(TO)"/$(BASHDIR)/rasp
 	install -D -m 644 $(BUILD)/completion.zsh "$(TO)"/$(ZSHDIR)/_rasp
 	install -D -m 644 $(BUILD)/completion.fish "$(TO)"/$(FISHDIR)/rasp.fish
-	install -D -m 644 -t "$(TO)"/share/doc/rasp README.md LICENSE
+	install -D -m 644 -t "$(TO)"/share/doc/rasp README.md LICENSE CHANGELOG.md CITATION.cff
 
 # Folders that others may use too go only if nothing else is in them; of a real system those that it has from the start stay.
 uninstall:

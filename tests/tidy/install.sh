@@ -5,7 +5,7 @@ place() { env -u MAKEFLAGS -u MAKELEVEL make -s -C "$ROOT" -o all BUILD="$BUILD"
 mkdir -p root/usr/share/zsh/site-functions
 echo other > root/usr/share/zsh/site-functions/_other
 place install
-for file in bin/rasp libexec/rasp/rasp-modes share/doc/rasp/LICENSE share/doc/rasp/README.md share/rasp/scene.schema.json share/rasp/design.schema.json \
+for file in bin/rasp libexec/rasp/rasp-modes share/doc/rasp/LICENSE share/doc/rasp/README.md share/rasp/scene.schema.json share/rasp/design.schema.json share/rasp/rasp.py \
     share/bash-completion/completions/rasp share/zsh/site-functions/_rasp share/fish/vendor_completions.d/rasp.fish; do
     [ -s root/usr/$file ] || fail "not installed: $file"
 done
