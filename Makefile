@@ -60,6 +60,9 @@ all: $(BUILD)/rasp $(BUILD)/rasp-modes
 $(BUILD)/rasp: $(BUILD)/main.o $(BUILD)/librasp.a
 	$(call say,link)
 	$Q$(CC) $(CFLAGS) -no-pie -o $@ $^ $(LIBS)
+# The same into another place, with a search path for libraries: scripts/bundle.sh.
+program: $(BUILD)/main.o $(BUILD)/librasp.a
+	$Q$(CC) $(CFLAGS) -no-pie -Wl,--disable-new-dtags,-rpath,'$(RPATH)' -o $(PROGRAM) $^ $(LIBS)
 $(BUILD)/rasp-modes: $(BUILD)/main_modes.o $(BUILD)/librasp.a
 	$(call say,link)
 	$Q$(CC) $(CFLAGS) -o $@ $^ $(HEAVY) $(LIBS)
@@ -198,6 +201,10 @@ uninstall:
 	for folder in libexec $(BASHDIR) $(ZSHDIR) $(FISHDIR) $(if $(DESTDIR),bin share/man/man1 share/man/man5 share/man/man7 share/doc); do \
 	    [ ! -d "$(TO)"/$$folder ] || (cd "$(TO)" && rmdir -p --ignore-fail-on-non-empty $$folder) || exit 1; done
 
+# The program with the libraries that it loads, to be unpacked anywhere.
+bundle: all
+	@BUILD=$(BUILD) scripts/bundle.sh $(BUILD)/rasp-$(VERSION)-x86_64.tar.gz
+
 # The source archive: the same bytes from the same revision.
 dist:
 	@scripts/dist.sh $(BUILD)/rasp-$(VERSION).tar.gz
@@ -224,5 +231,5 @@ help:
 
 -include $(OBJ:.o=.d) $(BUILD)/main.d $(BUILD)/main_modes.d $(UNIT:.o=.d) $(BENCH:=.d)
 FORCE:
-.PHONY: all unit demo check blas warnings warnings-gcc warnings-clang sanitize bytes fuzz fuzzers torture evidence bench irs install uninstall dist deb clean \
+.PHONY: all program bundle unit demo check blas warnings warnings-gcc warnings-clang sanitize bytes fuzz fuzzers torture evidence bench irs install uninstall dist deb clean \
     help FORCE
