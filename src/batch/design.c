@@ -76,15 +76,15 @@ int design_reading_factor(const struct design_reading *r, const struct yaml_node
 int design_reading_level(const struct design_reading *r, int f, const struct yaml_node *label, bool recording)
 {
     const struct design_factor *factor = &r->design->factors[f];
-    const struct yaml_node *item = r->factors[f]->first;
+    const struct yaml_node *item = r->texts->made[f].path ? NULL : r->factors[f]->first;
     if (label->kind != YAML_SCALAR) {
         design_reading_must(r, label, factor->name, "the label of a level",
                             arena_format(r->arena, "write for instance: %s", factor->levels[0].label));
         return -1;
     }
-    for (int i = 0; i < factor->n_levels; i++, item = item->next)
+    for (int i = 0; i < factor->n_levels; i++, item = item ? item->next : NULL)
         if (strcmp(factor->levels[i].label, label->text) == 0 ||
-            (item->kind == YAML_SCALAR && strcmp(item->text, label->text) == 0))
+            (item && item->kind == YAML_SCALAR && strcmp(item->text, label->text) == 0))
             return i;
     const char **names = ARENA_TAKE(r->arena, const char *, factor->n_levels + 1);
     for (int i = 0; i < factor->n_levels; i++)
@@ -96,6 +96,15 @@ int design_reading_level(const struct design_reading *r, int f, const struct yam
                             shown);
     diag_add(r->yaml->diag, label->at, cure, "'%s' is no level of %s", shown, factor->name);
     return -1;
+}
+
+const struct yaml_node *design_reading_item(const struct design_reading *r, int f, int level)
+{
+    const struct yaml_node *item = r->factors[f];
+    if (r->texts->made[f].path) return item;
+    for (item = item->first; level > 0; level--)
+        item = item->next;
+    return item;
 }
 
 const char *design_reading_labels(const struct design *d, const int *level, struct arena *a)
@@ -231,6 +240,12 @@ static void design_rules_read(struct design_reading *r)
                        !text_int(replicates->text, 1, DESIGN_READING_CELLS, &r->design->replicates)))
         design_reading_must(r, replicates, "replicates", "a whole number from 1 to 1000000",
                             "write for instance: replicates: 4");
+    const struct yaml_node *samples = design_reading_value(r, "samples");
+    if (samples &&
+        (samples->kind != YAML_SCALAR || !text_int(samples->text, 1, DESIGN_READING_CELLS, &r->design->samples)))
+        design_reading_must(r, samples, "samples", "a whole number from 1 to 1000000",
+                            "write for instance: samples: 1000");
+    r->design->samples_independent = r->design->samples;
     order_read(r);
     level_read(r);
     r->texts->level = place_of(r, design_reading_value(r, "level"));
@@ -245,9 +260,12 @@ static void design_rules_independent(struct design_reading *r)
         design_reading_must(r, list, "independent", "a list of factors", "write for instance: independent: [material]");
         return;
     }
+    bool sample = false;
     for (const struct yaml_node *item = list ? list->first : NULL; item; item = item->next) {
         int f = -1;
-        if (item->kind == YAML_SCALAR)
+        if (r->design->samples && is_text(item, "sample"))
+            sample = true;
+        else if (item->kind == YAML_SCALAR)
             f = design_reading_factor(r, item);
         else
             design_reading_must(r, item, "an entry of independent", "the name of a factor", NULL);
@@ -257,6 +275,7 @@ static void design_rules_independent(struct design_reading *r)
         else if (f >= 0)
             r->design->factors[f].independent = true;
     }
+    if (list) r->design->samples_independent = sample;
 }
 
 /* ------------------------------------------------------------------ texts of trials */
@@ -346,12 +365,13 @@ bool design_scene(const struct design *d, int i, struct arena *a, struct scene *
     if (d->stimuli[i].recording)
         return err_set(e, ERR_USAGE, "%s is a recording: it has no scene", d->stimuli[i].recording);
     int n = t->set.n + 1;
+    struct design_change *changes = ARENA_TAKE(a, struct design_change, d->n_factors + 1);
     for (int f = 0; f < d->n_factors; f++)
-        n += t->levels[f][level[f]].n;
+        n += (changes[f] = design_made_change(d, f, level[f], a)).n;
     struct scene_layer_key *keys = ARENA_TAKE(a, struct scene_layer_key, n);
     n = 0;
     for (int f = -1; f < d->n_factors; f++) {
-        const struct design_change *c = f < 0 ? &t->set : &t->levels[f][level[f]];
+        const struct design_change *c = f < 0 ? &t->set : &changes[f];
         for (int k = 0; k < c->n; k++)
             keys[n++] = c->keys[k];
         if (f < 0) continue;
@@ -394,12 +414,12 @@ struct table {
     bool recordings;
 };
 
-enum { COLUMN_NAME, COLUMN_REPLICATE, COLUMN_SEED, COLUMN_RECORDING, COLUMN_STATE, COLUMN_FACTORS };
+enum { COLUMN_NAME, COLUMN_SAMPLE, COLUMN_REPLICATE, COLUMN_SEED, COLUMN_RECORDING, COLUMN_STATE, COLUMN_FACTORS };
 
 /* The cell_text's text, row -1 the head; `number` is room for numbers. */
 static const char *cell_text(const struct table *t, int row, int column, char number[24])
 {
-    static const char *const heads[] = {"name", "replicate", "seed", "recording", "state"};
+    static const char *const heads[] = {"name", "sample", "replicate", "seed", "recording", "state"};
     const struct design_stimulus *s = row < 0 ? NULL : &t->d->stimuli[row];
     if (column >= COLUMN_FACTORS)
         return s ? design_label(t->d, row, column - COLUMN_FACTORS) : t->d->factors[column - COLUMN_FACTORS].name;
@@ -408,7 +428,9 @@ static const char *cell_text(const struct table *t, int row, int column, char nu
     if (column == COLUMN_STATE) return t->states ? t->states[row] : "";
     if (s->recording) return "n/a";
     snprintf(number, 24, "%llu",
-             column == COLUMN_SEED ? (unsigned long long)s->seed : (unsigned long long)s->replicate);
+             column == COLUMN_SEED     ? (unsigned long long)s->seed
+             : column == COLUMN_SAMPLE ? (unsigned long long)s->sample
+                                       : (unsigned long long)s->replicate);
     return number;
 }
 
@@ -444,8 +466,9 @@ void design_print(const struct design *d, const bool *mine, const char *const *s
         put_cell(&t, row, COLUMN_NAME, false);
         for (int k = 0; k < d->n_factors; k++)
             put_cell(&t, row, COLUMN_FACTORS + k, false);
-        for (int c = COLUMN_REPLICATE; c <= last; c++)
-            if ((c != COLUMN_REPLICATE || d->replicates > 1) && (c != COLUMN_RECORDING || t.recordings))
+        for (int c = COLUMN_SAMPLE; c <= last; c++)
+            if ((c != COLUMN_SAMPLE || d->samples) && (c != COLUMN_REPLICATE || d->replicates > 1) &&
+                (c != COLUMN_RECORDING || t.recordings))
                 put_cell(&t, row, c, c == last);
         fputc('\n', f);
     }
@@ -454,9 +477,9 @@ void design_print(const struct design *d, const bool *mine, const char *const *s
 
 /* ------------------------------------------------------------------ the whole */
 
-static const char *const keys[] = {"rasp-design", "title",   "text",  "base",       "seed",       "set",
-                                   "factors",     "exclude", "cells", "recordings", "replicates", "independent",
-                                   "order",       "name",    "level", "length",     "trials",     NULL};
+static const char *const keys[] = {
+    "rasp-design", "title",   "text",        "base",  "seed", "set",   "factors", "exclude", "cells", "recordings",
+    "replicates",  "samples", "independent", "order", "name", "level", "length",  "trials",  NULL};
 
 static void text_read(struct yaml *y, const struct diag_source *source, struct design *d)
 {
@@ -502,7 +525,7 @@ bool design_read(const char *file, struct arena *a, struct design *d, const char
 {
     struct yaml *y = yaml_open(a);
     struct diag_source *source = yaml_bytes_read(y, file, (struct diag_place){NULL, 0, 0, 0});
-    *d = (struct design){.file = arena_text(a, file), .sources = ARENA_TAKE(a, const char *, 2)};
+    *d = (struct design){.file = arena_text(a, file), .sources = ARENA_TAKE(a, const char *, 3)};
     d->sources[0] = d->file;
     d->diag = y->diag;
     *messages = "";

@@ -17,7 +17,8 @@
 struct design_level {
     const char *label; /* in names and lists: its text, or what the design calls it                     */
     const char *value; /* in the manifest's column: the number in the column's unit, or the label        */
-    const char **set;  /* "motion.rate=3 Hz": what it lays over the base scene, in order; ends with NULL */
+    const char **set;  /* "motion.rate=3 Hz": what it lays over the base scene, in order; ends with NULL.
+                          NULL: the label alone is the value of the factor's key (design_made.c)        */
     const char *base;  /* a scene that takes the place of the design's; NULL: none does                 */
     const char *text;  /* what the stimulus' text says of it (YAML: text); NULL: its label              */
     bool recorded;     /* only recordings have it (YAML: of: recordings): no cell is crossed with it     */
@@ -29,6 +30,8 @@ struct design_factor {
     const char *unit;    /* "Hz"; NULL: none, or words                                                    */
     const char *meaning; /* for the side-car; NULL: none                                                  */
     bool independent;    /* its levels take part in the noise seed                                        */
+    bool drawn;          /* each sample has a level of its own that is drawn                               */
+    const char *rule;    /* of the levels that nobody wrote out, "uniform from 1 Hz to 4 Hz"; NULL: they are listed */
     struct design_level *levels;
     int n_levels;
 };
@@ -37,8 +40,10 @@ struct design_stimulus {
     const char *name; /* its files' name without ending: [0-9A-Za-z+_.-] and / for folders             */
     int *level;       /* [n_factors]; -1: a recording that has no level of that factor                  */
     int replicate;    /* from 1                                                                        */
+    int sample;       /* from 1; 0: nothing is drawn                                                   */
     long cell;        /* from 0, in the order of the design (names count from 1); replicates of a cell share it */
-    uint64_t seed;    /* of its scene: a hash of the design's seed, the replicate, and independent factors' labels */
+    uint64_t seed;    /* of its scene: a hash of the design's seed, the replicate, the sample, and independent factors'
+                         labels */
     const char *recording; /* a WAV that is taken as it is; NULL: it is rendered                            */
 };
 
@@ -75,7 +80,9 @@ struct design {
     struct design_factor *factors;
     int n_factors;
     int replicates;
-    const char *text; /* template of the stimuli's texts, "{motion} of a {scraper}." (YAML: text); NULL: none */
+    int samples;              /* of each cell; 0: nothing is drawn                                           */
+    bool samples_independent; /* the sample's number takes part in the noise seed                             */
+    const char *text;         /* template of the stimuli's texts, "{motion} of a {scraper}." (YAML: text); NULL: none */
     struct design_stimulus *stimuli; /* in the order of presentation                                         */
     int n_stimuli;
     bool shuffled; /* by order_seed; else the stimuli are in the order of the design                */

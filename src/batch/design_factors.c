@@ -86,20 +86,28 @@ static bool reserved(const struct design_reading *r, const struct yaml_node *key
 
 /* ------------------------------------------------------------------ values */
 
+bool design_factors_key(const struct design_reading *r, const struct yaml_node *key)
+{
+    return !reserved(r, key) && design_changes_known(r, key);
+}
+
+bool design_factors_value(const struct design_reading *r, const struct yaml_node *key, const struct yaml_node *value)
+{
+    const struct key *k = design_changes_key(key->text);
+    if (!k || yaml_null(value)) return true;
+    struct arena *own = arena_open(); /* some kilobytes, for each of perhaps thousands of levels */
+    void *to = k->of == KEY_CONTACT ? (void *)params_contacts(own, 1) : ARENA_TAKE(own, struct scene, 1);
+    int n = (int)(keys_text_plain(key->text) - key->text); /* "contacts.rod." */
+    struct scene_part part = {r->yaml, r->root, arena_format(own, "%.*s", n, key->text), k->of, to, NULL};
+    bool good = scene_values_read(&part, k, value);
+    arena_close(own);
+    return good;
+}
+
 static bool leaf_add(const struct design_reading *r, struct design_change *c, const struct yaml_node *key,
                      const struct yaml_node *value)
 {
-    if (reserved(r, key) || !design_changes_known(r, key)) return false;
-    const struct key *k = design_changes_key(key->text);
-    if (k && !yaml_null(value)) {
-        struct arena *own = arena_open(); /* some kilobytes, for each of perhaps thousands of levels */
-        void *to = k->of == KEY_CONTACT ? (void *)params_contacts(own, 1) : ARENA_TAKE(own, struct scene, 1);
-        int n = (int)(keys_text_plain(key->text) - key->text); /* "contacts.rod." */
-        struct scene_part part = {r->yaml, r->root, arena_format(own, "%.*s", n, key->text), k->of, to, NULL};
-        bool good = scene_values_read(&part, k, value);
-        arena_close(own);
-        if (!good) return false;
-    }
+    if (!design_factors_key(r, key) || !design_factors_value(r, key, value)) return false;
     struct yaml_node **path = scene_merge_layer_path(r->yaml, key);
     if (!path) return false;
     c->keys = arena_more(r->arena, c->keys, c->n, sizeof *c->keys);
@@ -219,20 +227,23 @@ static const struct measure *quantities(const struct design_factor *f, struct me
 static void values_make(const struct design_reading *r, struct design_factor *f)
 {
     struct measure *q = ARENA_TAKE(r->arena, struct measure, f->n_levels + 1);
-    const struct yaml_node *item = r->factors[f - r->design->factors]->first;
     bool same;
     const struct measure *first = quantities(f, q, &same);
-    for (int i = 0; i < f->n_levels; i++, item = item->next) {
+    for (int i = 0; i < f->n_levels; i++) {
         bool number = first && q[i].number;
+        struct arena *own = arena_open();
         struct units_fault fault;
         double x = 0; /* as written, else in SI units */
         if (number && same)
             text_scaled(q[i].number, q[i].size, 0, &x);
         else if (number)
-            units_read(f->levels[i].label, q[i].dimension, &x, r->arena, &fault);
-        f->levels[i].value = number ? keys_yaml_number(x, r->arena) : f->levels[i].label;
+            units_read(f->levels[i].label, q[i].dimension, &x, own, &fault);
+        f->levels[i].value = f->levels[i].label;
+        const char *text = number ? keys_yaml_number(x, own) : f->levels[i].label;
+        if (strcmp(text, f->levels[i].label) != 0) f->levels[i].value = arena_text(r->arena, text);
+        arena_close(own);
         if (first && !number)
-            diag_add(r->yaml->diag, item->at,
+            diag_add(r->yaml->diag, design_reading_item(r, (int)(f - r->design->factors), i)->at,
                      "leave the factor out of the recording, whose cell in that column is n/a then; a condition of its "
                      "own is a level of a factor that is a word",
                      "'%s' is no quantity as the other levels of %s are, whose column holds numbers",
@@ -264,13 +275,10 @@ static void find_twice(const struct design_reading *r, int f, bool values,
     for (int i = 0; i < factor->n_levels; i++)
         sorted[i] = (struct sorted_level){values ? factor->levels[i].value : factor->levels[i].label, i};
     qsort(sorted, (size_t)factor->n_levels, sizeof *sorted, by_text);
-    for (int i = 1; i < factor->n_levels; i++) {
-        const struct yaml_node *item = r->factors[f]->first;
-        for (int at = sorted[i].index; at > 0; at--)
-            item = item->next;
+    for (int i = 1; i < factor->n_levels; i++)
         if (strcmp(sorted[i].text, sorted[i - 1].text) == 0)
-            take(r, f, (const int[2]){sorted[i - 1].index, sorted[i].index}, item);
-    }
+            take(r, f, (const int[2]){sorted[i - 1].index, sorted[i].index},
+                 design_reading_item(r, f, sorted[i].index));
 }
 
 /* 2 Hz and 2.0 Hz would be one in the manifest. */
@@ -340,8 +348,8 @@ static const char *column_of(const struct design_factor *f, struct arena *a)
 static void column_check(const struct design_reading *r, int f)
 {
     static const char taken[] =
-        " file_name stimulus_id stim_file name scene_file scene_sha256 plan_row row seed sample_rate_hz channels "
-        "frames duration_s encoding level_mode gain_db rms_dbfs peak_dbfs true_peak_dbtp "
+        " file_name stimulus_id stim_file name scene_file scene_sha256 plan_row row seed sample split sample_rate_hz "
+        "channels frames duration_s encoding level_mode gain_db rms_dbfs peak_dbfs true_peak_dbtp "
         "loudness_lufs onset_ramp_s offset_ramp_s audio_sha256 file_sha256 job_hash tool_version status recording "
         "full_scale replicate text error error_code ";
     const char *column = r->design->factors[f].column;
@@ -470,7 +478,7 @@ static void map_read(const struct reading_level *l, const struct yaml_node *map)
 
 static bool name_good(const struct design_reading *r, const struct yaml_node *name, bool *key)
 {
-    static const char *const taken[] = {"replicate", "order", "cell", NULL};
+    static const char *const taken[] = {"replicate", "order", "cell", "sample", NULL};
     *key = design_changes_key(name->text) || strcmp(name->text, "accuracy") == 0 || strchr(name->text, '.');
     if (*key) return design_changes_known(r, name);
     if (text_is_one(name->text, taken))
@@ -488,9 +496,15 @@ static bool name_good(const struct design_reading *r, const struct yaml_node *na
 static void factor_read(struct design_reading *r, int f, const struct yaml_node *list)
 {
     struct design_factor *factor = &r->design->factors[f];
-    bool key, good = name_good(r, list->key, &key);
-    factor->name = list->key->text;
+    const struct yaml_node *name = list->key;
+    bool key, good = name_good(r, name, &key);
+    factor->name = name->text;
     r->factors[f] = list;
+    if (list->kind == YAML_MAP || (list->kind == YAML_SCALAR && strcmp(list->text, "cells") == 0)) {
+        if (good) list = design_made_read(r, f, list);
+        if (!good || list == r->factors[f] || !list) return;
+        r->factors[f] = list;
+    }
     factor->levels = ARENA_TAKE(r->arena, struct design_level, list->n + 1);
     r->texts->levels[f] = ARENA_TAKE(r->arena, struct design_change, list->n + 1);
     if (list->kind != YAML_LIST || list->n == 0) {
@@ -500,7 +514,7 @@ static void factor_read(struct design_reading *r, int f, const struct yaml_node 
         return;
     }
     for (const struct yaml_node *item = list->first; good && item; item = item->next) {
-        struct reading_level l = {r, f, factor->n_levels++, key, list->key};
+        struct reading_level l = {r, f, factor->n_levels++, key, name};
         level_of(&l)->label = "";
         if (item->kind == YAML_MAP)
             map_read(&l, item);
@@ -512,6 +526,7 @@ static void factor_read(struct design_reading *r, int f, const struct yaml_node 
         level_of(&l)->set = design_changes_texts(change_of(&l), r->arena);
     }
     find_twice(r, f, false, same_label);
+    if (factor->drawn) design_made_choose(r, f);
 }
 
 /* The value of a key that is a factor is what its levels say: another factor must not change it. */
@@ -519,7 +534,7 @@ static void keys_once(const struct design_reading *r, int f, int other)
 {
     const struct design_factor *g = &r->design->factors[other];
     size_t n = strlen(r->design->factors[f].name);
-    for (int i = 0; i < g->n_levels; i++)
+    for (int i = 0; r->texts->levels[other] && i < g->n_levels; i++)
         for (int k = 0; k < r->texts->levels[other][i].n; k++) {
             struct yaml_node *const *path = r->texts->levels[other][i].keys[k].path;
             if (!*g->levels[i].label || strncmp(g->levels[i].set[k], r->design->factors[f].name, n) != 0 ||
@@ -539,7 +554,9 @@ static void factors_read(struct design_reading *r, const struct yaml_node *map)
     int n = map && map->kind == YAML_MAP ? map->n : 0;
     r->design->factors = ARENA_TAKE(r->arena, struct design_factor, n + 1);
     r->texts->levels = ARENA_TAKE(r->arena, struct design_change *, n + 1);
+    r->texts->made = ARENA_TAKE(r->arena, struct design_made, n + 1);
     r->factors = ARENA_TAKE(r->arena, const struct yaml_node *, n + 1);
+    r->drawn = ARENA_TAKE(r->arena, const int *, n + 1);
     if (map && map->kind != YAML_MAP)
         design_reading_must(r, map, "factors", "a map of factors with their levels",
                             "write for instance: factors: {motion.rate: [1 Hz, 2 Hz]}");
@@ -548,6 +565,15 @@ static void factors_read(struct design_reading *r, const struct yaml_node *map)
     for (int f = 0; f < n; f++)
         for (int g = 0; g < n; g++)
             if (f != g) keys_once(r, f, g);
+    bool drawn = false;
+    for (int f = 0; f < n; f++)
+        drawn = drawn || r->design->factors[f].drawn;
+    if (r->design->samples && !drawn)
+        diag_add(
+            r->yaml->diag, design_reading_value(r, "samples")->key->at,
+            "write a rule for a factor: motion.rate: {uniform: [1 Hz, 4 Hz]}; the same stimulus with other noise is "
+            "asked for by replicates",
+            "samples is given, and no factor is drawn");
 }
 
 /* ------------------------------------------------------------------ bases */
@@ -560,7 +586,7 @@ static void bases_check(const struct design_reading *r)
     for (int f = 0; f < r->design->n_factors; f++) {
         int n = 0;
         bool every = true;
-        for (int i = 0; i < r->design->factors[f].n_levels; i++)
+        for (int i = 0; i < r->design->factors[f].n_levels && r->texts->levels[f]; i++)
             if (r->texts->levels[f][i].base) {
                 one = r->texts->levels[f][i].base;
                 n++;
@@ -587,6 +613,7 @@ void design_factors_read(struct design_reading *r)
     r->design->base = base && base->kind == YAML_SCALAR ? scene_merge_path(r->yaml, base->at.source, base->text) : NULL;
     if (set) design_changes_map(r, &r->texts->set, set);
     r->design->set = design_changes_texts(&r->texts->set, r->arena);
+    design_made_table(r);
     factors_read(r, design_reading_value(r, "factors"));
     bases_check(r);
     for (int f = 0; f < r->design->n_factors; f++) {

@@ -94,6 +94,7 @@ static const char *called(const struct design_reading *r, const struct design_st
     const char *labels = design_reading_labels(r->design, s->level, r->arena);
     if (s->recording) return arena_format(r->arena, "the recording %s", s->recording);
     labels = *labels ? labels : "the scene";
+    if (s->sample) labels = arena_format(r->arena, "%s, sample %d", labels, s->sample);
     return r->design->replicates > 1 ? arena_format(r->arena, "%s, replicate %d", labels, s->replicate) : labels;
 }
 
@@ -102,6 +103,7 @@ static const char *difference(const struct design_reading *r, const struct desig
                               const struct design_stimulus *b)
 {
     if (a->recording || b->recording) return "give the recording a name: of its own";
+    if (a->sample != b->sample) return "put {sample} into name:";
     for (int f = 0; f < r->design->n_factors; f++)
         if (a->level[f] != b->level[f])
             return yaml_get(r->root, "name")
@@ -175,7 +177,8 @@ static void clashes(const struct design_reading *r)
 
 enum { NAME_MAX_BYTES = 1000 };
 
-enum { FIELD_TEXT = -1, FIELD_REPLICATE = -2, FIELD_ORDER = -3, FIELD_CELL = -4 };
+enum { FIELD_TEXT = -1, FIELD_REPLICATE = -2, FIELD_ORDER = -3, FIELD_CELL = -4, FIELD_SAMPLE = -5 };
+enum { SAMPLE_DIGITS = 6 /* of all numbers: more samples change no name */ };
 
 struct piece {        /* of a template */
     int field;        /* a factor, or one of FIELD_ */
@@ -191,7 +194,7 @@ struct design_template {
 struct names {
     struct design_reading *r;
     const char ***labels; /* [n_factors][n_levels], as names have them */
-    int width[3];         /* digits of replicate, order, cell          */
+    int width[4];         /* digits of replicate, order, cell, sample  */
 };
 
 /* ------------------------------------------------------------------ labels */
@@ -226,10 +229,10 @@ static const char *label_name(const char *label, struct arena *a)
 
 static int field_of(const struct design_reading *r, const struct yaml_node *node, const char *word)
 {
-    static const char *const own[] = {"replicate", "order", "cell"};
-    for (int i = 0; i < 3; i++)
+    static const char *const own[] = {"replicate", "order", "cell", "sample"};
+    for (int i = 0; i < 3 + (r->design->samples > 0); i++)
         if (strcmp(word, own[i]) == 0) return FIELD_REPLICATE - i;
-    const char **names = ARENA_TAKE(r->arena, const char *, r->design->n_factors + 4);
+    const char **names = ARENA_TAKE(r->arena, const char *, r->design->n_factors + 5);
     for (int f = 0; f < r->design->n_factors; f++) {
         if (strcmp(word, r->design->factors[f].name) == 0) return f;
         names[f] = r->design->factors[f].name;
@@ -294,7 +297,7 @@ static const char *expanded(const struct names *x, const struct design_template 
     char name[NAME_MAX_BYTES + 2], digits[24];
     size_t n = 0, room = sizeof name - 1;
     const struct design_stimulus *s = &x->r->design->stimuli[i];
-    const long numbers[3] = {s->replicate, i + 1, s->cell + 1};
+    const long numbers[4] = {s->replicate, i + 1, s->cell + 1, s->sample};
     for (int k = 0; k < t->n && n < room; k++) {
         int field = t->pieces[k].field;
         const char *text = field == FIELD_TEXT   ? t->pieces[k].text
@@ -328,15 +331,18 @@ void design_names_make(struct design_reading *r)
     int errors = r->yaml->diag->n;
     struct names x = {.r = r};
     struct design_template t = *r->template;
-    if (!t.node) { /* all factors, and the replicate where there are several; without either the name of the base */
+    if (!t.node) { /* all factors that are listed, the sample, the replicate; without any the name of the base */
         const char *text = d->n_factors ? "" : label_name(relpath_stem(d->base, r->arena), r->arena);
         for (int f = 0; f < d->n_factors; f++)
-            text = arena_format(r->arena, "%s%s{%s}", text, f ? "_" : "", d->factors[f].name);
+            if (!d->factors[f].drawn)
+                text = arena_format(r->arena, "%s%s{%s}", text, *text ? "_" : "", d->factors[f].name);
+        if (d->samples) text = arena_format(r->arena, "%s%ss{sample}", text, *text ? "/" : "");
         t = template_of(r, r->root, arena_format(r->arena, "%s%s", text, d->replicates > 1 ? "_r{replicate}" : ""));
     }
     const long most[3] = {d->replicates, d->n_stimuli, r->n_cells};
     for (int k = 0; k < 3; k++)
         x.width[k] = snprintf(NULL, 0, "%ld", most[k]);
+    x.width[3] = SAMPLE_DIGITS;
     x.labels = ARENA_TAKE(r->arena, const char **, d->n_factors + 1);
     for (int f = 0; f < d->n_factors; f++) {
         x.labels[f] = ARENA_TAKE(r->arena, const char *, d->factors[f].n_levels);

@@ -1,22 +1,24 @@
-/* The cells of a design, crossed or listed, without those that are excluded, and the recordings; stimuli from cells:
-   replicates, noise seeds, the order of presentation.
+/* The cells of a design, crossed or listed, each once for each sample, without those that are excluded, and the
+   recordings; stimuli from cells: replicates, noise seeds, the order of presentation.
 
    The seed of a stimulus is the first 8 bytes (big-endian) of the SHA-256 of the text
-       rasp design seed\0 SEED \0 REPLICATE \0 FACTOR \0 LABEL \0 ...
-   with the factors whose levels are to be independent, in the order of their names (by bytes): it depends on nothing
-   else, so that a level, a factor or a replicate more changes no other stimulus. Shuffling sorts by such a hash of the
-   order's seed and all labels, for the same reason: what is added comes between, and the others keep their order. */
+       rasp design seed\0 SEED \0 REPLICATE \0 sample\0 NUMBER \0 FACTOR \0 LABEL \0 ...
+   with the sample, unless samples share their noise, and the factors whose levels are to be independent, in the order
+   of their names (by bytes): it depends on nothing else, so that a level, a factor, a sample or a replicate more
+   changes no other stimulus. Shuffling sorts by such a hash of the order's seed and all labels, for the same reason:
+   what is added comes between, and the others keep their order. */
 #include "batch/design_reading.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "file/csv.h"
 #include "scene/scene_merge.h"
 
 /* ------------------------------------------------------------------ cells */
 
-enum { MATCHES = 1000 };
+enum { MATCHES = 1000, TABLE_ERRORS = 20 /* of the rows of a table that are told */ };
 
 /* ------------------------------------------------------------------ crossing */
 
@@ -51,21 +53,34 @@ bool design_rows_match(const struct design *d, const int *level, struct design_m
     return any;
 }
 
+/* Of the cell with these levels, but for those that are drawn, each sample, unless it is excluded. */
+static void samples_add(struct design_reading *r, const int *level, const struct yaml_node *entry,
+                        struct design_match *all, int n)
+{
+    const struct design *d = r->design;
+    int most = d->samples ? d->samples : 1, *levels = ARENA_TAKE(r->arena, int, (long)most * d->n_factors + 1);
+    for (int k = 0; k < most; k++) {
+        for (int f = 0; f < d->n_factors; f++)
+            levels[f] = d->factors[f].drawn ? r->drawn[f][k] : level[f];
+        if (design_rows_match(d, levels, all, n)) continue;
+        *cell_add(r) = (struct design_cell){.level = levels, .sample = d->samples ? k + 1 : 0, .entry = entry};
+        levels += d->n_factors;
+    }
+}
+
 /* The first factor is the slowest. */
 static void cells_cross(struct design_reading *r, const struct crossing *factors, struct design_match *all, int n)
 {
     const struct design *d = r->design;
     long most = (long)crossed(d, factors);
-    int *levels = ARENA_TAKE(r->arena, int, most * d->n_factors + 1);
+    int *levels = ARENA_TAKE(r->arena, int, d->n_factors + 1);
     for (long i = 0; i < most; i++) {
         long cell = i;
         for (int f = d->n_factors - 1; f >= 0; f--) {
             levels[f] = factors[f].level[cell % factors[f].n];
             cell /= factors[f].n;
         }
-        if (design_rows_match(d, levels, all, n)) continue;
-        *cell_add(r) = (struct design_cell){.level = levels};
-        levels += d->n_factors;
+        samples_add(r, levels, NULL, all, n);
     }
 }
 
@@ -102,14 +117,17 @@ static void cells_list(struct design_reading *r, const struct yaml_node *list, s
 {
     static const char *const own[] = {NULL};
     int errors = r->yaml->diag->n;
-    if (!is_list(r, list, "cells", "write for instance: cells: [{material: wood, motion.rate: 1 Hz}]")) return;
+    if (!is_list(r, list, "cells", "write cells: [{material: wood, motion.rate: 1 Hz}], or cells: FILE.csv")) return;
     for (const struct yaml_node *entry = list->first; entry; entry = entry->next) {
         if (entry->kind != YAML_MAP) continue;
         int *level = entry_levels(r, entry, own);
         for (int f = 0; f < r->design->n_factors; f++) {
             const struct design_factor *factor = &r->design->factors[f];
             const struct yaml_node *given = yaml_get(entry, factor->name);
-            if (!given)
+            if (factor->drawn && given)
+                diag_add(r->yaml->diag, given->key->at, "leave it out: each cell has every sample", "%s is drawn",
+                         factor->name);
+            else if (!given && !factor->drawn)
                 diag_add(r->yaml->diag, entry->at, "name a level of every factor", "this cell says nothing of %s",
                          factor->name);
             else if (level[f] >= 0 && factor->levels[level[f]].recorded)
@@ -117,8 +135,31 @@ static void cells_list(struct design_reading *r, const struct yaml_node *list, s
                          "'%s' of %s is a level that only recordings have",
                          diag_shown(r->yaml->diag, factor->levels[level[f]].label), factor->name);
         }
-        if (r->yaml->diag->n == errors && !design_rows_match(r->design, level, all, n))
-            *cell_add(r) = (struct design_cell){.level = level, .entry = entry};
+        if (r->yaml->diag->n == errors) samples_add(r, level, entry, all, n);
+    }
+}
+
+/* Of cells: FILE.csv */
+static void cells_table(struct design_reading *r, struct design_match *all, int n)
+{
+    const struct design *d = r->design;
+    const struct csv *t = r->table;
+    const struct diag_place head = {r->table_source, 0, 0, 0};
+    int errors = r->yaml->diag->n, *level = ARENA_TAKE(r->arena, int, d->n_factors + 1);
+    for (size_t c = 0; c < t->columns; c++)
+        design_reading_factor(r, &(struct yaml_node){.kind = YAML_SCALAR, .at = head, .text = t->names[c]});
+    for (int f = 0; f < d->n_factors; f++)
+        if ((csv_column(t, d->factors[f].name) >= 0) == d->factors[f].drawn)
+            diag_add(r->yaml->diag, head,
+                     d->factors[f].drawn ? "take the column out, or let its factor be: cells"
+                                         : "add the column, with a level in each row",
+                     d->factors[f].drawn ? "%s is drawn: it cannot be a column" : "there is no column %s",
+                     d->factors[f].name);
+    if (t->rows == 0) diag_add(r->yaml->diag, head, "write a row for each cell", "the table of cells has no rows");
+    for (size_t row = 0; row < t->rows && r->yaml->diag->n < errors + TABLE_ERRORS; row++) {
+        int before = r->yaml->diag->n;
+        if (r->yaml->diag->n == errors || row < TABLE_ERRORS) design_made_row(r, row, level);
+        if (before == errors && r->yaml->diag->n == errors) samples_add(r, level, NULL, all, n);
     }
 }
 
@@ -179,7 +220,8 @@ static void recordings_add(struct design_reading *r, const struct yaml_node *lis
         else if (file->kind != YAML_SCALAR || !*file->text)
             design_reading_must(r, file, "file", "the name of a WAV", cure);
         else
-            *cell_add(r) = (struct design_cell){level, entry, scene_merge_path(r->yaml, file->at.source, file->text)};
+            *cell_add(r) = (struct design_cell){
+                .level = level, .entry = entry, .recording = scene_merge_path(r->yaml, file->at.source, file->text)};
     }
 }
 
@@ -188,13 +230,12 @@ static void recorded_check(const struct design_reading *r)
 {
     for (int f = 0; f < r->design->n_factors; f++) {
         const struct design_factor *factor = &r->design->factors[f];
-        const struct yaml_node *item = r->factors[f]->first;
         bool *used = ARENA_TAKE(r->arena, bool, factor->n_levels + 1);
         for (long c = 0; c < r->n_cells; c++)
             if (r->cells[c].level[f] >= 0) used[r->cells[c].level[f]] = true;
-        for (int i = 0; i < factor->n_levels; i++, item = item->next)
+        for (int i = 0; i < factor->n_levels; i++)
             if (factor->levels[i].recorded && !used[i])
-                diag_add(r->yaml->diag, item->at,
+                diag_add(r->yaml->diag, design_reading_item(r, f, i)->at,
                          arena_format(r->arena,
                                       "give it to one: recordings: [{file: recorded.wav, %s: %s}]; or remove it",
                                       factor->name, factor->levels[i].label),
@@ -210,21 +251,27 @@ void design_rows_cells(struct design_reading *r)
                            *recordings = design_reading_value(r, "recordings");
     int n, errors = r->yaml->diag->n;
     struct design_match *all = design_rows_matches(r, design_reading_value(r, "exclude"), "exclude", &n);
+    int samples = r->design->samples ? r->design->samples : 1;
     struct crossing *levels = ARENA_TAKE(r->arena, struct crossing, r->design->n_factors + 1);
     for (int f = 0; f < r->design->n_factors; f++) {
         const struct design_factor *factor = &r->design->factors[f];
         levels[f].level = ARENA_TAKE(r->arena, int, factor->n_levels + 1);
         for (int i = 0; i < factor->n_levels; i++)
-            if (!factor->levels[i].recorded) levels[f].level[levels[f].n++] = i;
+            if (!factor->levels[i].recorded && (i == 0 || !factor->drawn)) levels[f].level[levels[f].n++] = i;
     }
     const struct yaml_node *at = cells ? cells : design_reading_value(r, "factors");
-    double stimuli = (cells ? cells->n : crossed(r->design, levels)) * r->design->replicates;
+    double stimuli = (r->table ? (double)r->table->rows
+                      : cells  ? cells->n
+                               : crossed(r->design, levels)) *
+                     samples * r->design->replicates;
     if (stimuli > DESIGN_READING_CELLS) {
         diag_add(r->yaml->diag, at ? at->at : r->root->at, "make several designs of it",
                  "this makes %.0f stimuli; a design has at most %d", stimuli, DESIGN_READING_CELLS);
         return;
     }
-    if (cells)
+    if (r->table)
+        cells_table(r, all, n);
+    else if (cells)
         cells_list(r, cells, all, n);
     else if (r->yaml->diag->n == errors)
         cells_cross(r, levels, all, n);
@@ -301,6 +348,7 @@ static void shuffle(struct design_reading *r, const struct design_factor *const 
         hash_text(&x, "rasp design order");
         add_number(&x, d->order_seed);
         add_number(&x, (uint64_t)s->replicate);
+        if (s->sample) add_number(&x, (uint64_t)s->sample);
         hash_text(&x, file ? file->text : "");
         add_labels(&x, d, factors, s->level, false);
         all[i] = (struct ranked){*s, first_64_bits(&x)};
@@ -322,13 +370,17 @@ void design_rows_stimuli(struct design_reading *r)
         const struct design_cell *cell = &r->cells[c];
         for (int k = 1; k <= (cell->recording ? 1 : d->replicates); k++) {
             struct design_stimulus *s = &d->stimuli[d->n_stimuli++];
-            *s =
-                (struct design_stimulus){.level = cell->level, .replicate = k, .cell = c, .recording = cell->recording};
+            *s = (struct design_stimulus){
+                .level = cell->level, .replicate = k, .sample = cell->sample, .cell = c, .recording = cell->recording};
             if (cell->recording) continue;
             struct hash x = hash_start();
             hash_text(&x, "rasp design seed");
             add_number(&x, d->seed);
             add_number(&x, (uint64_t)k);
+            if (cell->sample && d->samples_independent) {
+                hash_text(&x, "sample");
+                add_number(&x, (uint64_t)cell->sample);
+            }
             add_labels(&x, d, factors, s->level, true);
             s->seed = first_64_bits(&x);
         }
@@ -367,7 +419,7 @@ void design_rows_hash(struct design_reading *r)
         for (int i = 0; i < d->factors[f].n_levels; i++) {
             hash_text(&x, d->factors[f].levels[i].label);
             hash_text(&x, d->factors[f].levels[i].text ? d->factors[f].levels[i].text : "");
-            add_change(&x, &r->texts->levels[f][i], d->factors[f].levels[i].set);
+            if (r->texts->levels[f]) add_change(&x, &r->texts->levels[f][i], d->factors[f].levels[i].set);
         }
     }
     for (const struct design_stimulus *s = d->stimuli; s < d->stimuli + d->n_stimuli; s++) {
@@ -377,6 +429,7 @@ void design_rows_hash(struct design_reading *r)
         for (int f = 0; f < d->n_factors; f++)
             add_number(&x, (uint64_t)(s->level[f] + 1));
         add_number(&x, (uint64_t)s->replicate);
+        if (s->sample) add_number(&x, (uint64_t)s->sample);
         add_number(&x, (uint64_t)s->cell);
         add_number(&x, s->seed);
         if (own) hash_text(&x, own->text);

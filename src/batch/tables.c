@@ -127,6 +127,7 @@ static const char *status(const struct cell *c)
 
 static double row(const struct cell *c) { return c->row + 1; }
 static double replicate(const struct cell *c) { return row_of(c)->recording ? (double)NAN : row_of(c)->replicate; }
+static double sample(const struct cell *c) { return row_of(c)->sample ? row_of(c)->sample : (double)NAN; }
 static double rate(const struct cell *c) { return c->record ? c->record->rate : NAN; }
 static double channels(const struct cell *c) { return SOUND(c, channels); }
 static double frames(const struct cell *c) { return c->record ? (double)c->record->frames : NAN; }
@@ -157,12 +158,15 @@ static const struct column columns[] = {
      NULL, scene_sha256, NULL},
     {"*", NULL, NULL, NULL, NULL, NULL},
     {"text", "Text", "what the stimulus is, in words for those who listen", NULL, text, NULL},
+    {"sample", "Sample",
+     "number of the sample, from 1: cells of one sample share all values that are drawn; n/a where none is", NULL, NULL,
+     sample},
     {"replicate", "Replicate",
      "number of the replicate, from 1: replicates differ in their noise alone; n/a of a recording", NULL, NULL,
      replicate},
     {"seed", "Noise seed",
-     "seed of the scene's noise, 64 bits: stimuli of one replicate share it, but for factors that the design calls "
-     "independent",
+     "seed of the scene's noise, 64 bits: stimuli of one replicate share it, but for samples and factors that are "
+     "independent by the design",
      NULL, seed, NULL},
     {"recording", "Recording", "the supplied WAV that this stimulus was made from; n/a of what is rendered", NULL,
      recording, NULL},
@@ -288,13 +292,13 @@ static json_t *dictionary(const struct design *d)
                 json_pack("{s:s, s:s, s:s*}", "LongName", c->title, "Description", c->meaning, "Units", c->unit));
         for (int k = 0; !strcmp(c->name, "*") && k < d->n_factors; k++) {
             const struct design_factor *f = &d->factors[k];
-            json_t *levels = json_object();
-            for (const struct design_level *l = f->levels; l < f->levels + f->n_levels; l++)
+            json_t *levels = f->rule ? NULL : json_object();
+            for (const struct design_level *l = f->levels; levels && l < f->levels + f->n_levels; l++)
                 json_object_set_new(levels, l->value, json_string(l->text ? l->text : l->label));
             json_object_set_new(j, f->column,
-                                json_pack("{s:s, s:s, s:s*, s:o}", "LongName", f->name, "Description",
-                                          f->meaning ? f->meaning : "a factor of the design", "Units", f->unit,
-                                          "Levels", levels));
+                                json_pack("{s:s, s:s, s:s*, s:s*, s:o*}", "LongName", f->name, "Description",
+                                          f->meaning ? f->meaning : "a factor of the design", "Units", f->unit, "Drawn",
+                                          f->rule, "Levels", levels));
         }
     }
     return j;

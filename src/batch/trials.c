@@ -9,7 +9,7 @@
 
 /* ------------------------------------------------------------------ which stimuli are presented together */
 
-/* By all factors but those within, the first the slowest; training; replicate. */
+/* By all factors but those within, the first the slowest; training; sample; replicate. */
 static int group_order(const struct design *d, int i, int j)
 {
     const struct design_stimulus *p = &d->stimuli[i], *q = &d->stimuli[j];
@@ -17,7 +17,8 @@ static int group_order(const struct design *d, int i, int j)
     for (int f = 0; f < d->n_factors; f++)
         if (!t->within[f] && p->level[f] != q->level[f]) return p->level[f] - q->level[f];
     int training = t->for_training[i] - t->for_training[j];
-    return training ? training : p->replicate - q->replicate;
+    if (training) return training;
+    return p->sample != q->sample ? p->sample - q->sample : p->replicate - q->replicate;
 }
 
 static int by_group(const void *pi, const void *pj, void *design)

@@ -148,7 +148,9 @@ static bool report_json(const struct batch_ask *ask, const struct batch_report *
         report_set(&r, ":{ row:i name:s factors:{", i + 1, s->name);
         for (int f = 0; f < d->n_factors; f++)
             report_set(&r, "$:s", d->factors[f].name, s->level[f] < 0 ? NULL : design_label(d, i, f));
-        report_set(&r, "} replicate:c seed:s recording:v length_s:n", s->recording ? -1L : (long)s->replicate,
+        report_set(&r, "}");
+        if (d->samples) report_set(&r, "sample:i", s->sample);
+        report_set(&r, "replicate:c seed:s recording:v length_s:n", s->recording ? -1L : (long)s->replicate,
                    s->recording ? NULL : seed, s->recording, b->set.lengths[i]);
         if (b->states) report_set(&r, "state:s", stimulus_states[b->states[i]]);
         report_set(&r, "}");

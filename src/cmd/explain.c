@@ -285,10 +285,15 @@ static json_t *factors(struct arena *a)
     json_object_set_new(level, "required", json_pack("[s]", "label"));
     json_t *levels = list(json_pack("{s:[{s:[s, s, s]}, o]}", "anyOf", "type", "string", "number", "boolean", level), 1,
                           1000000, NULL);
+    json_t *rules = json_pack("{s:O, s:o}", "choose", levels, "within", list(plain("text", NULL), 2, 2, NULL));
+    for (const char *const *rule = (const char *const[]){"uniform", "log_uniform", "normal", NULL}; *rule; rule++)
+        json_object_set_new(rules, *rule, list(plain("text", NULL), 2, 2, NULL));
     json_t *o = plain(
         "object",
-        "factors, crossed, the first slowest: a dotted key with values, or a word with levels {label, set, base}");
-    json_object_set_new(o, "additionalProperties", levels);
+        "factors, crossed, the first slowest: a dotted key with values, or a word with levels {label, set, base}; or "
+        "one rule to draw samples by; or cells, as the table of cells has them");
+    json_object_set_new(o, "additionalProperties",
+                        json_pack("{s:[o, {s:[s]}, o]}", "anyOf", levels, "enum", "cells", map(rules, NULL)));
     json_t *keys = json_array(); /* or a word, or what contacts have */
     for (const char **names = keys_text_names(a); *names; names++)
         if (strchr(*names, '.')) json_array_append_new(keys, json_string(*names));
@@ -378,7 +383,10 @@ static json_t *schema_design(struct arena *a)
               json_pack("{s:[o, o]}", "anyOf", plain("text", NULL), list(plain("text", NULL), 0, 1000000, NULL)),
               "cells that are left out: those that match all pairs of FACTOR: LABEL, or one of its LABELS"));
     json_object_set_new(
-        all, "cells", cells(json_object(), plain("text", NULL), "the cells, listed, in place of crossing the factors"));
+        all, "cells",
+        json_pack("{s:[o, o], s:s}", "anyOf", cells(json_object(), plain("text", NULL), NULL), plain("text", NULL),
+                  "description",
+                  "the cells, listed, in place of crossing the factors; or a CSV with a column for each factor"));
     json_object_set_new(all, "recordings",
                         cells(json_pack("{s:o, s:o}", "file", plain("text", "a WAV"), "name", plain("text", NULL)),
                               plain("text", NULL), "supplied sounds as cells of their own"));
@@ -389,10 +397,15 @@ static json_t *schema_design(struct arena *a)
     json_object_set_new(all, "replicates",
                         described(quantity(KEY_NONE, 1, 1000000, true, NULL, a),
                                   "takes of each cell, which differ in their noise; default: 1"));
+    json_object_set_new(all, "samples",
+                        described(quantity(KEY_NONE, 1, 1000000, true, NULL, a),
+                                  "how many samples there are of each cell, where factors are drawn"));
     json_object_set_new(all, "independent",
-                        list(plain("text", NULL), 0, 1000, "factors whose levels have noise of their own"));
+                        list(plain("text", NULL), 0, 1000,
+                             "factors whose levels have noise of their own, and sample; default: [sample]"));
     json_object_set_new(
-        all, "name", plain("text", "names of files: {FACTOR}, {replicate}, {order}, {cell} between other characters"));
+        all, "name",
+        plain("text", "names of files: {FACTOR}, {replicate}, {sample}, {order}, {cell} between other characters"));
     json_object_set_new(all, "level", level(a));
     json_object_set_new(
         all, "length",

@@ -129,7 +129,9 @@ static bool text_good(struct yaml *y, const struct diag_source *s)
     struct diag_place at = {s, 1, 1, 1}, whole = {s, 0, 0, 0};
     bool other = s->size >= 2 && (memcmp(s->text, "\xff\xfe", 2) == 0 || memcmp(s->text, "\xfe\xff", 2) == 0);
     if (s->size > SIZE_MAX_BYTES)
-        return diag_add(y->diag, whole, "is it a scene? measured data belong in files of their own",
+        return diag_add(y->diag, whole,
+                        "is it a scene? measured data, and the cells of a large design (cells: FILE.csv), belong in "
+                        "files of their own",
                         "larger than %d MiB", SIZE_MAX_BYTES >> 20);
     if (other) return diag_add(y->diag, whole, "save the file as UTF-8", "encoded as UTF-16 or UTF-32");
     for (size_t i = 0; i < s->size;) {
@@ -247,7 +249,9 @@ static struct yaml_node *node_new(struct parse *p, enum yaml_kind kind, struct d
                                   struct diag_place cause)
 {
     if (++p->y->nodes <= NODES_MAX) return yaml_make(p->y, kind, at, text);
-    diag_add(p->y->diag, cause, "a scene needs a few hundred; look for aliases (*name) of aliases",
+    diag_add(p->y->diag, cause,
+             "a scene needs a few hundred, and a design has many cells in a table (cells: FILE.csv); look for aliases "
+             "(*name) of aliases",
              "more than %d values after expanding aliases", NODES_MAX);
     return NULL;
 }

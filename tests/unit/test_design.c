@@ -469,8 +469,148 @@ START_TEST(what_is_a_design)
 }
 END_TEST
 
+/* Value k by the documented formula, with libm, to 4 digits. */
+static double drawn_by_hand(const char *rule, const char *factor, int k, double a, double b)
+{
+    char text[100], hex[HASH_TEXT], four[32];
+    int n = snprintf(text, sizeof text, "rasp sample%c1%c%s%c%d", 0, 0, factor, 0, k);
+    hash_bytes(text, (size_t)n + 1, hex);
+    hex[16] = '\0';
+    double u = (double)(strtoull(hex, NULL, 16) >> 11) * 0x1p-53;
+    snprintf(four, sizeof four, "%.3e", rule[0] == 'l' ? a * pow(b / a, u) : a + u * (b - a));
+    return strtod(four, NULL);
+}
+
+#define DRAWN                                                                                                          \
+    "factors:\n  material: [{label: wood}, {label: metal}]\n  motion.rate: {uniform: [1 Hz, 4 Hz]}\n"                  \
+    "  load.constant: {log_uniform: [0.1 N, 10 N]}\n"
+
+START_TEST(samples_are_the_documented_quantiles)
+{
+    arena = folder_make();
+    struct design d = made(DRAWN "samples: 50\nreplicates: 2\n");
+    ck_assert_int_eq(d.n_stimuli, 200);
+    ck_assert_str_eq(d.stimuli[0].name, "wood/s000001_r1");
+    ck_assert_str_eq(d.stimuli[199].name, "metal/s000050_r2");
+    ck_assert_str_eq(d.factors[1].column, "motion_rate_hz");
+    for (int i = 0; i < d.n_stimuli; i++) {
+        int k = d.stimuli[i].sample;
+        struct scene s;
+        const char *messages;
+        struct err e = {0};
+        ck_assert_int_eq(k, i / 2 % 50 + 1);
+        ck_assert_double_eq(strtod(design_value(&d, i, 1), NULL), drawn_by_hand("uniform", "motion.rate", k, 1, 4));
+        ck_assert_double_eq(strtod(design_label(&d, i, 2), NULL), drawn_by_hand("log", "load.constant", k, 0.1, 10));
+        folder_write("x.csv", "x");
+        ck_assert_msg(design_scene(&d, i, arena, &s, &messages, &e), "%s", messages);
+        ck_assert_double_eq(s.contacts[0].motion.rate, strtod(design_value(&d, i, 1), NULL));
+    }
+    ck_assert(d.stimuli[0].seed != d.stimuli[1].seed && d.stimuli[0].seed != d.stimuli[2].seed);
+    ck_assert(d.stimuli[0].seed == d.stimuli[100].seed); /* of the other material */
+    struct design common = made(DRAWN "samples: 50\nindependent: []\n");
+    ck_assert(common.stimuli[0].seed == common.stimuli[1].seed);
+    folder_remove();
+}
+END_TEST
+
+START_TEST(more_samples_change_none)
+{
+    arena = folder_make();
+    struct design few = made(DRAWN "samples: 7\n"),
+                  many = made(DRAWN "  scraper.mass: {normal: [20 g, 5 g], within: [5 g, 30 g]}\n  surface.response: "
+                                    "{choose: [a.csv, b.csv, c.csv]}\nsamples: 3000\norder: {seed: 4}\n");
+    int found = 0, chosen[3] = {0};
+    double sum = 0;
+    for (int j = 0; j < many.n_stimuli; j++) {
+        for (int i = 0; i < few.n_stimuli; i++) {
+            if (strcmp(few.stimuli[i].name, many.stimuli[j].name) != 0) continue;
+            found++;
+            ck_assert(few.stimuli[i].seed == many.stimuli[j].seed);
+            for (int f = 0; f < 3; f++)
+                ck_assert_str_eq(design_label(&few, i, f), design_label(&many, j, f));
+        }
+        double mass = strtod(design_value(&many, j, 3), NULL);
+        ck_assert(mass >= 5 && mass <= 30);
+        sum += mass / many.n_stimuli;
+        chosen[many.stimuli[j].level[4]]++;
+    }
+    ck_assert_int_eq(found, 14);
+    ck_assert_double_eq_tol(sum, 19.735, 0.25); /* 20 - 5 (phi(2) - phi(-3)) / (Phi(2) - Phi(-3)) */
+    for (int c = 0; c < 3; c++)
+        ck_assert(chosen[c] > 1840 && chosen[c] < 2160);
+    folder_remove();
+}
+END_TEST
+
+START_TEST(rules_that_cannot_be)
+{
+    static const char *const wrong[][2] = {
+        {"motion.rate: {uniform: [1 Hz, 400 Hz]}", "motion.rate must be from"},
+        {"motion.rate: {uniform: [4 Hz, 1 Hz]}", "uniform is empty: 4 Hz is not below 1 Hz"},
+        {"motion.rate: {uniform: [1 Hz, 2 kHz]}", "uniform has the units 'Hz' and 'kHz'"},
+        {"motion.rate: {uniform: [1 m, 2 m]}", "m is a unit of length"},
+        {"motion.rate: {uniform: [1 Hz, 2.00001 Hz]}", "at most 4 digits"},
+        {"motion.rate: {uniform: [1 Hz]}", "must be a list of two numbers"},
+        {"motion.rate: {unifrom: [1 Hz, 2 Hz]}", "did you mean 'uniform'?"},
+        {"motion.rate: {uniform: [1 Hz, 2 Hz], choose: [1 Hz]}", "or one rule to draw them by"},
+        {"motion.rate: {uniform: [1 Hz, 2 Hz], within: [1 Hz, 2 Hz]}", "within goes with normal"},
+        {"load.constant: {log_uniform: [0 N, 2 N]}", "log_uniform must be above 0"},
+        {"scraper.mass: {normal: [20 g, -5 g]}", "standard deviation must be above 0"},
+        {"scraper.mass: {normal: [20 g, 5 g]}", "scraper.mass must be from"},
+        {"scraper.mass: {normal: [20 g, 5 g], within: [9 g, 9 g]}", "within is empty"},
+        {"scraper.mass: {normal: [20 g, 1 g], within: [90 g, 99 g]}", "within is too far from the mean"},
+        {"motion.law: {uniform: [1, 2]}", "motion.law is no key of scenes whose value is any number"},
+        {"material: {normal: [1, 2]}", "material is no key of scenes whose value is any number"},
+        {"motion.rate: {choose: []}", "must be a list of one level or more"},
+        {"motion.rate: [1 Hz]", "samples is given, and no factor is drawn"},
+        {"motion.rate: cells", "has its levels from the table of cells, and there is none"},
+        {"sample: {choose: [{label: a}]}", "cannot be called so"}};
+    arena = folder_make();
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        char text[200];
+        snprintf(text, sizeof text, "factors: {%s}\nsamples: 5\n", wrong[i][0]);
+        refused(text, wrong[i][1]);
+    }
+    refused("factors: {motion.rate: {uniform: [1 Hz, 2 Hz]}}\n", "samples does not say how often");
+    refused("factors: {motion.rate: {uniform: [1 Hz, 2 Hz]}}\nsamples: 0\n", "samples must be a whole number");
+    refused("factors: {motion.rate: {uniform: [1 Hz, 2 Hz]}}\nsamples: 5\nreplicates: 200001\n", "1000005 stimuli");
+    folder_remove();
+}
+END_TEST
+
+START_TEST(cells_of_a_table)
+{
+    arena = folder_make();
+    folder_write("rows.csv",
+                 "load.constant,material,motion.rate\n0.5 N,metal,2 Hz\n\"0.25 N\",dark wood,1 Hz\n0.5 N,metal,1 Hz\n");
+    struct design d =
+        made(TWO "  load.constant: cells\n  scraper.mass: {uniform: [10 g, 20 g]}\ncells: rows.csv\nsamples: 2\n"
+                 "exclude: [{motion.rate: 1 Hz, material: metal}]\n");
+    names_are(&d,
+              "2Hz_metal_0.5N/s000001 2Hz_metal_0.5N/s000002 1Hz_dark_wood_0.25N/s000001 1Hz_dark_wood_0.25N/s000002");
+    ck_assert_str_eq(d.factors[2].column, "load_constant_n");
+    ck_assert_str_eq(design_value(&d, 2, 2), "0.25");
+    ck_assert_int_eq(d.factors[2].n_levels, 2);
+    ck_assert_str_eq(d.sources[1], folder_path("rows.csv"));
+#define TABLE TWO "  load.constant: cells\ncells: rows.csv\n"
+    folder_write("rows.csv", "load.constant,material,motion.rate\n0.5 N,metal,2 Hz\n5 kg,metal,2 Hz\n,metal,2 Hz\n");
+    refused(TABLE, "rows.csv:3:1: error: load.constant needs a force; kg is a unit of mass");
+    refused(TABLE, "rows.csv:4:1: error: load.constant is empty here");
+    folder_write("rows.csv", "load.constant,material,motion.raet\n0.5 N,metla,2 Hz\n");
+    refused(TABLE, "no factor 'motion.raet'");
+    refused(TABLE, "there is no column motion.rate");
+    refused(TABLE, "rows.csv:2:1: error: 'metla' is no level of material");
+    folder_write("rows.csv", "load.constant,material\n0.5 N,metal,2 Hz\n");
+    refused(TABLE, "rows.csv:2: 3 cells");
+    folder_write("rows.csv", "load.constant,material,motion.rate\n");
+    refused(TABLE, "has no rows");
+    folder_remove();
+}
+END_TEST
+
 UNIT("design", crossed_first_factor_slowest, names_are_padded, without_factors_the_base_gives_the_name, labels_in_names,
      excluded_cells_and_lists, recordings_are_cells, seeds_are_the_documented_hash, growing_changes_no_other_stimulus,
      order_is_deterministic, columns, rules, texts_of_trials, hash_is_of_the_meaning, scenes_are_laid_over,
      keys_of_contacts, errors_stand_in_the_design, threads_share_a_design, names_that_cannot_be, sizes_that_cannot_be,
-     what_is_a_design)
+     what_is_a_design, samples_are_the_documented_quantiles, more_samples_change_none, rules_that_cannot_be,
+     cells_of_a_table)
