@@ -203,7 +203,7 @@ static bool look_at_folder(struct batch *b, struct err *e)
     int shards = b->ask->missing, *to = ARENA_TAKE(b->arena, int, r->set.n);
     bool *lacks = ARENA_TAKE(b->arena, bool, shards + 1);
     if (shards) {
-        set_deal(&r->set, shards, to, b->arena);
+        set_deal(&r->set, shards, to);
         r->missing = "";
     }
     for (int i = 0; i < r->set.n; i++)
@@ -342,7 +342,7 @@ static bool run(const struct batch_ask *ask, struct file_cache *file_cache, stru
     r->mine = ARENA_TAKE(a, bool, r->set.n);
     b.now = ARENA_TAKE(a, int, r->set.n);
     b.slots = ARENA_TAKE(a, struct slot, r->set.n);
-    set_deal(&r->set, ask->shard.n, to, a);
+    set_deal(&r->set, ask->shard.n, to);
     for (int i = 0; i < r->set.n; i++)
         if ((r->mine[i] = to[i] == ask->shard.i)) b.now[b.n_now++] = i;
     r->n_mine = b.n_now;

@@ -226,7 +226,8 @@ static const struct measure *quantities(const struct design_factor *f, struct me
 
 static void values_make(const struct design_reading *r, struct design_factor *f)
 {
-    struct measure *q = ARENA_TAKE(r->arena, struct measure, f->n_levels + 1);
+    struct arena *all = arena_open();
+    struct measure *q = ARENA_TAKE(all, struct measure, f->n_levels + 1);
     bool same;
     const struct measure *first = quantities(f, q, &same);
     for (int i = 0; i < f->n_levels; i++) {
@@ -251,6 +252,7 @@ static void values_make(const struct design_reading *r, struct design_factor *f)
     }
     const char *unit = !first ? "" : same ? first->unit : keys_text_unit(first->dimension);
     f->unit = *unit ? unit : NULL;
+    arena_close(all);
 }
 
 struct sorted_level {
@@ -271,7 +273,8 @@ static void find_twice(const struct design_reading *r, int f, bool values,
                                     const struct yaml_node *item))
 {
     const struct design_factor *factor = &r->design->factors[f];
-    struct sorted_level *sorted = ARENA_TAKE(r->arena, struct sorted_level, factor->n_levels + 1);
+    struct arena *own = arena_open();
+    struct sorted_level *sorted = ARENA_TAKE(own, struct sorted_level, factor->n_levels + 1);
     for (int i = 0; i < factor->n_levels; i++)
         sorted[i] = (struct sorted_level){values ? factor->levels[i].value : factor->levels[i].label, i};
     qsort(sorted, (size_t)factor->n_levels, sizeof *sorted, by_text);
@@ -279,6 +282,7 @@ static void find_twice(const struct design_reading *r, int f, bool values,
         if (strcmp(sorted[i].text, sorted[i - 1].text) == 0)
             take(r, f, (const int[2]){sorted[i - 1].index, sorted[i].index},
                  design_reading_item(r, f, sorted[i].index));
+    arena_close(own);
 }
 
 /* 2 Hz and 2.0 Hz would be one in the manifest. */

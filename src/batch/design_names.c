@@ -343,19 +343,21 @@ void design_names_make(struct design_reading *r)
     for (int k = 0; k < 3; k++)
         x.width[k] = snprintf(NULL, 0, "%ld", most[k]);
     x.width[3] = SAMPLE_DIGITS;
-    x.labels = ARENA_TAKE(r->arena, const char **, d->n_factors + 1);
+    struct arena *own = arena_open();
+    x.labels = ARENA_TAKE(own, const char **, d->n_factors + 1);
     for (int f = 0; f < d->n_factors; f++) {
-        x.labels[f] = ARENA_TAKE(r->arena, const char *, d->factors[f].n_levels);
+        x.labels[f] = ARENA_TAKE(own, const char *, d->factors[f].n_levels);
         for (int i = 0; i < d->factors[f].n_levels; i++)
-            x.labels[f][i] = label_name(d->factors[f].levels[i].label, r->arena);
+            x.labels[f][i] = label_name(d->factors[f].levels[i].label, own);
     }
     for (int i = 0; i < d->n_stimuli && r->yaml->diag->n == errors; i++) {
         const struct design_cell *cell = &r->cells[d->stimuli[i].cell];
         const struct yaml_node *node = cell->recording ? yaml_get(cell->entry, "name") : NULL;
-        struct design_template own = node ? template_read(r, node) : t;
+        struct design_template named = node ? template_read(r, node) : t;
         d->stimuli[i].name = cell->recording && !node ? label_name(relpath_stem(cell->recording, r->arena), r->arena)
-                                                      : expanded(&x, &own, i);
+                                                      : expanded(&x, &named, i);
     }
+    arena_close(own);
     for (int i = 0; i < d->n_stimuli && r->yaml->diag->n == errors; i++) {
         const struct design_stimulus *s = &d->stimuli[i];
         const char *cure, *fault = name_fault(s->name, &cure);

@@ -578,9 +578,10 @@ static int by_hash(const void *a, const void *b)
     return strcmp(((const struct card *)a)->hash, ((const struct card *)b)->hash); /* names differ */
 }
 
-void set_deal(const struct set *s, int shards, int *to, struct arena *a)
+void set_deal(const struct set *s, int shards, int *to)
 {
-    struct card *cards = ARENA_TAKE(a, struct card, s->n);
+    struct arena *own = arena_open();
+    struct card *cards = ARENA_TAKE(own, struct card, s->n);
     for (int i = 0; i < s->n; i++) {
         const char *name = s->design->stimuli[i].name;
         hash_bytes(name, strlen(name), cards[i].hash);
@@ -589,6 +590,7 @@ void set_deal(const struct set *s, int shards, int *to, struct arena *a)
     qsort(cards, (size_t)s->n, sizeof *cards, by_hash);
     for (int i = 0; i < s->n; i++)
         to[cards[i].row] = i % shards + 1;
+    arena_close(own);
 }
 
 /* ------------------------------------------------------------------ the common gain */

@@ -97,7 +97,7 @@ bool set_shard_read(const char *text, struct set_shard *s, struct err *e);
 
 /* to[i]: the shard of stimulus i, from 1. In the order of the names' hashes stimuli are dealt in turn: shards have
  * equal numbers, and a stimulus more moves few others. */
-void set_deal(const struct set *s, int shards, int *to, struct arena *a);
+void set_deal(const struct set *s, int shards, int *to);
 
 /* ------------------------------------------------------------------ the common gain */
 

@@ -127,6 +127,18 @@ static void rows_take(struct taken *t, const char *place)
     }
 }
 
+static long n_keys;
+static const struct key **deciders; /* [keys of the table] which of them decides; NULL: none */
+
+static const struct key *decider_find(const struct key *k)
+{
+    const char *name = k->applies ? k->applies + (k->applies[0] == '!') : "";
+    size_t n = strcspn(name, "=");
+    for (const struct key *other = all.table; n > 0 && other->path; other++)
+        if (other->path[0] == name[0] && strncmp(other->path, name, n) == 0 && !other->path[n]) return other;
+    return NULL;
+}
+
 static void tables_make(void)
 {
     enum { MOST = 400, RIVALS = 20 };
@@ -148,6 +160,10 @@ static void tables_make(void)
     assert(t.keys - table < MOST && t.sections - sections < MOST && r - rivals < RIVALS);
     t.keys->path = t.sections->path = r->paths[0] = NULL;
     all = (struct keys){table, sections, rivals};
+    deciders = memory_take(MOST * sizeof *deciders);
+    for (const struct key *k = table; k->path; k++)
+        deciders[k - table] = decider_find(k);
+    n_keys = t.keys - table;
 }
 
 const struct keys *keys_all(void)
@@ -216,11 +232,8 @@ const struct key *keys_find(const char *path)
 
 const struct key *keys_decider(const struct key *k)
 {
-    const char *name = k->applies ? k->applies + (k->applies[0] == '!') : "";
-    size_t n = strcspn(name, "=");
-    for (const struct key *other = keys_table; n > 0 && other->path; other++)
-        if (other->path[0] == name[0] && strncmp(other->path, name, n) == 0 && !other->path[n]) return other;
-    return NULL;
+    const struct key *table = keys_table; /* each scene that is read asks for all of them */
+    return k >= table && k < table + n_keys ? deciders[k - table] : decider_find(k);
 }
 
 const char *keys_words(const struct key *k)

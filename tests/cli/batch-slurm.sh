@@ -1,0 +1,45 @@
+# Seven parts by Slurm (scenes/designs/array.sbatch): one is killed and submitted again by itself, one is stopped and puts itself into the queue again; the set is
+# that of one run.
+# Long: see tests/run.sh.
+. "$ROOT/tests/cli/batch-make.inc"
+. "$ROOT/tests/lib/test.sh"
+. "$ROOT/tests/lib/slurm.sh"
+set -e
+sed 's/^seed/replicates: 7\nset: {motion.duration: 10 s, accuracy: standard}\nseed/; s/motion.duration: \[.*/scraper.mass: [10 g, 20 g]/' six.yaml > many.yaml
+rasp batch many.yaml -o ref -q
+trap slurm_stop EXIT
+slurm_start
+# first_of I: waits until a record of the part is there.
+first_of() {
+    local names
+    names=$(rasp batch many.yaml -n --json --shard "$1/7" | python3 -c 'import json, sys; print(*(x["name"] for x in json.load(sys.stdin)["list"]))')
+    for _ in {1..600}; do
+        for name in $names; do [ ! -e "out/$name.json" ] || return 0; done
+        sleep 0.05
+    done
+}
+# states JOB: of its tasks.
+states() { squeue -h -r -j "$1" -o %T 2> /dev/null | sort | uniq -c | tr -s '\n ' ' '; }
+wait_for() { for _ in {1..1200}; do [ -n "$(states "$1")" ] || return 0; sleep 0.1; done; states "$1"; }
+job=$(sbatch --parsable -o 'log.%a' "$ROOT/scenes/designs/array.sbatch" many.yaml out)
+first_of 1
+until grep -qs interrupted log.1; do scancel -s TERM "${job}_1" 2> /dev/null || true; sleep 0.5; done # as Slurm does before the time is over, or for a job that matters more
+first_of 4
+until [ -z "$(squeue -h -r -j "${job}_4" -t RUNNING)" ]; do scancel --full -s KILL "${job}_4" 2> /dev/null || true; sleep 0.2; done
+# A task that puts itself into the queue again is held back for two minutes: it is let go.
+for _ in {1..600}; do
+    [ "$(squeue -h -r -j "$job" -o %T | sort -u)" != PENDING ] || break
+    sleep 0.1
+done
+scontrol show job "${job}_1" | grep -o 'Restarts=1'
+scontrol update JobId="${job}_1" StartTime=now
+wait_for "$job"
+missing=$(rasp batch many.yaml -o out --missing 7)
+echo "missing: $missing"
+[ ! -e out/SHA256SUMS ] || fail "there are tables already"
+job=$(sbatch --parsable -o 'log.%a' --array="$missing" "$ROOT/scenes/designs/array.sbatch" many.yaml out)
+wait_for "$job"
+sbatch -W -o log.set --wrap 'rasp batch many.yaml -o out --no-render' > /dev/null
+sed 's/, in .*//' log.set
+cmp ref/SHA256SUMS out/SHA256SUMS && same ref out && echo "the same"
+finish
