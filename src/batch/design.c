@@ -478,8 +478,8 @@ void design_print(const struct design *d, const bool *mine, const char *const *s
 /* ------------------------------------------------------------------ the whole */
 
 static const char *const keys[] = {
-    "rasp-design", "title",   "text",        "base",  "seed", "set",   "factors", "exclude", "cells", "recordings",
-    "replicates",  "samples", "independent", "order", "name", "level", "length",  "trials",  NULL};
+    "rasp-design", "title",   "text",   "base",        "seed",  "set",  "factors", "exclude", "cells",  "recordings",
+    "replicates",  "samples", "splits", "independent", "order", "name", "level",   "length",  "trials", NULL};
 
 static void text_read(struct yaml *y, const struct diag_source *source, struct design *d)
 {

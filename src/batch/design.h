@@ -30,6 +30,7 @@ struct design_factor {
     const char *unit;    /* "Hz"; NULL: none, or words                                                    */
     const char *meaning; /* for the side-car; NULL: none                                                  */
     bool independent;    /* its levels take part in the noise seed                                        */
+    bool numbers;        /* all levels' values are */
     bool drawn;          /* each sample has a level of its own that is drawn                               */
     const char *rule;    /* of the levels that nobody wrote out, "uniform from 1 Hz to 4 Hz"; NULL: they are listed */
     struct design_level *levels;
@@ -37,13 +38,14 @@ struct design_factor {
 };
 
 struct design_stimulus {
-    const char *name; /* its files' name without ending: [0-9A-Za-z+_.-] and / for folders             */
-    int *level;       /* [n_factors]; -1: a recording that has no level of that factor                  */
-    int replicate;    /* from 1                                                                        */
-    int sample;       /* from 1; 0: nothing is drawn                                                   */
-    long cell;        /* from 0, in the order of the design (names count from 1); replicates of a cell share it */
-    uint64_t seed;    /* of its scene: a hash of the design's seed, the replicate, the sample, and independent factors'
+    const char *name;  /* its files' name without ending: [0-9A-Za-z+_.-] and / for folders             */
+    int *level;        /* [n_factors]; -1: a recording that has no level of that factor                  */
+    int replicate;     /* from 1                                                                        */
+    int sample;        /* from 1; 0: nothing is drawn                                                   */
+    long cell;         /* from 0, in the order of the design (names count from 1); replicates of a cell share it */
+    uint64_t seed;     /* of its scene: a hash of the design's seed, the replicate, the sample, and independent factors'
                          labels */
+    const char *split; /* "train"; NULL: the set is not divided */
     const char *recording; /* a WAV that is taken as it is; NULL: it is rendered                            */
 };
 
@@ -82,6 +84,7 @@ struct design {
     int replicates;
     int samples;              /* of each cell; 0: nothing is drawn                                           */
     bool samples_independent; /* the sample's number takes part in the noise seed                             */
+    const char **splits;      /* names of the parts that the set is divided into; ends with NULL. NULL: it is not */
     const char *text;         /* template of the stimuli's texts, "{motion} of a {scraper}." (YAML: text); NULL: none */
     struct design_stimulus *stimuli; /* in the order of presentation                                         */
     int n_stimuli;

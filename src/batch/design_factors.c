@@ -252,6 +252,7 @@ static void values_make(const struct design_reading *r, struct design_factor *f)
     }
     const char *unit = !first ? "" : same ? first->unit : keys_text_unit(first->dimension);
     f->unit = *unit ? unit : NULL;
+    f->numbers = first;
     arena_close(all);
 }
 

@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "file/csv.h"
 #include "scene/scene_merge.h"
 
@@ -358,6 +359,59 @@ static void shuffle(struct design_reading *r, const struct design_factor *const 
         d->stimuli[i] = all[i].stimulus;
 }
 
+/* ------------------------------------------------------------------ splits */
+
+static const char splits_cure[] = "write for instance: splits: {train: 8, validation: 1, test: 1}";
+
+/* The shares, by their names in design->splits. */
+static double *splits_read(struct design_reading *r)
+{
+    const struct yaml_node *map = design_reading_value(r, "splits");
+    double *shares = NULL;
+    if (!map) return NULL;
+    if (map->kind != YAML_MAP || map->n == 0) {
+        design_reading_must(r, map, "splits", "a map of names with shares", splits_cure);
+        return NULL;
+    }
+    shares = ARENA_TAKE(r->arena, double, map->n);
+    r->design->splits = ARENA_TAKE(r->arena, const char *, map->n + 1);
+    int n = 0;
+    for (const struct yaml_node *item = map->first; item; item = item->next) {
+        const char *name = item->key->text;
+        if (!*name || strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789_") != strlen(name))
+            diag_add(r->yaml->diag, item->key->at, splits_cure,
+                     "the name of a split must be of the letters a-z, digits and _, not '%s'",
+                     diag_shown(r->yaml->diag, name));
+        if (item->kind != YAML_SCALAR || !text_double(item->text, &shares[n]) || !(shares[n] > 0))
+            design_reading_must(r, item, name, "a share above 0", splits_cure);
+        r->design->splits[n++] = name;
+    }
+    return shares;
+}
+
+/* By the hash of the seed and the sample's number, or, where nothing is drawn, all labels: replicates, and cells of one
+   sample, stay together, and a stimulus more moves no other. */
+static const char *split_of(const struct design *d, const double *shares, const struct design_factor *const *factors,
+                            const struct design_stimulus *s, const char *file)
+{
+    struct hash x = hash_start();
+    double sum = 0;
+    int k = 0;
+    hash_text(&x, "rasp split");
+    add_number(&x, d->seed);
+    if (s->sample)
+        add_number(&x, (uint64_t)s->sample);
+    else
+        add_labels(&x, d, factors, s->level, false);
+    hash_text(&x, file);
+    for (int i = 0; d->splits[i]; i++)
+        sum += shares[i];
+    double at = sum * ((double)(first_64_bits(&x) >> 11) * 0x1p-53);
+    while (d->splits[k + 1] && at >= shares[k])
+        at -= shares[k++];
+    return d->splits[k];
+}
+
 void design_rows_stimuli(struct design_reading *r)
 {
     struct design *d = r->design;
@@ -385,6 +439,9 @@ void design_rows_stimuli(struct design_reading *r)
             s->seed = first_64_bits(&x);
         }
     }
+    const double *shares = splits_read(r);
+    for (struct design_stimulus *s = d->stimuli; shares && s < d->stimuli + d->n_stimuli; s++)
+        s->split = split_of(d, shares, factors, s, s->recording ? yaml_get(r->cells[s->cell].entry, "file")->text : "");
     if (d->shuffled) shuffle(r, factors);
 }
 

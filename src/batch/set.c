@@ -462,8 +462,9 @@ static void add_up(const struct planning *p)
 /* Nothing that the set writes is one of its inputs, or anybody's. */
 static bool spares(const struct planning *p, struct err *e)
 {
-    static const char *const own[] = {".json", ".wav", NULL}, *const tables[] = {"manifest.csv", "manifest.json",
-                                                                                 "SHA256SUMS", "timings.csv", NULL};
+    static const char *const own[] = {".json", ".wav", NULL}, *const tables[] = {"manifest.csv",  "manifest.jsonl",
+                                                                                 "manifest.json", "SHA256SUMS",
+                                                                                 "timings.csv",   NULL};
     const struct set *s = p->set;
     const struct design *d = s->design;
     const char *folder = p->ask->folder;

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/outfile.h"
+#include "base/text.h"
 #include "num/real.h"
 #include "scene/keys.h"
 
@@ -52,7 +53,7 @@ struct cell { /* what a column may be made from */
     const char *level;           /* set_level_text                  */
     const char *text;            /* of the trial; NULL: none        */
     char seed[24];
-    FILE *f;
+    FILE *f, *lines; /* the manifest as CSV, and as lines of JSON */
 };
 
 struct column {
@@ -127,6 +128,7 @@ static const char *status(const struct cell *c)
 
 static double row(const struct cell *c) { return c->row + 1; }
 static double replicate(const struct cell *c) { return row_of(c)->recording ? (double)NAN : row_of(c)->replicate; }
+static const char *split(const struct cell *c) { return row_of(c)->split; }
 static double sample(const struct cell *c) { return row_of(c)->sample ? row_of(c)->sample : (double)NAN; }
 static double rate(const struct cell *c) { return c->record ? c->record->rate : NAN; }
 static double channels(const struct cell *c) { return SOUND(c, channels); }
@@ -161,6 +163,8 @@ static const struct column columns[] = {
     {"sample", "Sample",
      "number of the sample, from 1: cells of one sample share all values that are drawn; n/a where none is", NULL, NULL,
      sample},
+    {"split", "Split", "part of the set, as for training and tests; n/a where the design has no splits", NULL, split,
+     NULL},
     {"replicate", "Replicate",
      "number of the replicate, from 1: replicates differ in their noise alone; n/a of a recording", NULL, NULL,
      replicate},
@@ -306,9 +310,10 @@ static json_t *dictionary(const struct design *d)
 
 /* ------------------------------------------------------------------ all tables */
 
-enum { MANIFEST, DICTIONARY, TIMINGS, SUMS, TABLES };
+enum { MANIFEST, LINES, DICTIONARY, TIMINGS, SUMS, TABLES };
 
-static const char *const names[TABLES] = {"manifest.csv", "manifest.json", "timings.csv", "SHA256SUMS"};
+static const char *const names[TABLES] = {"manifest.csv", "manifest.jsonl", "manifest.json", "timings.csv",
+                                          "SHA256SUMS"};
 
 struct writing {
     const struct tables *t;
@@ -318,24 +323,62 @@ struct writing {
     bool timings; /* they are written, too */
 };
 
-/* A row of the manifest; head: the columns' names. */
-static void put_row(const struct cell *cell, bool head)
+/* A cell of a row, of the CSV and as a member of its line of JSON. text NULL: a number. */
+static void put_cell(const struct cell *cell, const char *name, const char *text, double x, bool first)
 {
-    const struct design *d = cell->set->design;
+    if (!first) fputc(',', cell->f);
+    char shown[4096] = ""; /* a path in an error may be no UTF-8 */
+    json_t *j = text ? json_string(text) : NULL;
+    if (text && !j) {
+        text_show(text, shown, sizeof shown);
+        j = json_string(shown);
+    }
+    fprintf(cell->lines, "%s\"%s\": ", first ? "{" : ", ", name);
+    if (text)
+        tables_text(cell->f, text);
+    else
+        tables_number(cell->f, x);
+    if (text && strcmp(text, "n/a") != 0)
+        json_dumpf(j, cell->lines, JSON_ENCODE_ANY | JSON_ENSURE_ASCII);
+    else if (!text && isfinite(x))
+        tables_number(cell->lines, x);
+    else
+        fputs("null", cell->lines);
+    json_decref(j);
+}
+
+/* The column of a factor: numbers where all its levels are quantities. */
+static void put_factor(const struct cell *cell, int k, bool first)
+{
+    const struct design_factor *f = &cell->set->design->factors[k];
+    const char *value = design_value(cell->set->design, cell->row, k);
+    put_cell(cell, f->column, f->numbers && *value != 'n' ? NULL : value, strtod(value, NULL), first);
+}
+
+/* The row of a stimulus, in both manifests. */
+static void put_row(const struct cell *cell)
+{
+    const int n = cell->set->design->n_factors;
     for (const struct column *c = columns; c->name; c++) {
-        bool factors = !strcmp(c->name, "*");
-        const char *words = head ? c->name : c->text && !factors ? c->text(cell) : NULL;
-        if (c != columns && !factors) fputc(',', cell->f);
-        if (!factors && (head || c->text))
-            tables_text(cell->f, words ? words : "n/a");
-        else if (!factors)
-            tables_number(cell->f, c->number(cell));
-        for (int k = 0; factors && k < d->n_factors; k++) {
-            fputc(',', cell->f);
-            tables_text(cell->f, head ? d->factors[k].column : design_value(d, cell->row, k));
-        }
+        const char *words = c->text ? c->text(cell) : NULL;
+        if (strcmp(c->name, "*") != 0)
+            put_cell(cell, c->name, c->text && !words ? "n/a" : words, c->text ? 0 : c->number(cell), c == columns);
+        for (int k = 0; !strcmp(c->name, "*") && k < n; k++)
+            put_factor(cell, k, false);
     }
     fputc('\n', cell->f);
+    fputs("}\n", cell->lines);
+}
+
+/* The names of the columns. */
+static void put_head(const struct design *d, FILE *f)
+{
+    for (const struct column *c = columns; c->name; c++) {
+        if (strcmp(c->name, "*") != 0) fprintf(f, "%s%s", c == columns ? "" : ",", c->name);
+        for (int k = 0; !strcmp(c->name, "*") && k < d->n_factors; k++)
+            fprintf(f, ",%s", d->factors[k].column);
+    }
+    fputc('\n', f);
 }
 
 /* One stimulus, into all tables. */
@@ -353,7 +396,7 @@ static bool put_stimulus(struct writing *w, int i, struct err *e)
     bool ok =
         w->cell.record || !t->rows[i].there ||
         err_set(e, ERR_IO, "%s: the record of the stimulus cannot be read again", record_path(t->folder, x->name, a));
-    if (ok) put_row(&w->cell, false);
+    if (ok) put_row(&w->cell);
     for (int k = 0; done(&w->cell) && k < r.n_files; k++) /* names hold nothing that sha256sum would want escaped */
         fprintf(w->files[SUMS].stream, "%s  %s\n", r.files[k].sha256, r.files[k].path);
     if (w->timings && t->rows[i].made) {
@@ -398,8 +441,11 @@ bool tables_write(const struct tables *t, const char **no_effect, struct err *e)
     for (int k = 0; k < TABLES && ok; k++)
         ok = (k == TIMINGS && !w.timings) ||
              outfile_open(&w.files[k], arena_format(t->arena, "%s/%s", t->folder, names[k]), e);
-    w.cell = (struct cell){.set = t->set, .level = set_level_text(t->set, t->arena), .f = w.files[MANIFEST].stream};
-    if (ok) put_row(&w.cell, true);
+    w.cell = (struct cell){.set = t->set,
+                           .level = set_level_text(t->set, t->arena),
+                           .f = w.files[MANIFEST].stream,
+                           .lines = w.files[LINES].stream};
+    if (ok) put_head(d, w.cell.f);
     if (ok && w.timings) fputs("stimulus_id,wall_s,cpu_s\n", w.files[TIMINGS].stream);
     for (int i = 0; ok && i < t->set->n; i++)
         ok = put_stimulus(&w, i, e);
@@ -408,7 +454,7 @@ bool tables_write(const struct tables *t, const char **no_effect, struct err *e)
         json_dumpf(j, w.files[DICTIONARY].stream, JSON_INDENT(2) | JSON_ENSURE_ASCII);
         fputc('\n', w.files[DICTIONARY].stream);
         json_decref(j);
-        ok = put_own_sum(&w, MANIFEST, e) && put_own_sum(&w, DICTIONARY, e);
+        ok = put_own_sum(&w, MANIFEST, e) && put_own_sum(&w, LINES, e) && put_own_sum(&w, DICTIONARY, e);
     }
     for (int k = 0; k < TABLES; k++)
         if (ok && w.files[k].target[0])
@@ -421,8 +467,8 @@ bool tables_write(const struct tables *t, const char **no_effect, struct err *e)
 
 void tables_remove(const char *folder, struct arena *a)
 {
-    static const int stale[] = {SUMS, MANIFEST, DICTIONARY};
-    for (int k = 0; k < 3; k++)
+    static const int stale[] = {SUMS, MANIFEST, LINES, DICTIONARY};
+    for (int k = 0; k < 4; k++)
         unlink(arena_format(a, "%s/%s", folder, names[stale[k]]));
 }
 

@@ -1,4 +1,5 @@
-/* The tables of a set, from its records, in the order of the design: manifest.csv, one row a stimulus; manifest.json,
+/* The tables of a set, from its records, in the order of the design: manifest.csv, one row a stimulus;
+   manifest.jsonl, the same as a line of JSON each; manifest.json,
    its side-car (a BIDS data dictionary); SHA256SUMS, last. Nothing in them differs from run to run, from machine to
    machine, or with the number of threads or shards. timings.csv has what the last run rendered that rendered anything.
  */

@@ -400,6 +400,11 @@ static json_t *schema_design(struct arena *a)
     json_object_set_new(all, "samples",
                         described(quantity(KEY_NONE, 1, 1000000, true, NULL, a),
                                   "how many samples there are of each cell, where factors are drawn"));
+    json_t *splits =
+        plain("object", "names with shares, as in {train: 8, test: 2}: the parts that the set is divided into, "
+                        "replicates, and cells of one sample, together");
+    json_object_set_new(splits, "additionalProperties", quantity(KEY_NONE, 0, 0, false, NULL, a));
+    json_object_set_new(all, "splits", splits);
     json_object_set_new(all, "independent",
                         list(plain("text", NULL), 0, 1000,
                              "factors whose levels have noise of their own, and sample; default: [sample]"));

@@ -20,7 +20,6 @@
 #include "cmd/export.h"
 #include "cmd/message.h"
 #include "file/bytes.h"
-#include "num/noise.h"
 
 static const char sums_name[] = "SHA256SUMS", mark[] = "# rasp export\n"; /* its first line, which sha256sum skips */
 
@@ -116,6 +115,8 @@ static bool stimulus_check(struct export *x, int i, struct err *e)
                            "%s: the label '%s' of %s would be read as something else from a table: give it another",
                            d->file, value, d->factors[f].name);
     }
+    if (strcmp(export_manifest(x, i, "split"), d->stimuli[i].split ? d->stimuli[i].split : "n/a") != 0)
+        return err_set(e, ERR_SCENE, "%s: %s is of another split in the design: run rasp batch again", x->set, name);
     if (x->format->browser && !strcmp(export_manifest(x, i, "encoding"), "float64"))
         return err_set(e, ERR_SCENE,
                        "%s: %s is float64, which browsers do not play: set: {output.encoding: pcm24} in the design",
@@ -125,8 +126,8 @@ static bool stimulus_check(struct export *x, int i, struct err *e)
 
 static bool set_read(struct export *x, struct err *e)
 {
-    static const char *const needed[] = {"stimulus_id", "file_name", "status", "encoding",
-                                         "file_sha256", "seed",      "frames", NULL};
+    static const char *const needed[] = {"stimulus_id", "file_name", "status", "encoding", "file_sha256",
+                                         "seed",        "frames",    "split",  NULL};
     const struct design *d = x->design;
     struct csv *m = &x->manifest;
     if (!csv_read(arena_format(x->arena, "%s/manifest.csv", x->set), x->arena, m, e)) return false;
@@ -144,46 +145,15 @@ static bool set_read(struct export *x, struct err *e)
     return true;
 }
 
-/* ------------------------------------------------------------------ splits */
-
-enum { SPLITS = 3 };
-static const char *const split_names[SPLITS] = {"train", "validation", "test"};
-
-/* "train=8,test=2", drawn for each cell: its replicates stay together, and a cell more moves no other. */
-static bool splits_read(struct export *x, const char *given, struct err *e)
-{
-    const struct design *d = x->design;
-    double shares[SPLITS] = {0}, sum = 0;
-    if (!*given) return err_set(e, ERR_USAGE, "--splits must not be empty: train=8,validation=1,test=1");
-    for (char *rest = arena_text(x->arena, given), *word; (word = strsep(&rest, ","));) {
-        const char *name = strsep(&word, "=");
-        int k = 0;
-        while (k < SPLITS && strcmp(split_names[k], name) != 0)
-            k++;
-        if (k == SPLITS || !word || shares[k] > 0 || !text_double(word, &shares[k]) || !(shares[k] > 0))
-            return err_set(e, ERR_USAGE, "--splits: '%s' is not of the form train=8,validation=1,test=1", given);
-        sum += shares[k];
-    }
-    x->splits = ARENA_TAKE(x->arena, const char *, d->n_stimuli + 1);
-    for (int i = 0; i < d->n_stimuli; i++) {
-        const char *name = "rasp export split"; /* and all that makes the cell, or the recording */
-        for (int f = 0; f < d->n_factors; f++)
-            name = arena_format(x->arena, "%s\n%s", name, design_label(d, i, f));
-        if (d->stimuli[i].recording) name = arena_format(x->arena, "%s\n%s", name, d->stimuli[i].name);
-        double at = sum * noise_uniform(noise_make(x->seed, name), 0, 0);
-        int k = 0;
-        while (k < SPLITS - 1 && (at > shares[k] || shares[k] == 0))
-            at -= shares[k++];
-        x->splits[i] = split_names[k];
-    }
-    return true;
-}
-
 /* ------------------------------------------------------------------ the sounds, and the table of them */
+
+static const char *const whole[] = {"train", NULL}; /* of a set that is not divided */
 
 static const char *sounds_folder(const struct export *x, int i, struct arena *a)
 {
-    return x->splits ? x->splits[i] : arena_format(a, x->format->sounds, x->name);
+    const char *split = x->design->stimuli[i].split;
+    if (x->format->splits) return split ? split : whole[0];
+    return arena_format(a, x->format->sounds, x->name);
 }
 
 const char *export_sound(const struct export *x, int i, struct arena *a)
@@ -215,7 +185,7 @@ static bool table_write(struct export *x, const char *folder, struct err *e)
     const char *called = x->format->tabs ? "stim_file" : "file_name";
     if (!export_open(x, arena_format(a, "%s/%s", folder, x->format->table), e)) return false;
     for (int i = -1; i < x->design->n_stimuli; i++) { /* -1: the names of the columns */
-        if (i >= 0 && x->splits && x->splits[i] != folder) continue;
+        if (i >= 0 && x->format->splits && sounds_folder(x, i, a) != folder) continue;
         for (size_t c = 0; c < m->columns; c++) {
             const char *text = i < 0 ? m->names[c] : m->cells[(size_t)i * m->columns + c];
             if (!strcmp(m->names[c], "file_name"))
@@ -249,12 +219,12 @@ static bool sounds_write(struct export *x, struct err *e)
 {
     for (int i = 0; i < x->design->n_stimuli; i++)
         if (interrupted(e) || !sound_copy(x, i, e)) return false;
-    if (!x->splits) return table_write(x, sounds_folder(x, 0, x->arena), e);
-    for (int k = 0; k < SPLITS; k++) {
+    if (!x->format->splits) return table_write(x, sounds_folder(x, 0, x->arena), e);
+    for (const char *const *split = x->design->splits ? x->design->splits : whole; *split; split++) {
         bool used = false;
         for (int i = 0; i < x->design->n_stimuli && !used; i++)
-            used = x->splits[i] == split_names[k];
-        if (used && !table_write(x, split_names[k], e)) return false;
+            used = sounds_folder(x, i, x->arena) == *split;
+        if (used && !table_write(x, *split, e)) return false;
     }
     return true;
 }
@@ -381,18 +351,16 @@ static bool trials_read(struct export *x, const struct args *g, struct err *e)
 {
     const struct design *d = x->design;
     const struct export_format *f = x->format;
-    const char *seed = args_value(g, "seed"), *splits = args_value(g, "splits");
+    const char *seed = args_value(g, "seed");
     x->seed = d->seed;
     if (seed && !text_u64(seed, &x->seed))
         return err_set(e, ERR_USAGE, "--seed: '%s' is not a whole number from 0 to 18446744073709551615", seed);
-    if (splits && !f->splits) return err_set(e, ERR_USAGE, "--splits: %s has none", f->name);
     if (f->list && !d->trials && !f->bare)
         return err_set(e, ERR_SCENE,
                        "%s: has no trials: say what listeners do, as in trials: {task: choose, question: Which "
                        "material is it?, answers: material}; rasp explain trials",
                        g->operands[0]);
-    return (!f->list || !d->trials || trials_make(d, x->arena, &x->trials, e)) && set_read(x, e) &&
-           (!f->splits || splits_read(x, splits ? splits : "train=1", e));
+    return (!f->list || !d->trials || trials_make(d, x->arena, &x->trials, e)) && set_read(x, e);
 }
 
 static int export_run(struct cmd_call *c, struct err *e)
@@ -418,9 +386,8 @@ static const struct args_option export_options[] = {
     {"for", 0, "webmushra|psychopy|jspsych|page|bids|audiofolder", false, "what the folder is for, see above"},
     {"output", 'o', "FOLDER", false, "the folder that is made; one that an export left is replaced"},
     {"participants", 'p', "N", false, "how many participants have an order of their own, 1 to 10000; default: 1"},
-    {"seed", 0, "NUMBER", false, "what orders and splits are drawn from; default: the design's seed"},
+    {"seed", 0, "NUMBER", false, "what orders are drawn from; default: the design's seed"},
     {"name", 0, "WORD", false, "what the study is called in names of files; default: the design's"},
-    {"splits", 0, "SHARES", false, "of audiofolder: shares of train, validation, test, as in train=8,test=2"},
     {0},
 };
 
@@ -442,8 +409,8 @@ const struct command export_command = {
         "disk or from a server of files, take an answer once its sounds were heard to their end, and give "
         "answers_p01.csv, a row an answer, as a download, which rasp judge reads.\n"
         "bids: stimuli/, and sub-01/beh/ with the trials of each participant, to be filled in; side-cars for all "
-        "columns. audiofolder: train/metadata.csv with its sounds, as Hugging Face's datasets read it; --splits "
-        "shares them out, replicates of a cell together.",
+        "columns. audiofolder: train/metadata.csv with its sounds, as Hugging Face's datasets read it, or a "
+        "folder for each of the design's splits.",
     .also =
         "Where trials have a session, each participant has a list for each (p01_s1); each session comes at each place, "
         "and behind each other one, equally often. Orders are drawn from the seed: the same seed gives the same bytes "

@@ -44,8 +44,7 @@ struct export
     const char *output, *temporary;
     int people;
     uint64_t seed;
-    const char **splits; /* [n_stimuli] the folder that each is in; NULL: one */
-    const char **files;  /* [n_files] written so far                          */
+    const char **files; /* [n_files] written so far                          */
     int n_files;
     FILE *stream; /* of the file that is written                              */
     struct arena *arena;

@@ -18,6 +18,7 @@ rasp batch drawn.yaml -o one -q
 columns one/manifest.csv stimulus_id material motion_duration_ms scraper_mass_g load_constant_n contact_force sample
 grep -h 'constant\|mass' one/light/s000002.scene.yaml
 python3 -c 'import json; d = json.load(open("one/manifest.json")); print(d["load_constant_n"], d["contact_force"]["Levels"])'
+python3 -c 'import json; print(*([r[k] for k in ("material", "load_constant_n", "sample", "split", "seed", "status", "error")] for r in map(json.loads, open("one/manifest.jsonl"))), sep="\n")'
 # Five samples, in another order, in three shards: the three that were there are the same sounds.
 sed 's/^samples.*/samples: 5/; $a order: {seed: 3}' drawn.yaml > five.yaml
 for i in 1 2 3; do rasp batch five.yaml -o five -q --shard "$i/3"; done

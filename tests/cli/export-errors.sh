@@ -13,9 +13,11 @@ tell choose.yaml set_choose --for jspsich -o out
 tell choose.yaml set_choose --for page
 tell choose.yaml set_choose --for page -o out --participants 0
 tell choose.yaml set_choose --for page -o out --seed -1
-tell choose.yaml set_choose --for page -o out --splits train=1
 tell choose.yaml set_choose --for page -o out --name 'a b'
-for splits in train train=0 train=1,train=2 exam=1 train=x; do tell choose.yaml set_choose --for audiofolder -o out --splits $splits; done
+for splits in train '{train: 0}' '{Train: 1}' '{train: x}' '{}' '{test: 1}'; do
+    (cat choose.yaml && echo "splits: $splits") > split.yaml
+    tell split.yaml set_choose --for audiofolder -o out
+done
 tell choose.yaml set_choose --for page -o gone/out
 tell choose.yaml set_choose --for page -o choose.yaml
 tell gone.yaml set_choose --for page -o out

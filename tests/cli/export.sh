@@ -133,12 +133,14 @@ ln -s set_rate set_trained
 export_as trained webmushra
 export_as trained psychopy
 cut -d, -f4,5,16-18 trained.psychopy/conditions_p01.csv
-export_as compare audiofolder --splits train=4,validation=1,test=1
+echo 'splits: {train: 4, validation: 1, test: 1}' >> compare.yaml
+rasp batch -q compare.yaml -o set_compare --no-render
+export_as compare audiofolder
 export_as rate audiofolder
 echo "-- takes of a cell stay together"
-(cat choose.yaml && echo 'replicates: 9') > takes.yaml
+(cat choose.yaml && printf '%s\n' 'replicates: 9' 'seed: 2' 'splits: {test: 1, train: 1}') > takes.yaml
 rasp batch -q takes.yaml -o set_takes 2> /dev/null
-export_as takes audiofolder --splits test=1,train=1
+export_as takes audiofolder
 ls takes.audiofolder/*/*.wav | sed 's/_r[0-9].wav//' | sort | uniq -c
 echo "-- a participant more changes nobody's order; another seed does"
 rasp export compare.yaml set_compare --for page -o more -p 9 > more.txt

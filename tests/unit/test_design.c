@@ -542,6 +542,30 @@ START_TEST(more_samples_change_none)
 }
 END_TEST
 
+START_TEST(splits_keep_samples_together)
+{
+    arena = folder_make();
+    struct design d = made(DRAWN "samples: 1000\nsplits: {train: 8, validation: 1, test: 1}\n"),
+                  more = made(DRAWN "samples: 1200\nreplicates: 2\norder: {seed: 5}\nsplits: {train: 8, validation: 1, "
+                                    "test: 1}\n"),
+                  none = made(DRAWN "samples: 2\n");
+    const char *of[1201] = {NULL};
+    int n = 0;
+    for (int i = 0; i < d.n_stimuli; i++) {
+        const char **split = &of[d.stimuli[i].sample];
+        ck_assert(!*split || strcmp(*split, d.stimuli[i].split) == 0); /* of wood and of metal */
+        *split = d.stimuli[i].split;
+        n += strcmp(*split, "train") == 0;
+    }
+    ck_assert_int_le(abs(n - 1600), 76); /* three standard deviations */
+    for (int i = 0; i < more.n_stimuli; i++)
+        if (of[more.stimuli[i].sample]) ck_assert_str_eq(more.stimuli[i].split, of[more.stimuli[i].sample]);
+    ck_assert_ptr_null(none.stimuli[0].split);
+    refused("splits: [train]\n", "splits must be a map of names with shares");
+    folder_remove();
+}
+END_TEST
+
 START_TEST(rules_that_cannot_be)
 {
     static const char *const wrong[][2] = {
@@ -612,5 +636,5 @@ UNIT("design", crossed_first_factor_slowest, names_are_padded, without_factors_t
      excluded_cells_and_lists, recordings_are_cells, seeds_are_the_documented_hash, growing_changes_no_other_stimulus,
      order_is_deterministic, columns, rules, texts_of_trials, hash_is_of_the_meaning, scenes_are_laid_over,
      keys_of_contacts, errors_stand_in_the_design, threads_share_a_design, names_that_cannot_be, sizes_that_cannot_be,
-     what_is_a_design, samples_are_the_documented_quantiles, more_samples_change_none, rules_that_cannot_be,
-     cells_of_a_table)
+     what_is_a_design, samples_are_the_documented_quantiles, more_samples_change_none, splits_keep_samples_together,
+     rules_that_cannot_be, cells_of_a_table)
