@@ -73,3 +73,9 @@ const char *relpath_make(const char *file, const char *folder, struct arena *a)
         if (*p == '/' && p[1]) up = arena_format(a, "../%s", up);
     return arena_format(a, "%s%s%s%s", up, to[n] ? to + n + 1 : "", to[n] ? "/" : "", name);
 }
+
+const char *relpath_base(const char *file, struct arena *a)
+{
+    const char *slash = strrchr(file, '/'), *dot = strrchr(slash ? slash : file, '.');
+    return dot ? arena_format(a, "%.*s", (int)(dot - file), file) : file;
+}

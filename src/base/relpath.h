@@ -13,4 +13,7 @@ const char *relpath_make(const char *file, const char *folder, struct arena *a);
 const char *relpath_folder(const char *file, struct arena *a);
 const char *relpath_stem(const char *file, struct arena *a);
 
+/* The file's name as it is, without its ending: what all files of a render are called by. */
+const char *relpath_base(const char *file, struct arena *a);
+
 #endif

@@ -36,7 +36,7 @@ static bool is_device(const char *s, size_t n)
 /* What is wrong with a part between slashes; NULL: nothing. */
 static const char *part_fault(const char *s, size_t n, const char **cure)
 {
-    static const char *const endings[] = {".wav", ".csv", ".npy", ".json", ".yaml", ".yml", NULL};
+    static const char *const endings[] = {".wav", ".flac", ".csv", ".npy", ".json", ".yaml", ".yml", NULL};
     *cure = "write another template for name:, or other labels";
     if (n == 0) return "has a folder without a name";
     if (s[0] == '.')

@@ -9,6 +9,7 @@
 #include "base/outfile.h"
 #include "file/bytes.h"
 #include "file/json_value.h"
+#include "scene/scene.h"
 
 static const char *const statuses[] = {[RECORD_MAKING] = "making", [RECORD_WAITS] = "waits", [RECORD_DONE] = "done"};
 static const char before_hash[] = ",\n  \"record\": \"", after_hash[] = "\"\n}\n";
@@ -157,7 +158,7 @@ bool record_parse(const char *text, size_t n, const char *name, struct arena *a,
         const char *warning = json_string_value(json_array_get(warnings, i));
         r->warnings[i] = arena_text(a, warning ? warning : "");
     }
-    ok = ok && r->encoding >= 0 && r->encoding <= 3;
+    ok = ok && r->encoding >= 0 && r->encoding <= ENCODING_FLAC24;
     json_decref(j);
     r->render = ok ? arena_format(a, "%.*s", (int)n, text) : NULL;
     return ok;

@@ -17,6 +17,7 @@
 #include "analysis/distance.h"
 #include "num/real.h"
 #include "output/loudness.h"
+#include "output/sound.h"
 #include "scene/keys_yaml.h"
 
 enum { PIECE = MEASURE_CHANNELS /* samples */, BEHIND = 32 /* frames: the meter of true peaks is 6 to 12 late */ };
@@ -205,13 +206,6 @@ static const char **warnings_of(const struct measure *m, const struct wav_writte
     return all;
 }
 
-int recording_bits(int encoding)
-{
-    static const int bits[] = {
-        [ENCODING_PCM16] = 16, [ENCODING_PCM24] = 24, [ENCODING_FLOAT32] = -32, [ENCODING_FLOAT64] = -64};
-    return bits[encoding];
-}
-
 /* Its own samples, times the gain, with its warnings. */
 struct wav_out *recording_make(const struct set *set, const char *file, const char *path, struct record *r,
                                struct arena *a, struct err *e)
@@ -228,7 +222,7 @@ struct wav_out *recording_make(const struct set *set, const char *file, const ch
     if (!recording_open(&c, file, &form, e)) return NULL;
     snprintf(comment, sizeof comment, "rasp: recording, gain %.9g (%.4f dB)", r->gain, 20 * real_log10(r->gain));
     struct wav_format f = {
-        .rate = c.in.rate, .channels = c.in.channels, .bits = recording_bits(set->encoding), .comment = comment};
+        .rate = c.in.rate, .channels = c.in.channels, .bits = sound_bits(set->encoding), .comment = comment};
     struct wav_out *out = wav_create(path, &f, e);
     bool ok = out && recording_copy(&c, out, r->gain, e) && wav_finish(out, e);
     wav_stream_close(&c.in);

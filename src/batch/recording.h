@@ -50,9 +50,6 @@ bool recording_check(const char *file, double *rate, int *channels, double *seco
  * ERR_INPUT, ERR_SCENE: it has none. */
 bool recording_check_level(const char *file, const struct set *s, struct err *e);
 
-/* Of an enum encoding, as wav_format has them. */
-int recording_bits(int encoding);
-
 /* Of all that its bytes depend on; sha256: the file's. */
 const char *recording_key(const struct set *s, const char *sha256, struct arena *a);
 

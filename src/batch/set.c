@@ -387,7 +387,7 @@ static void look_at_recordings(struct planning *p)
         l->cost = fmax(1, 1000 * l->seconds * s->rate);
         l->rate = s->rate;
         l->channels = s->channels;
-        l->bits = abs(recording_bits(s->encoding));
+        l->bits = abs(sound_bits(s->encoding));
         l->sounds = true;
     }
 }
@@ -462,9 +462,9 @@ static void add_up(const struct planning *p)
 /* Nothing that the set writes is one of its inputs, or anybody's. */
 static bool spares(const struct planning *p, struct err *e)
 {
-    static const char *const own[] = {".json", ".wav", NULL}, *const tables[] = {"manifest.csv",  "manifest.jsonl",
-                                                                                 "manifest.json", "SHA256SUMS",
-                                                                                 "timings.csv",   NULL};
+    const char *const own[] = {".json", sound_ending(p->set->encoding), NULL};
+    static const char *const tables[] = {"manifest.csv", "manifest.jsonl", "manifest.json",
+                                         "SHA256SUMS",   "timings.csv",    NULL};
     const struct set *s = p->set;
     const struct design *d = s->design;
     const char *folder = p->ask->folder;
@@ -604,13 +604,14 @@ void set_loudest_add(struct set_loudest *l, const struct set_measured *m)
     l->peak = fmax(l->peak, m->peak);
     l->rms = fmax(l->rms, m->rms);
     l->lufs = isnan(m->lufs) ? l->lufs : fmax(l->lufs, m->lufs);
-    l->encoding = m->encoding < l->encoding ? m->encoding : l->encoding;
+    l->encoding = set_largest(m->encoding) < set_largest(l->encoding) ? m->encoding : l->encoding;
     l->any = l->any || m->peak > 0;
 }
 
 double set_largest(int encoding)
 {
-    return encoding == ENCODING_PCM16 ? 1 - ldexp(1, -15) : encoding == ENCODING_PCM24 ? 1 - ldexp(1, -23) : 1;
+    int bits = sound_bits(encoding);
+    return bits > 0 ? 1 - ldexp(1, 1 - bits) : 1;
 }
 
 bool set_gain(const struct set *s, const struct set_loudest *l, double *full_scale, struct err *e)

@@ -285,11 +285,11 @@ static bool copy(struct work *w, struct stimulus *s, struct err *e)
     double start[2] = {stopwatch_wall(), stopwatch_cpu()};
     struct made m = {.scene = {.fd = -1}, .n = 1};
     struct record r = begun(w, RECORD_DONE, 1);
-    const char *path = arena_format(w->arena, "%s.wav", w->name);
+    const char *ending = sound_ending(w->k->set->encoding), *path = arena_format(w->arena, "%s%s", w->name, ending);
     r.sounds = true;
     if (!folder_make_for(w->k->folder, w->name, e)) return false;
     struct wav_out *out = m.sounds[0] =
-        recording_make(w->k->set, w->file, arena_format(w->arena, "%s.wav", w->base), &r, w->arena, e);
+        recording_make(w->k->set, w->file, arena_format(w->arena, "%s%s", w->base, ending), &r, w->arena, e);
     bool whole = out && add_file(&r, "wav", path, false, wav_temporary(out), w->arena, e) &&
                  measure(&r, wav_temporary(out), w->arena, e);
     bool ok = commit(w, &r, &m, whole, e);
@@ -365,6 +365,7 @@ static bool scale(const struct work *w, struct made *m, struct record_file *f, s
     double gain = force ? 1 : sound_known_gain(&w->scene);
     const char *raw = arena_format(w->arena, "%s/%s", w->k->folder, f->path),
                *path = record_file_path(w->name, basename(f->path), false, w->arena);
+    if (!strcmp(f->kind, "wav")) path = arena_format(w->arena, "%s%s", w->name, sound_ending(w->scene.output.encoding));
     if (!recording_open(&in, raw, NULL, e)) return false;
     struct track_format t = sound_format(&w->scene, in.frames);
     struct wav_format format = {

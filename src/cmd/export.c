@@ -20,6 +20,7 @@
 #include "cmd/export.h"
 #include "cmd/message.h"
 #include "file/bytes.h"
+#include "file/wav.h"
 
 static const char sums_name[] = "SHA256SUMS", mark[] = "# rasp export\n"; /* its first line, which sha256sum skips */
 
@@ -95,7 +96,7 @@ static bool stimulus_check(struct export *x, int i, struct err *e)
     if (strcmp(status, "ok") != 0)
         return err_set(e, ERR_SCENE, "%s: %s %s: render the set first, by rasp batch", x->set, name,
                        strcmp(status, "failed") ? "is not there yet" : "has failed");
-    if (!text_ends(export_manifest(x, i, "file_name"), ".wav"))
+    if (!wav_is_name(export_manifest(x, i, "file_name")))
         return err_set(e, ERR_SCENE, "%s: %s makes no sound", x->set, name);
     if (is_lost(name))
         return err_set(e, ERR_SCENE,
@@ -158,7 +159,7 @@ static const char *sounds_folder(const struct export *x, int i, struct arena *a)
 
 const char *export_sound(const struct export *x, int i, struct arena *a)
 {
-    return arena_format(a, "%s/%s.wav", sounds_folder(x, i, a), x->design->stimuli[i].name);
+    return arena_format(a, "%s/%s", sounds_folder(x, i, a), export_manifest(x, i, "file_name"));
 }
 
 static bool sound_copy(struct export *x, int i, struct err *e)
@@ -188,8 +189,7 @@ static bool table_write(struct export *x, const char *folder, struct err *e)
         if (i >= 0 && x->format->splits && sounds_folder(x, i, a) != folder) continue;
         for (size_t c = 0; c < m->columns; c++) {
             const char *text = i < 0 ? m->names[c] : m->cells[(size_t)i * m->columns + c];
-            if (!strcmp(m->names[c], "file_name"))
-                text = i < 0 ? called : arena_format(a, "%s.wav", x->design->stimuli[i].name);
+            if (i < 0 && !strcmp(m->names[c], "file_name")) text = called;
             if (!strcmp(m->names[c], "seed") && isdigit((unsigned char)*text)) text = arena_format(a, "s%s", text);
             export_cell(x, c == 0, text);
         }

@@ -198,7 +198,7 @@ static const struct {
 static const char *sound_cell(const struct export *x, int i, int which, struct arena *a)
 {
     const char *name = x->design->stimuli[i].name;
-    if (which == 0) return x->format->tabs ? arena_format(a, "%s.wav", name) : export_sound(x, i, a);
+    if (which == 0) return x->format->tabs ? export_manifest(x, i, "file_name") : export_sound(x, i, a);
     return which == 1 ? name : role(x, i);
 }
 

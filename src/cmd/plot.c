@@ -575,13 +575,13 @@ static bool plot_spares(const struct plot_page *p, const char *target, struct er
     struct scene scene;
     struct stat t;
     struct err unreadable = {0};
-    static const char *const endings[] = {".wav", ".csv", ".npy", ".json", ".scene.yaml"};
-    const char *effective = arena_format(p->arena, "%.*s.scene.yaml", (int)strlen(p->file) - 4, p->file), *messages;
+    static const char *const endings[] = {".wav", ".flac", ".csv", ".npy", ".json", ".scene.yaml"};
+    const char *effective = arena_format(p->arena, "%s.scene.yaml", relpath_base(p->file, p->arena)), *messages;
     int n = 0;
     const struct outputs_source *sources = NULL;
     if (stat(target, &t) != 0) return true;
-    for (int i = 0; i < 5; i++) { /* nor of the sound, or what lies beside it */
-        const char *file = arena_format(p->arena, "%.*s%s", (int)strlen(p->file) - 4, p->file, endings[i]);
+    for (int i = 0; i < 6; i++) { /* nor of the sound, or what lies beside it */
+        const char *file = arena_format(p->arena, "%s%s", relpath_base(p->file, p->arena), endings[i]);
         if (cmd_same_file(file, target))
             return err_set(e, ERR_CREATE,
                            "%s: the picture would overwrite %s, which it shows; write elsewhere: -o OTHER.png", target,
@@ -608,7 +608,7 @@ static int plot_run(struct cmd_call *c, struct err *e)
     const double range[2] = {0, 1e9};
     long channel = 1;
     if (args_given(&c->args, "gallery")) return plot_gallery_run(c, e);
-    if (!text_ends(p.file, ".wav") && !text_ends(p.file, ".csv") && !text_ends(p.file, ".npy"))
+    if (!wav_is_name(p.file) && !text_ends(p.file, ".csv") && !text_ends(p.file, ".npy"))
         return err_set(e, ERR_USAGE,
                        "%s: neither a sound (.wav) nor a table of diagnostics (.csv, .npy) or modes (.csv); of a "
                        "folder --gallery makes a page",
@@ -629,7 +629,7 @@ static int plot_run(struct cmd_call *c, struct err *e)
         !args_whole(&c->args, "channel", (const long[2]){1, 1024}, &channel, e))
         return (int)e->kind;
     p.channel = (int)channel;
-    const char *target = o ? o : arena_format(c->arena, "%.*s.%s", (int)strlen(p.file) - 4, p.file, formats[svg]);
+    const char *target = o ? o : arena_format(c->arena, "%s.%s", relpath_base(p.file, c->arena), formats[svg]);
     if (!plot_data(&p, e) || !plot_spares(&p, target, e) ||
         !mark_permits(target, NULL, args_given(&c->args, "force"), e) ||
         !gnuplot_write(target, p.svg, plot_draw, &p, e))

@@ -15,6 +15,7 @@
 #include "base/text.h"
 #include "cmd/plot.h"
 #include "file/csv.h"
+#include "file/wav.h"
 #include "output/gnuplot.h"
 #include "output/mark.h"
 
@@ -66,7 +67,7 @@ static bool from_manifest(struct page *g, const char *file, struct err *e)
     g->items = ARENA_TAKE(g->arena, struct item, g->manifest.rows);
     for (size_t row = 0; row < g->manifest.rows; row++) {
         const char *sound = cell(g, row, name), *called = id >= 0 ? cell(g, row, id) : sound;
-        bool sounds = text_ends(sound, ".wav"),
+        bool sounds = wav_is_name(sound),
              failed = status >= 0 ? strcmp(cell(g, row, status), "ok") != 0 : !is_there(sound);
         const char *wav = sounds ? sound : arena_format(g->arena, "%s.wav", called);
         g->items[g->n++] = (struct item){arena_format(g->arena, "%s%s", g->folder, wav),
@@ -79,7 +80,7 @@ static bool from_manifest(struct page *g, const char *file, struct err *e)
     return true;
 }
 
-static int is_sound(const struct dirent *entry) { return entry->d_name[0] != '.' && text_ends(entry->d_name, ".wav"); }
+static int is_sound(const struct dirent *entry) { return entry->d_name[0] != '.' && wav_is_name(entry->d_name); }
 
 /* The operand: a manifest, or a folder with or without one. */
 static bool gather(struct page *g, struct err *e)
@@ -106,7 +107,7 @@ static bool gather(struct page *g, struct err *e)
     for (int i = 0; i < n; i++) {
         const char *name = entries[i]->d_name;
         g->items[g->n++] = (struct item){.file = arena_format(g->arena, "%s%s", g->folder, name),
-                                         .name = arena_format(g->arena, "%.*s", (int)strlen(name) - 4, name),
+                                         .name = relpath_base(name, g->arena),
                                          .kind = SOUND};
         free(entries[i]);
     }

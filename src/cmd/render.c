@@ -18,6 +18,8 @@
 #include "cmd/cmd.h"
 #include "cmd/message.h"
 #include "file/json_value.h"
+#include "file/wav.h"
+#include "output/sound.h"
 #include "pipeline/outputs.h"
 #include "pipeline/plan.h"
 #include "pipeline/render.h"
@@ -143,7 +145,8 @@ static bool render_verify(struct cmd_call *c, const char *file, const struct sce
 
 static const struct args_option render_options[] = {
     {"output", 'o', "FILE|FOLDER/", false,
-     "where to write: NAME.wav for one scene, a folder (ending in /), or -, the sound alone to standard output; "
+     "where to write: NAME.wav, or NAME.flac, for one scene, a folder (ending in /), or -, the sound alone to standard "
+     "output; "
      "default: the current folder"},
     CMD_SCENE_OPTIONS,
     {"json", 0, NULL, false,
@@ -177,11 +180,26 @@ static const char *render_base(struct cmd_call *c, const char *file, struct err 
     if (c->args.n_operands > 1)
         return err_set(e, ERR_USAGE, "--output %s: for several scenes it must be a folder that exists, or end in /", o),
                NULL;
-    if (n < 5 || strcmp(o + n - 4, ".wav") != 0 || o[n - 5] == '/')
+    if (!wav_is_name(o) || *basename(o) == '.')
         return err_set(e, ERR_USAGE,
-                       "--output %s: must end in .wav (the other files are named after it) or in / (a folder)", o),
+                       "--output %s: must end in .wav or .flac (the other files are named after it) or in / (a folder)",
+                       o),
                NULL;
-    return arena_format(c->arena, "%.*s", (int)n - 4, o);
+    return relpath_base(o, c->arena);
+}
+
+/* NAME.flac asks for a FLAC of as many bits. */
+static bool encoding_of_name(const char *o, int *encoding, struct err *e)
+{
+    const char *ending = sound_ending(*encoding);
+    if (!o || !wav_is_name(o) || text_ends(o, ending)) return true;
+    if (*encoding == ENCODING_PCM16 || *encoding == ENCODING_PCM24) {
+        *encoding = *encoding == ENCODING_PCM16 ? ENCODING_FLAC16 : ENCODING_FLAC24;
+        return true;
+    }
+    return err_set(
+        e, ERR_USAGE, "--output %s: output.encoding is %s, which is written as NAME%s: --set output.encoding=%s", o,
+        keys_find("output.encoding")->choices[*encoding].word, ending, text_ends(o, ".wav") ? "pcm24" : "flac24");
 }
 
 /* One scene's error, where the others go on: it is reported at once, and the exit code is the first's. */
@@ -211,6 +229,7 @@ static struct outputs *render_read(struct cmd_call *c, struct file_cache *file_c
             continue;
         }
         scenes[n].file_cache = file_cache;
+        if (!encoding_of_name(args_value(&c->args, "output"), &scenes[n].output.encoding, e)) return NULL;
         all[n] = outputs_make(&scenes[n], base, c->arena);
         n++;
     }

@@ -19,6 +19,7 @@
 
 #include "base/memory.h"
 #include "base/outfile.h"
+#include "base/text.h"
 #include "file/bytes.h"
 #include "num/lanes.h"
 #include "num/real.h"
@@ -66,6 +67,8 @@ bool wav_begins(const char head[4])
         if (!memcmp(head, lossless[k], 4)) return true;
     return false;
 }
+
+bool wav_is_name(const char *file) { return text_ends(file, ".wav") || text_ends(file, ".flac"); }
 
 static SNDFILE *sound_read(const char *path, SF_INFO *i, struct err *e)
 {
@@ -166,6 +169,7 @@ struct wav_out {
     struct wav_format format;
     const char *path;
     double frames, riff_bytes;
+    bool flac;
     bool long_file; /* RF64 already */
     bool *audible;  /* [channels] */
     int silent;     /* channels */
@@ -228,6 +232,8 @@ struct wav_out *wav_create(const char *path, const struct wav_format *f, struct 
                 path, f->bits);
     else if (!(f->rate >= 1 && f->rate <= 1e7) || f->rate != floor(f->rate))
         err_set(e, ERR_SCENE, "%s: a WAV's sample rate is a whole number of Hz up to 1e7, not %.9g", path, f->rate);
+    else if (text_ends(path, ".flac") && f->bits < 0)
+        err_set(e, ERR_SCENE, "%s: a FLAC holds integers, of 16 or 24 bits", path);
     else if (f->channels < 1 || f->channels > 1024)
         err_set(e, ERR_SCENE, "%s: a WAV has 1 to 1024 channels, not %d", path, f->channels);
     if (e->kind) return NULL;
@@ -237,12 +243,13 @@ struct wav_out *wav_create(const char *path, const struct wav_format *f, struct 
     *w = (struct wav_out){.arena = a,
                           .format = *f,
                           .path = arena_text(a, path),
+                          .flac = text_ends(path, ".flac"),
                           .riff_bytes = f->riff_bytes > 0 ? f->riff_bytes : 4294967295.0 - header,
                           .audible = ARENA_TAKE(a, bool, f->channels),
                           .silent = f->channels};
     w->format.title = f->title ? arena_text(a, f->title) : NULL;
     w->format.comment = f->comment ? arena_text(a, f->comment) : NULL;
-    if (outfile_open_fd(&w->out, path, e) && sound_open(w, SF_FORMAT_WAV, e)) return w;
+    if (outfile_open_fd(&w->out, path, e) && sound_open(w, w->flac ? SF_FORMAT_FLAC : SF_FORMAT_WAV, e)) return w;
     wav_drop(w);
     return NULL;
 }
@@ -399,7 +406,8 @@ static bool write_floats(struct wav_out *w, const double *x, size_t n, struct er
 bool wav_write(struct wav_out *w, const double *x, size_t frames, struct err *e)
 {
     size_t channels = (size_t)w->format.channels, most = PIECE / channels;
-    if (!w->long_file && (w->frames + (double)frames) * frame_bytes(w) > w->riff_bytes && !go_long(w, e)) return false;
+    if (!w->flac && !w->long_file && (w->frames + (double)frames) * frame_bytes(w) > w->riff_bytes && !go_long(w, e))
+        return false;
     for (size_t done = 0, n; done < frames; done += n) {
         n = frames - done < most ? frames - done : most;
         if (!(w->format.bits > 0 ? write_integers : write_floats)(w, x + done * channels, n * channels, e))

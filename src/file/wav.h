@@ -19,6 +19,9 @@ struct wav {
 /* Is that how a sound file begins that can be read here: WAV, RF64, AIFF, FLAC, AU, CAF, W64? */
 bool wav_begins(const char head[4]);
 
+/* Is the file called as the sounds are that are written here: .wav or .flac? */
+bool wav_is_name(const char *file);
+
 /* Whatever libsndfile reads. Errors: ERR_INPUT missing or unreadable, ERR_SCENE not a sound file, truncated, no
    samples, or not finite. */
 bool wav_read(const char *path, struct arena *a, struct wav *w, struct err *e);
@@ -36,9 +39,10 @@ struct wav_format {
 /* Opens at once (so that a path that cannot be written fails before any work), writes frames [n][channels], and gives
    the file its name in wav_commit; wav_drop leaves nothing. PCM is rounded to nearest, ties to even, from x 2^(bits-1);
    a sample beyond the integer range is an error (ERR_SCENE: says which and by how many dB), never clipped; one that is
-   not finite is ERR_NUMBERS. No PEAK chunk, no dates: same samples, same bytes. Plain RIFF; beyond 4 GiB RF64. Other
-   errors: ERR_CREATE, ERR_IO, ERR_SCENE (a format that cannot be). After an error only wav_drop may follow; commit and
-   drop free w. */
+   not finite is ERR_NUMBERS. A name that ends in .flac is a FLAC: the same samples, in the bytes of a version of
+   libFLAC, which names itself. A WAV has no PEAK chunk and no dates: same samples, same bytes. Plain RIFF; beyond 4 GiB
+   RF64. Other errors: ERR_CREATE, ERR_IO, ERR_SCENE (a format that cannot be). After an error only wav_drop may follow;
+   commit and drop free w. */
 struct wav_out *wav_create(const char *path, const struct wav_format *f, struct err *e);
 
 bool wav_write(struct wav_out *w, const double *x, size_t frames, struct err *e);

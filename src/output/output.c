@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "output/impact_rows.h"
 #include "output/sound.h"
+#include "response/listener.h"
 #include "response/response.h"
 #include "scene/rows.h"
 #include "scene/scene_part.h"
@@ -178,6 +179,8 @@ static const struct yaml_node *column_first(struct yaml_node *root)
 
 /* ------------------------------------------------------------------ all of it */
 
+enum { FLAC_CHANNELS = 8, FLAC_RATE = 655350 };
+
 static void output_check(const struct scene_part *top, bool contacts)
 {
     static const char *const rates[2] = {"output.diagnostics.rate", "output.sample_rate"};
@@ -207,6 +210,12 @@ static void output_check(const struct scene_part *top, bool contacts)
                           ", %.9g Hz, is above %s, %.9g Hz: some rows would have no samples of the force",
                           o->diagnostics.rate, rates[1], o->sample_rate);
     own_check(top);
+    int channels = listener_channels(o) > 1 ? listener_channels(o) : o->channels;
+    bool flac = o->encoding == ENCODING_FLAC16 || o->encoding == ENCODING_FLAC24;
+    if (flac && (channels > FLAC_CHANNELS || o->sample_rate > FLAC_RATE))
+        diag_add(y->diag, scene_part_place(top, yaml_find(top->map, "output.encoding")), "write pcm24, a WAV",
+                 "output.encoding: a FLAC has at most %d channels and %d Hz, not %d and %.9g Hz", FLAC_CHANNELS,
+                 FLAC_RATE, channels, o->sample_rate);
 }
 
 static void contact_check(const struct scene_part *p, struct yaml_node *root, const struct scene *s, bool good)
@@ -252,6 +261,8 @@ static const struct choice encodings[] = {[ENCODING_PCM16] = {"pcm16", "16-bit i
                                           [ENCODING_PCM24] = {"pcm24", "24-bit integer"},
                                           [ENCODING_FLOAT32] = {"float32", "32-bit floating point"},
                                           [ENCODING_FLOAT64] = {"float64", "64-bit floating point"},
+                                          [ENCODING_FLAC16] = {"flac16", "16-bit integer, in a FLAC"},
+                                          [ENCODING_FLAC24] = {"flac24", "24-bit integer, in a FLAC"},
                                           {NULL, NULL}};
 
 static const struct choice quantities[] = {
@@ -274,7 +285,9 @@ static const struct key keys[] = {
     {ROW_WHOLE(scene, output.sample_rate, "output.sample_rate"), KEY_FREQUENCY, 8000, 768000, "48 kHz", NULL,
      "audio samples per second"},
     {ROW_CHOICE(scene, output.encoding, "output.encoding"), KEY_NONE, 0, 0, "pcm24", NULL,
-     "how samples are stored in the WAV", encodings},
+     "how samples are stored in the WAV; a FLAC, NAME.flac in its place, is about half as large and has the same "
+     "samples, but its bytes are those of one version of libFLAC",
+     encodings},
     {ROW_COUNT(scene, output.channels, "output.channels"), KEY_NONE, 1, 64, "1", NULL,
      "channels of the WAV, all with the same sound"},
     {ROW_CHOICE(scene, output.quantity, "output.quantity"), KEY_NONE, 0, 0, "auto", NULL,

@@ -32,16 +32,23 @@ const char *sound_level_key(const struct scene *s)
                                      : "output.level.peak";
 }
 
+int sound_bits(int encoding)
+{
+    static const int bits[] = {[ENCODING_PCM16] = 16,    [ENCODING_PCM24] = 24,  [ENCODING_FLOAT32] = -32,
+                               [ENCODING_FLOAT64] = -64, [ENCODING_FLAC16] = 16, [ENCODING_FLAC24] = 24};
+    return bits[encoding];
+}
+
+const char *sound_ending(int encoding) { return encoding >= ENCODING_FLAC16 ? ".flac" : ".wav"; }
+
 struct track_format sound_format(const struct scene *s, long frames)
 {
-    static const int bits[] = {
-        [ENCODING_PCM16] = 16, [ENCODING_PCM24] = 24, [ENCODING_FLOAT32] = -32, [ENCODING_FLOAT64] = -64};
     const struct output *o = &s->output;
     long ramp = (long)rint(o->ramp * o->sample_rate);
     double recede = o->envelope == ENVELOPE_APPROACH_RECEDE ? sqrt(real_exp10(o->envelope_depth / 10) - 1) : 0;
     int places = listener_channels(o);
     return (struct track_format){.rate = o->sample_rate,
-                                 .bits = bits[o->encoding],
+                                 .bits = sound_bits(o->encoding),
                                  .places = places,
                                  .channels = places > 1 ? places : o->channels,
                                  .frames = frames,

@@ -25,6 +25,10 @@ struct sound_report {
     double ramp;                        /* s: less than output.ramp when the sound is too short for it */
 };
 
+/* Of an enum encoding: bits as wav_format has them; what the file's name ends in. */
+int sound_bits(int encoding);
+const char *sound_ending(int encoding);
+
 /* The WAV's format of a scene's sound of so many frames; a stem may have the same. */
 struct track_format sound_format(const struct scene *s, long frames);
 

@@ -12,6 +12,7 @@
 #include "base/relpath.h"
 #include "file/csv.h"
 #include "output/mark.h"
+#include "output/sound.h"
 #include "pipeline/plan.h"
 #include "scene/keys.h"
 #include "scene/scene_write.h"
@@ -27,7 +28,7 @@ const char *outputs_kind(const struct scene *s, enum output_kind kind)
 char *outputs_path(const struct scene *s, const char *base, enum output_kind kind, const struct contact *c,
                    struct arena *a)
 {
-    static const char *const endings[] = {".csv", ".impacts.csv", ".scene.yaml", ".json", ".wav"};
+    const char *const endings[] = {".csv", ".impacts.csv", ".scene.yaml", ".json", sound_ending(s->output.encoding)};
     bool several = kind <= OUTPUT_LISTING && s->n_contacts > 1,
          npy = kind == OUTPUT_TABLE && s->output.diagnostics.format == TABLE_NPY;
     if (kind >= OUTPUT_STEM) return arena_format(a, "%s.%s.wav", base, stems_names[kind - OUTPUT_STEM]);
@@ -228,6 +229,8 @@ const char **outputs_older(const struct scene *s, const char *base, struct arena
     other.output.diagnostics.format = s->output.diagnostics.format == TABLE_CSV ? TABLE_NPY : TABLE_CSV;
     for (int i = 0; i < s->n_contacts; i++)
         most.paths[most.n++] = outputs_path(&other, base, OUTPUT_TABLE, &s->contacts[i], a);
+    other.output.encoding = strcmp(sound_ending(s->output.encoding), ".flac") ? ENCODING_FLAC24 : ENCODING_PCM24;
+    most.paths[most.n++] = outputs_path(&other, base, OUTPUT_SOUND, NULL, a);
     for (int kind = OUTPUT_SOUND; kind < OUTPUT_KINDS; kind++)
         add(&most, (enum output_kind)kind, NULL, a);
     for (int k = 0; k < 3 && s->n_contacts > 1; k++)

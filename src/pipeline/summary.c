@@ -9,6 +9,7 @@
 #include "file/json_value.h"
 #include "num/real.h"
 #include "output/mark.h"
+#include "output/sound.h"
 #include "output/stems.h"
 #include "response/modes.h"
 #include "scene/keys.h"
@@ -305,7 +306,7 @@ static const char *sound_silent(const struct scene *s, double peak, struct arena
                             "a higher level (%s)%s",
                             keys_find("output.encoding")->choices[s->output.encoding].word, 20 * real_log10(peak),
                             sound_level_key(s),
-                            s->output.encoding <= ENCODING_PCM24 ? ", or write float32 (output.encoding)" : "");
+                            sound_bits(s->output.encoding) > 0 ? ", or write float32 (output.encoding)" : "");
     return isnan(sound_known_gain(s)) || s->output.level.later ? "the sound is silent: no level was set"
                                                                : "the sound is silent: every sample is 0";
 }

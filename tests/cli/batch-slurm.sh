@@ -24,8 +24,8 @@ wait_for() { for _ in {1..1200}; do [ -n "$(states "$1")" ] || return 0; sleep 0
 job=$(sbatch --parsable -o 'log.%a' "$ROOT/scenes/designs/array.sbatch" many.yaml out)
 first_of 1
 until grep -qs interrupted log.1; do scancel -s TERM "${job}_1" 2> /dev/null || true; sleep 0.5; done # as Slurm does before the time is over, or for a job that matters more
-first_of 4
-until [ -z "$(squeue -h -r -j "${job}_4" -t RUNNING)" ]; do scancel --full -s KILL "${job}_4" 2> /dev/null || true; sleep 0.2; done
+until [ -n "$(squeue -h -r -j "${job}_7" -t RUNNING)" ]; do sleep 0.05; done
+until [ -z "$(squeue -h -r -j "${job}_7" -t RUNNING)" ]; do scancel --full -s KILL "${job}_7" 2> /dev/null || true; sleep 0.2; done
 # A task that puts itself into the queue again waits there for two minutes: here it is submitted with the other.
 for _ in {1..600}; do
     [ "$(squeue -h -r -j "$job" -o %T | sort -u)" != PENDING ] || break
