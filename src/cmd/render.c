@@ -256,6 +256,8 @@ const char *render_scratch(struct cmd_call *c, const char *file, const char **fo
     s->output.diagnostics.given = false;
     s->output.stems = NULL;
     s->output.impacts = LISTING_NONE;
+    if (sound_bits(s->output.encoding) > 0) /* a WAV for whoever plays it, of a FLAC, too */
+        s->output.encoding = sound_bits(s->output.encoding) == 16 ? ENCODING_PCM16 : ENCODING_PCM24;
     if (!render_scene(s, arena_format(c->arena, "%s/sound", *folder), c->arena, &report, e)) {
         scene_places_report(s, e);
         return NULL;

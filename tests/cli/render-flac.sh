@@ -11,6 +11,8 @@ for bits in 16 24; do
 done
 rasp render tiny.yaml -o a.flac -q # which tells of a.wav
 rm a.flac
+rasp render tiny.yaml -o - --set output.encoding=flac16 > s.wav && head -c 4 s.wav && rm s.wav
+echo " to standard output"
 tell() { rasp "$@" || echo "exit code $?"; }
 tell render tiny.yaml -o c.flac --set output.encoding=float32
 tell render tiny.yaml -o c.wav --set output.encoding=flac24
