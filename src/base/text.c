@@ -231,6 +231,11 @@ static int new_line(FILE *f, const char *margin)
     return columns(margin, strlen(margin));
 }
 
+bool text_ends_sentence(const char *text, const char *p)
+{
+    return *p == '.' && p[1] == ' ' && !(p - text >= 5 && !strncmp(p - 5, "et al", 5));
+}
+
 void text_wrap(FILE *f, const char *text, int column, const char *margin)
 {
     bool fresh = true;

@@ -59,6 +59,9 @@ bool text_ends(const char *s, const char *ending);
 /* The same, whatever the case of the letters. */
 bool text_ends_in(const char *s, const char *ending);
 
+/* Is the full stop (or whatever is) at p in text the end of a sentence that another one follows? "et al." is none. */
+bool text_ends_sentence(const char *text, const char *p);
+
 /* Prints plain text in lines of at most 100 columns, for help and generated comments, and ends the line. The first line
    begins at `column` (what has been printed before it); further lines begin with `margin`. A newline in the text begins
    a new line. Words are never cut. */

@@ -225,12 +225,15 @@ void cmd_print(FILE *f)
 
 /* ------------------------------------------------------------------ man rasp(1) */
 
-/* A full stop ends a sentence and so a line, as mdoc asks for. */
+/* A full stop ends a sentence and so a line, as mdoc asks for; \n parts paragraphs. */
 static void put_sentences(FILE *f, const char *text)
 {
     for (const char *p = text; *p; p++) {
-        bool ends = *p == '.' && p[1] == ' ';
-        fputc(*p, f);
+        bool ends = text_ends_sentence(text, p);
+        if (*p == '\n')
+            fputs("\n.Pp\n", f);
+        else
+            fputc(*p, f);
         if (ends) fputc('\n', f);
         p += ends;
     }
@@ -245,7 +248,7 @@ void cmd_print_man(FILE *f)
                 (*m)->operands, toupper((unsigned char)(*m)->summary[0]), (*m)->summary + 1);
         put_sentences(f, (*m)->does);
         if ((*m)->also) {
-            fputc('\n', f);
+            fputs("\n.Pp\n", f);
             put_sentences(f, (*m)->also);
         }
         fputs("\n.Bl -tag -width Ds\n", f);
@@ -254,7 +257,9 @@ void cmd_print_man(FILE *f)
             if (o->letter) fprintf(f, "Fl %c , ", o->letter);
             fprintf(f, "Fl \\-%s", o->name);
             if (o->value) fprintf(f, " Ns = Ns Ar %s", o->value);
-            fprintf(f, "\n%c%s.\n", toupper((unsigned char)o->help[0]), o->help + 1);
+            fprintf(f, "\n%c", toupper((unsigned char)o->help[0]));
+            put_sentences(f, o->help + 1);
+            fputs(".\n", f);
         }
         fputs(".El\n", f);
     }
@@ -273,6 +278,17 @@ static void print_option(const struct args_option *o)
     text_wrap(stdout, o->help, n > 26 ? n + 2 : 28, "                            ");
 }
 
+/* Blank lines part paragraphs. */
+static void print_paragraphs(const char *text, struct arena *a)
+{
+    while (*text) {
+        size_t n = strcspn(text, "\n");
+        text_wrap(stdout, arena_format(a, "%.*s", (int)n, text), 0, "");
+        putchar('\n');
+        text += n + (text[n] == '\n');
+    }
+}
+
 void cmd_print_help(const struct command *m)
 {
     static const struct args_option help = {"help", 'h', NULL, false, "this text"};
@@ -283,10 +299,10 @@ void cmd_print_help(const struct command *m)
         p += n + (p[n] == '\n');
     }
     printf("\nUsage: rasp %s [OPTION]...%s%s\n\n", m->name, *m->operands ? " " : "", m->operands);
-    text_wrap(stdout, m->does, 0, "");
-    if (m->also) text_wrap(stdout, m->also, 0, "");
-    printf("\nOptions:\n");
     struct arena *a = arena_open();
+    print_paragraphs(m->does, a);
+    if (m->also) print_paragraphs(m->also, a);
+    printf("Options:\n");
     for (const struct args_option *o = cmd_options(m, a); o->name; o++)
         print_option(o);
     arena_close(a);

@@ -32,7 +32,7 @@ struct command {
     const char *name;
     const char *group;    /* title of the group that begins with it in the list of commands; NULL: none    */
     const char *summary;  /* half a line for the list of commands, no full stop          */
-    const char *does;     /* a paragraph or two for --help                               */
+    const char *does;     /* paragraphs for --help, parted by \n                          */
     const char *also;     /* what does not go into one literal of C (4095 characters); NULL */
     const char *operands; /* as in the usage line: "SCENE...", "A B"; "": none           */
     int least, most;      /* number of operands; most < 0: any number                    */
