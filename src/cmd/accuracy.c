@@ -597,17 +597,19 @@ const struct command accuracy_command = {
     .name = "accuracy",
     .summary = "shows what accuracy costs: time against error",
     .does =
-        "Chooses the knobs for errors from -40 to -120 dB (accuracy.error), renders the scene with each of them and "
-        "with each preset, and prints what error was asked, predicted and measured, which knobs that takes, and what "
-        "it costs: time to choose, CPU time of the render as a median with an interval, times real time, peak "
-        "memory. Errors are measured against a reference finer than all of these, whose own error is bounded; "
-        "smaller ones are marked with <. An error that cannot be had is a row that says why. * marks what nothing "
-        "else beats in both error and CPU time, where intervals tell. Of a long or dear scene an excerpt is "
-        "measured (motion.until), as it says. With --knobs single knobs, too: alone, with all others at "
-        "reference, and in all, with all others as the scene has them. Where two renders diverge, as of a ball "
-        "that bounces, it says from when on, and compares third octaves, spectra and levels of what comes after. "
-        "A scene without a sound is compared by its contact force. Each render is a process of its own, one at a "
-        "time, in a temporary folder.",
+        "Chooses the knobs for errors from -40 to -120 dB (accuracy.error), and renders the scene with each of them "
+        "and with each preset. For each it prints what error was asked, predicted and measured, and which knobs that "
+        "takes. It prints what it costs, too: time to choose, CPU time of the render as a median with an interval, "
+        "times real time, and peak memory.\n"
+        "Errors are measured against a reference finer than all of these, whose own error is bounded. Smaller ones "
+        "are marked with <. An error that cannot be had is a row that says why. A row marked with * is one that "
+        "nothing else beats in both error and CPU time, where intervals tell.\n"
+        "Of a long or dear scene an excerpt is measured (motion.until), as the first lines say. With --knobs single "
+        "knobs are rendered, too: alone, with all others at reference, and in all, with all others as the scene has "
+        "them.\n"
+        "Where two renders diverge, as of a ball that bounces, the command says from when on, and compares third "
+        "octaves, spectra and levels of what comes after. A scene without a sound is compared by its contact force. "
+        "Each render is a process of its own, one at a time, in a temporary folder.",
     .operands = "SCENE",
     .least = 1,
     .most = 1,

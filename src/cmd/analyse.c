@@ -530,20 +530,24 @@ static const struct args_option analyse_options[] = {
 const struct command analyse_command = {
     .name = "analyse",
     .summary = "impacts in a force: their statistics, and a scene part that draws impacts like them",
-    .does = "Finds the impacts in a force (a WAV, a one-dimensional NPY, or a CSV with time_s and a column of newtons, "
-            "such as diagnostics at the sample rate), or takes them from a table (CSV with time_s, amplitude_n and "
-            "maybe duration_s, as output.impacts writes it). Prints what papers/002 estimates of their amplitudes and "
-            "of the times between them, with 95 % intervals: means, ARMA(1,1) filters, the whitened series and their "
-            "distributions, whether one process drives both, a modulation; how durations depend on amplitudes, in "
-            "002's two steps; which shape impacts have (raised cosine, Meixner window); and what makes the estimates "
-            "doubtful. Draws that were raised to a floor bias means (too high) and deviations (too small): they are "
-            "told in a table of impacts, but in a force, where weak impacts close together merge, mostly not. In a "
-            "series of a long tail (marginal lognormal, rough) a slight modulation may be found where there is none: "
-            "--keep-modulation leaves it. The parameter file is a scene part with contact.model impacts: a scene that "
-            "includes it draws other impacts of the amplitudes, intervals and durations found. How near it comes "
-            "depends on how well the force is a series of impacts: bounces are, a contact that never parts is not, and "
-            "the notes say so. The force should be whole: what output.ramp, load.approach or load.release fade is "
-            "weaker but no longer, and theta comes out too small.",
+    .does =
+        "Finds the impacts in a force, or takes them from a table. A force is a WAV, a one-dimensional NPY, or a CSV "
+        "with time_s and a column of newtons, such as diagnostics at the sample rate. A table is a CSV with time_s, "
+        "amplitude_n and maybe duration_s, as output.impacts writes it.\n"
+        "Prints what Conan et al. (2014, on rolling sounds) estimate of the impacts' amplitudes and of the times "
+        "between them, with 95 % intervals: means, ARMA(1,1) filters, the whitened series and their distributions, "
+        "whether one process drives both, and a modulation. It also prints how durations depend on amplitudes, in "
+        "that paper's two steps, and which shape impacts have (raised cosine, Meixner window). Notes say what makes "
+        "the estimates doubtful.\n"
+        "Draws that were raised to a floor bias means (too high) and deviations (too small). They are told in a table "
+        "of impacts. In a force, where weak impacts close together merge, they mostly are not. In a series of a long "
+        "tail (marginal lognormal, rough) a slight modulation may be found where there is none: --keep-modulation "
+        "leaves it.\n"
+        "The parameter file is a scene part with contact.model impacts. A scene that includes it draws other impacts "
+        "of the amplitudes, intervals and durations found. How near it comes depends on how well the force is a "
+        "series of impacts: bounces are, a contact that never parts is not, and the notes say so. The force should be "
+        "whole: what output.ramp, load.approach or load.release fade is weaker but no longer, and theta comes out too "
+        "small.",
     .operands = "FILE",
     .least = 1,
     .most = 1,

@@ -152,9 +152,11 @@ const struct command check_command = {
     .summary = "finds what is wrong with scenes, without rendering them",
     .does = "Reads each scene and says all that is wrong with its text, each fault with its line: unknown keys, wrong "
             "units, values out of range or at odds with each other, columns that are not there, nothing to compute. If "
-            "nothing is, then the first that is wrong with the rest: files that are missing, damaged or have changed, "
-            "a motion that leaves them. Only what shows in the sound itself, such as clipping, it cannot know. Of a "
-            "design (rasp-design(5)) the scene of every stimulus is read so, and a fault that many have is told once. "
+            "the text has no fault, it says the first that is wrong with the rest: files that are missing, damaged or "
+            "have changed, a motion that leaves them. It cannot know what shows in the sound itself only, such as "
+            "clipping.\n"
+            "Of a design (rasp-design(5)) it reads the scene of every stimulus so, and tells a fault that many have "
+            "once.\n"
             "A scene or design without fault is reported on standard output as ok. The exit code is the worst of all.",
     .operands = "SCENE|DESIGN...",
     .least = 1,

@@ -314,10 +314,11 @@ const struct command completion_command = {
     .name = "completion",
     .group = "The shell",
     .summary = "prints a script that completes rasp's words in a shell",
-    .does = "Completed are commands, actions, options, the words that options take, files by their endings, keys of "
-            "scenes after --set (and their words behind the equals sign) and after rasp explain. `make install` puts "
-            "the three scripts where the shells find them; without it, load one as the examples show. The scripts ask "
-            "rasp: rasp completion words -- WORD... says what the last word may become.",
+    .does =
+        "Completes commands, actions, options, the words that options take, files by their endings, and keys of "
+        "scenes after rasp explain and after --set, with their words behind the equals sign. `make install` puts the "
+        "three scripts where the shells find them; without it, load one as the examples show. The scripts ask rasp: "
+        "rasp completion words -- WORD... says what the last word may become.",
     .operands = "bash|zsh|fish",
     .least = 1,
     .most = -1, /* words: those of a command line */

@@ -163,9 +163,8 @@ int modes_solids_only(struct cmd_call *c, struct err *e, int (*const run[2])(str
 
 static const struct args_option options[] = {
     {"output", 'o', "FILE.csv", false,
-     "object, compute, extract: the mode table to write, material: the file of the material, residual: the folder; "
-     "must "
-     "be given"},
+     "object, compute, extract: the mode table to write; material: the file of the material; residual: the folder; "
+     "must be given"},
     {"force", 'f', NULL, false, "object, compute, extract, material, residual: replaces what exists"},
     {"shape", 0, "SHAPE", false, "compute: a solid by its sizes, such as plate:length=30cm,width=20cm,thickness=5mm"},
     {"order", 0, "N", false,
@@ -173,16 +172,16 @@ static const struct args_option options[] = {
      "mesh file compute 2, material 4, of more than 4000 tetrahedra 3)"},
     {"grade", 0, "N", false,
      "compute, material: layers of cells, each a fifth as far from it, towards every re-entrant edge (220 degrees or "
-     "more inside the solid), 0 to 6 (default 2): without them frequencies of what has such edges are up to 1 % too "
+     "more inside the solid), 0 to 6 (default 2). Without them frequencies of what has such edges are up to 1 % too "
      "high"},
     {"estimate", 0, NULL, false,
      "compute: estimates the error of every frequency from a second, coarser computation, into the report and the "
      "table's comments"},
     {"unit", 0, "LENGTH", false, "compute, material: what one unit of the mesh file is, such as mm (default m)"},
     {"material", 0, "NAME", false,
-     "compute: a material that rasp knows, or FILE.yaml:NAME of a file with materials (of one, FILE.yaml); the next "
-     "six "
-     "put their figures in place of its own; material: a wood, whose moduli keep their ratios to that along the grain"},
+     "compute: a material that rasp knows, or FILE.yaml:NAME of a file with materials (of one, FILE.yaml); "
+     "--youngs-modulus, --poisson, --density, --alpha, --beta and --loss put their figures in place of its own. For "
+     "material: a wood, whose moduli keep their ratios to that along the grain"},
     {"youngs-modulus", 0, "PRESSURE", false,
      "compute: Young's modulus, of a wood that along the grain, x (its other moduli keep their ratios to it)"},
     {"poisson", 0, "NUMBER", false, "compute: Poisson's ratio; material: the same, given and not looked for"},
@@ -210,11 +209,11 @@ static const struct args_option options[] = {
     {"places", 0, "N", false,
      "object, compute: how many places on the line or circle; default: on a circle 33, on a line as --grid says"},
     {"grid", 0, "NX,NY", false,
-     "object, compute: places on a grid over the object; those beside it (of what is round) are left out, and between "
-     "what is then no full grid gains are linear, else smooth; default: a grid, over what is round rings as far as its "
-     "surface has no edge (a bowl: to its lip), with as many places as keep the gains of all modes between the places, "
-     "as a scene interpolates them, within -40 dB (rms, relative to the gains, at 512 places), at most 4096 and 500000 "
-     "rows; what is left is reported"},
+     "object, compute: places on a grid over the object. Those beside it (of what is round) are left out, and between "
+     "what is then no full grid gains are linear, else smooth. The default is a grid, over what is round rings as far "
+     "as its surface has no edge (a bowl: to its lip). It has as many places as keep the gains of all modes between "
+     "the places, as a scene interpolates them, within -40 dB (rms, relative to the gains, at 512 places). They are at "
+     "most 4096, and 500000 rows; what error is left is reported"},
     {"at", 0, "X,Y", false, "one place"},
     {"points", 0, "FILE.csv", false,
      "compute: places by points of space, columns x_m, y_m, z_m, and u_m, v_m where the scene has them (else x_m, "
@@ -287,66 +286,72 @@ const struct command modes_command = {
     .name = "modes",
     .summary = "how objects ring: mode tables",
     .does =
-        "rasp modes object RECIPE -o FILE.csv: the modes of an object of simple shape as a mode table: their "
+        "rasp modes object RECIPE -o FILE.csv writes the modes of an object of simple shape as a mode table: their "
         "frequencies, decays, and gains at places. RECIPE is a YAML file of surface keys, as in irs/, or a scene. "
-        "Places are lengths in its own coordinates: of bars, rods, strings, plates and membranes x from 0 to "
-        "the length and y from 0 to the width, of what is round from the centre, of a shell along great circles from a "
-        "pole. Without --line, --grid or --at they are a line along what is slender, a grid on what is flat, rings on "
-        "what is round (as many as --grid says), a shell's pole, and of a scraper or ball its object.at. The table has "
-        "them where they lie in the scene, moved by surface.object.origin. Rendering needs no such file: a scene's "
-        "surface.object gives the same modes anywhere.\n"
-        "rasp modes compute MESH -o FILE.csv: the modes of any solid by finite elements. MESH is a mesh of "
-        "tetrahedra, of Gmsh (.msh, versions 2.2 and 4.1) or TetGen (.node, .ele); or --shape makes one: plate, "
-        "bar, rod, ring, bowl, sphere, mug (--shape help lists their sizes). At default fineness and order the 60 "
-        "lowest modes of steel solids are within about 0.1 % (rods, solid balls), 0.2 % (a mug of 4 mm), 0.3 % (a "
-        "plate of 40 x 20 x 0.5 cm, a hollow ball of 2 mm), 0.5 % (a ring 14 cm wide, 10 x 6 mm: its lowest 0.12 "
-        "%, at 14 kHz 0.45 %) and 0.6 % (a bowl 20 cm wide and 1.5 mm thick), in 4 to 30 s of processor time; "
-        "thinner walls and higher modes want more: frequencies come out too high and fall with fineness, --order "
-        "and --grade. --estimate says by how much, from a coarser mesh too (Richardson); it cannot see the error "
-        "of what both meshes have alike, such as one element through a wall. The solid is touched and heard along "
-        "its surface's normal. Its places are those of the plane in which a scene moves: --face says from where "
-        "that looks at the solid, and --origin where the solid lies in the scene. Without --line, --circle, "
-        "--grid, --at or --points they are a grid over what is seen (rings if round), a line along what is "
-        "slender. A table made from the same inputs and not changed since is left as it is.\n"
-        "rasp modes extract RECORDING... -o FILE.csv: the modes of an object from recordings in which it is struck. "
-        "RECORDING holds one strike or many on one place. Every strike has gains of its own; frequencies and decays "
-        "are those of all, within what strikes differ by. A hammer's force (--force- channel) drives the modes, else "
-        "a strike is an impulse. No mode is reported that noise might have made; two decays of one frequency are. A "
-        "hum, as loud before the strikes, is no mode; what rings longer than strikes show gets the slowest decay they "
-        "do. Strikes that clip or are 30 dB below the loudest sound are left out; of one doubled by a "
-        "bouncing hammer the rest is fitted; 8 bits are mostly refused. Modes that explain less than nine tenths of "
-        "what lags the force, or less than half in a strike, make no table, nor do those of different objects. "
-        "Without a force a second hit within 100 ms is mostly not seen: cut it out. Several places are FILE@X,Y "
-        "each, or one folder with index.csv (columns file_name,x_m,y_m): they share frequencies and decays; without "
-        "a force each has a level and an onset of its own, so that places cannot be compared. The sound is a "
-        "microphone's pressure unless --quantity is given. Levels are physical where --scale and --force-scale are "
-        "given and the sound is a vibration, or a pressure with --radius and --distance; else relative, and the "
-        "table says why. Report and table give errors: se, by noise, and se_between, the standard deviation from "
-        "strike to strike, of one strike a stated 0.02 % of frequency and 5 % of decay. Modes come by energy. Modes "
-        "that overlap may as well be others: a small change of the recording may bring them out. The median decay "
-        "counts all modes alike, that by energy, to compare materials by, is what half of it is slower than.\nrasp "
-        "modes list FILE: the strongest "
-        "modes of a mode table, recipe or scene: frequency, time of decay by 60 dB, largest gain (in a table over its "
-        "places, of an object over a grid of places, or at one place with --at).",
+        "Rendering needs no such file: a scene's surface.object gives the same modes anywhere.\n"
+        "Places are lengths in the object's own coordinates. Of bars, rods, strings, plates and membranes x goes from "
+        "0 to the length and y from 0 to the width. Of what is round they go from the centre, and of a shell along "
+        "great circles from a pole. Without --line, --grid or --at there is a line along what is slender, a grid on "
+        "what is flat, and rings on what is round (as many as --grid says). Of a shell there is its pole, and of a "
+        "scraper or ball its object.at. The table has the places where they lie in the scene, moved by "
+        "surface.object.origin.\n"
+        "rasp modes compute MESH -o FILE.csv writes the modes of any solid, by finite elements. MESH is a mesh of "
+        "tetrahedra, of Gmsh (.msh, versions 2.2 and 4.1) or TetGen (.node, .ele). In its place --shape makes one: "
+        "plate, bar, rod, ring, bowl, sphere, mug (--shape help lists their sizes).\n"
+        "At default fineness and order the 60 lowest modes of steel solids take 4 to 30 s of processor time. Their "
+        "frequencies are within about 0.1 % (rods, solid balls), 0.2 % (a mug of 4 mm) and 0.3 % (a plate of 40 x 20 "
+        "x 0.5 cm, a hollow ball of 2 mm). They are within 0.5 % for a ring 14 cm wide, 10 x 6 mm (its lowest 0.12 %, "
+        "at 14 kHz 0.45 %), and within 0.6 % for a bowl 20 cm wide and 1.5 mm thick.\n"
+        "Thinner walls and higher modes want more: frequencies come out too high and fall with fineness, --order and "
+        "--grade. The option --estimate says by how much, from a coarser mesh too (Richardson). It cannot see the "
+        "error of what both meshes have alike, such as one element through a wall.\n"
+        "The solid is touched and heard along its surface's normal. Its places are those of the plane in which a "
+        "scene moves: --face says from where that looks at the solid, and --origin where the solid lies in the scene. "
+        "Without --line, --circle, --grid, --at or --points they are a grid over what is seen (rings if round), or a "
+        "line along what is slender. A table made from the same inputs and not changed since is left as it is.\n"
+        "rasp modes list FILE prints the strongest modes of a mode table, recipe or scene: frequency, time of decay "
+        "by 60 dB, and largest gain. The gain is the largest of a table over its places, of an object over a grid of "
+        "places, or that at one place with --at.",
     .also =
-        "rasp modes residual RECORDING TABLE -o FOLDER: what the loudest strike of a recording sounds besides the "
-        "modes of TABLE, which extract made of it: for surface.residual of a scene. RECORDING, channels, scales, "
-        "--quantity, --impulse and --strikes are as for extract. With --estimated a mode is taken off only as far as a "
-        "mode of that table matches it (0.1 Bark, a factor of 1.28 in damping): the rest stays. Noise before the "
-        "strike is taken off, and where the force was recorded it is divided out, up to a frequency that the report "
-        "states. strike.wav in the folder has the represented sound and what is left of the strike, in two channels, "
-        "as loud as the recording. residual.wav is a response, in the sound's unit per N s (without a force, of a "
-        "strike whose peak is 1): floats that may lie far beyond full scale.\n"
-        "rasp modes material OBJECT STRIKE... -o FILE.yaml: what an object is made of. OBJECT is a mesh, or a shape as "
-        "of --shape; each STRIKE a table of rasp modes extract, FILE.csv@X,Y where the place that was struck is known; "
-        "several objects of one material stand one after the other, each with its strikes. Found are E/density, "
-        "Poisson's ratio and damping: all values of E/density are looked through for every ratio, modes are paired "
-        "with computed ones, and laws of damping are compared by their BIC. The mass, or the density, makes E of that. "
-        "Intervals hold 95 %; where pairs are few, or another material fits nearly as well, a warning says so and "
-        "there are none. E/density is that at the sizes given: 1 % of length is 2 % of it, one length of a bar up to 4 "
-        "%; alpha is what material and support take together. The file is an entry of "
-        "materials, which a scene includes and surface.material names. Strikes without an object give their damping "
-        "alone, as a file for surface.recipe.",
+        "rasp modes extract RECORDING... -o FILE.csv writes the modes of an object from recordings in which it is "
+        "struck. RECORDING holds one strike or many on one place. Every strike has gains of its own; frequencies and "
+        "decays are those of all, within what strikes differ by. A hammer's force (--force-channel) drives the modes, "
+        "else a strike is an impulse. Several places are FILE@X,Y each, or one folder with index.csv (columns "
+        "file_name,x_m,y_m). They share frequencies and decays. Without a force each has a level and an onset of its "
+        "own, so that places cannot be compared.\n"
+        "No mode is reported that noise might have made; two decays of one frequency are. A hum, as loud before the "
+        "strikes, is no mode. What rings longer than strikes show gets the slowest decay they do. Strikes that clip "
+        "or are 30 dB below the loudest sound are left out, and of one doubled by a bouncing hammer the rest is "
+        "fitted. Recordings of 8 bits are mostly refused. Modes that explain less than nine tenths of what lags the "
+        "force, or less than half in a strike, make no table, nor do those of different objects. Without a force a "
+        "second hit within 100 ms is mostly not seen: cut it out.\n"
+        "The sound is a microphone's pressure unless --quantity is given. Levels are physical where --scale and "
+        "--force-scale are given and the sound is a vibration, or a pressure with --radius and --distance. Else they "
+        "are relative, and the table says why.\n"
+        "Report and table give two errors. The error se is that by noise, and se_between is the standard deviation "
+        "from strike to strike; of one strike that is a stated 0.02 % of frequency and 5 % of decay. Modes come by "
+        "energy. Modes that overlap may as well be others: a small change of the recording may bring them out. The "
+        "median decay counts all modes alike. The median by energy is for comparing materials: modes that decay more "
+        "slowly than it have half of the energy.\n"
+        "rasp modes residual RECORDING TABLE -o FOLDER writes what the loudest strike of a recording sounds besides "
+        "the modes of TABLE, which extract made of it. It is for surface.residual of a scene. RECORDING, channels, "
+        "scales, --quantity, --impulse and --strikes are as for extract. With --estimated a mode is taken off only as "
+        "far as a mode of that table matches it (0.1 Bark, a factor of 1.28 in damping): the rest stays. Noise before "
+        "the strike is taken off. Where the force was recorded it is divided out, up to a frequency that the report "
+        "states.\n"
+        "In the folder strike.wav has the represented sound and what is left of the strike, in two channels, as loud "
+        "as the recording. The other sound, residual.wav, is a response, in the sound's unit per N s (without a "
+        "force, of a strike whose peak is 1): floats that may lie far beyond full scale.\n"
+        "rasp modes material OBJECT STRIKE... -o FILE.yaml finds what an object is made of. OBJECT is a mesh, or a "
+        "shape as of --shape. Each STRIKE is a table of rasp modes extract, FILE.csv@X,Y where the place that was "
+        "struck is known. Several objects of one material stand one after the other, each with its strikes.\n"
+        "Found are E/density, Poisson's ratio and damping. All values of E/density are looked through for every "
+        "ratio, modes are paired with computed ones, and laws of damping are compared by their BIC. The mass, or the "
+        "density, makes E of that. Intervals hold 95 %; where pairs are few, or another material fits nearly as well, "
+        "a warning says so and there are none. E/density is that at the sizes given: 1 % of length is 2 % of it, one "
+        "length of a bar up to 4 %. Alpha is what material and support take together.\n"
+        "The file is an entry of materials, which a scene includes and surface.material names. Strikes without an "
+        "object give their damping alone, as a file for surface.recipe.",
     .operands = "ACTION FILE",
     .least = 1,
     .most = -1,

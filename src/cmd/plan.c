@@ -227,12 +227,13 @@ const struct command plan_command = {
     .name = "plan",
     .summary = "shows which stages a scene runs, why, and at what predicted cost",
     .does =
-        "Lists for each contact the stages that will run, in order, with what they read and make, their share of the "
-        "predicted cost and the equations they follow, and what they cost once, when they are opened, and per audio "
-        "sample while they work; then those that will not run, and why not; what the render does in no stage, such as "
-        "finding a plate's modes; where the scene asks for an error (accuracy.error), what knobs are chosen and what "
-        "they are predicted to leave. Nothing is rendered, but all that the scene names is read, and what rasp check "
-        "refuses is refused here, too.",
+        "Lists for each contact the stages that will run, in order. Each stage has what it reads and makes, the "
+        "equations it follows and its share of the predicted cost. It also has what it costs once, when it is opened, "
+        "and per audio sample while it works.\n"
+        "Then the plan lists the stages that will not run, and why not, and what the render does in no stage, such as "
+        "finding a plate's modes. Where the scene asks for an error (accuracy.error), it says what knobs are chosen "
+        "and what error they are predicted to leave.\n"
+        "Nothing is rendered. But all that the scene names is read, and what rasp check refuses is refused here, too.",
     .operands = "SCENE...",
     .least = 1,
     .most = -1,

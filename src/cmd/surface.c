@@ -615,18 +615,20 @@ const struct command surface_command = {
     .name = "surface",
     .group = "Surfaces and objects",
     .summary = "height maps: what they are like, other formats",
-    .does = "rasp surface info FILE...: what height maps are like, one fact a line: size, roughness figures, missing "
-            "points, how finely heights are stored against what the limiter lets through, how far the spectrum "
-            "reaches, what repeating or mirroring the map does at its ends, and what looks like a fault. Nothing is "
-            "levelled unless it is asked for.\n"
-            "rasp surface synth RECIPE OUT: heights of a procedural surface (roughness, ridges, grit of a recipe or "
-            "scene), by OUT's ending. Rendering needs no such file: it computes the heights where the contact goes.\n"
-            "rasp surface convert IN OUT: the map in another format, by OUT's ending: .gsf (float32), .gwy, .sdf, .npy "
-            "(float64), .png (16 bits, 0 lowest, 65535 highest; what they stand for is printed), .csv. Heights are "
-            "metres in all but PNG.\n"
-            "Read are GSF, GWY, SDF (text, binary), NPY, 16-bit grey PNG and CSV grids, told apart by content; what "
-            "else Gwyddion reads, gwyddion --convert-to-gwy=OUT.gwy IN makes readable. A map has at most 2^28 samples "
-            "(16384 x 16384), for which 2 GiB of memory and the size of the file are taken.",
+    .does =
+        "rasp surface info FILE... says what height maps are like, one fact a line: size, roughness figures, missing "
+        "points, and what looks like a fault. It also says how finely heights are stored against what the limiter "
+        "lets through, how far the spectrum reaches, and what repeating or mirroring the map does at its ends. "
+        "Nothing is levelled unless it is asked for.\n"
+        "rasp surface synth RECIPE OUT writes the heights of a procedural surface (roughness, ridges, grit of a "
+        "recipe or scene), by OUT's ending. Rendering needs no such file: it computes the heights where the contact "
+        "goes.\n"
+        "rasp surface convert IN OUT writes the map in another format, by OUT's ending: .gsf (float32), .gwy, .sdf, "
+        ".npy (float64), .png (16 bits, 0 lowest, 65535 highest; what they stand for is printed), .csv. Heights are "
+        "metres in all but PNG.\n"
+        "GSF, GWY, SDF (text, binary), NPY, 16-bit grey PNG and CSV grids are read, told apart by content. What else "
+        "Gwyddion reads, gwyddion --convert-to-gwy=OUT.gwy IN makes readable. A map has at most 2^28 samples (16384 x "
+        "16384), for which 2 GiB of memory and the size of the file are taken.",
     .operands = "ACTION FILE...",
     .least = 1,
     .most = -1,
