@@ -552,6 +552,15 @@ static bool speaks_of(const char *text, const char *word, struct arena *a)
     return false;
 }
 
+/* How much of a meaning is its first thought. */
+static size_t gist(const char *meaning)
+{
+    size_t n = strcspn(meaning, ";(");
+    for (const char *p = meaning; p < meaning + n; p++)
+        if (text_ends_sentence(meaning, p)) return (size_t)(p - meaning);
+    return n;
+}
+
 /* Keys whose name, meaning or words have it, a line each. False: there are none, or more than would help. */
 static bool explain_search(json_t *schema, const char *word, struct arena *a)
 {
@@ -576,7 +585,7 @@ static bool explain_search(json_t *schema, const char *word, struct arena *a)
     if (n == 0 || n == MOST) return false;
     printf("no key is called '%s'; these speak of it:\n", word);
     for (int i = 0; i < n; i++)
-        text_wrap(stdout, arena_format(a, "%.*s", (int)strcspn(found[i][1], ";("), found[i][1]),
+        text_wrap(stdout, arena_format(a, "%.*s", (int)gist(found[i][1]), found[i][1]),
                   printf("  %-30s ", found[i][0]), "                                 ");
     return true;
 }

@@ -437,9 +437,10 @@ static const struct choice integrators[] = {
     [INTEGRATOR_DISCRETE_GRADIENT] = {"discrete_gradient",
                                       "the midpoint rule with a discrete gradient and exact poles: energy is balanced "
                                       "to rounding, stable at any step"},
-    [INTEGRATOR_RK4] = {"rk4",
-                        "the explicit fourth-order Runge-Kutta method, as papers/002; refused below 12 steps per "
-                        "contact"},
+    [INTEGRATOR_RK4] =
+        {"rk4",
+         "the explicit fourth-order Runge-Kutta method, as Conan et al. (2014a) have it; refused below 12 steps per "
+         "contact"},
     [INTEGRATOR_EXACT_IMPACT] = {"exact_impact", "each impact exact at any step; on rigid ground only"},
     {NULL, NULL}};
 

@@ -37,7 +37,7 @@ static const struct choice inverses[] = {
     {NULL, NULL}};
 
 static const struct choice shifts[] = {
-    [RESIDUAL_DIFFERENCE] = {"difference", "by the difference of two modes' frequencies, as the paper has it"},
+    [RESIDUAL_DIFFERENCE] = {"difference", "by the difference of two modes' frequencies, as Ren et al. (2013) have it"},
     [RESIDUAL_RATIO] = {"ratio", "by their ratio, as all frequencies of bodies alike do"},
     {NULL, NULL}};
 

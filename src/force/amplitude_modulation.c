@@ -50,7 +50,7 @@ static double instead(const struct key *k, const void *owner)
 
 static const struct params modulation_params = {
     .section = "contact.modulation",
-    .meaning = "the force swells and fades as a sine, whatever it is made of (papers/002, equation 7)",
+    .meaning = "the force swells and fades as a sine, whatever it is made of (Conan et al. 2014a, equation 7)",
     .size = sizeof(struct modulation),
     .keys = keys,
     .alternative = {.most = 1, .paths = {"contact.modulation.rate", "contact.modulation.radius"}},

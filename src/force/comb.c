@@ -38,8 +38,8 @@ static const struct key keys[] = {{ROW_NUMBER(comb, gain, "contact.comb.gain"), 
 
 static const struct params comb_params = {
     .section = "contact.comb",
-    .meaning =
-        "what comes back from the edge of a finite surface, as a comb filter on the force (papers/002, section VII)",
+    .meaning = "what comes back from the edge of a finite surface, as a comb filter on the force (Conan et al. 2014a, "
+               "section VII)",
     .size = sizeof(struct comb),
     .keys = keys,
 };

@@ -62,7 +62,7 @@ static void check(const struct scene_part *p, const struct contact *c, const voi
 
 static const struct params gesture_params = {
     .section = "contact.gesture",
-    .meaning = "a low-pass on the force that follows the contact's speed, as of a hand's gesture (papers/004)",
+    .meaning = "a low-pass on the force that follows the contact's speed, as of a hand's gesture (Conan et al. 2014b)",
     .size = sizeof(struct gesture),
     .keys = keys,
     .check = check,

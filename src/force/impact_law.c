@@ -30,11 +30,14 @@
 /* ------------------------------------------------------------------ parameters */
 
 static const struct choice prototypes[] = {
-    [PROTOTYPE_ROLL] = {"roll", "papers/002's rolling, from size, velocity and roughness (equations 16, 17, table I)"},
-    [PROTOTYPE_RUB] = {"rub", "papers/004's rubbing: white signed force, an impact every 1/44100 s"},
-    [PROTOTYPE_SCRATCH] = {"scratch",
-                           "papers/004's scratching: like rub, but the impacts come seldom, at exponential intervals"},
-    [PROTOTYPE_SPACE] = {"space", "a place on papers/004's disk of actions, or a way over it: angle and radius"},
+    [PROTOTYPE_ROLL] =
+        {"roll", "rolling of Conan et al. (2014a), from size, velocity and roughness (equations 16, 17, table I)"},
+    [PROTOTYPE_RUB] = {"rub", "rubbing of Conan et al. (2014b): white signed force, an impact every 1/44100 s"},
+    [PROTOTYPE_SCRATCH] =
+        {"scratch",
+         "scratching of Conan et al. (2014b): like rub, but the impacts come seldom, at exponential intervals"},
+    [PROTOTYPE_SPACE] = {"space",
+                         "a place on the disk of actions of Conan et al. (2014b), or a way over it: angle and radius"},
     [PROTOTYPE_CUSTOM] = {"custom", "what amplitude, interval, duration and modulation say"},
     {NULL, NULL}};
 
@@ -52,7 +55,8 @@ static const struct choice marginals[] = {
     {NULL, NULL}};
 
 static const struct choice processes[] = {
-    [PROCESSES_ONE] = {"one", "one uniform process drives amplitudes and intervals, as papers/002 found in its model"},
+    [PROCESSES_ONE] =
+        {"one", "one uniform process drives amplitudes and intervals, as Conan et al. (2014a) found in their model"},
     [PROCESSES_TWO] = {"two", "each has its own"},
     {NULL, NULL}};
 
@@ -76,11 +80,11 @@ static const struct key keys[] = {
     {ROW_CHOICE(impacts, prototype, "contact.impacts.prototype"), KEY_NONE, 0, 0, NULL, IMPACTS,
      "which statistics the impacts have", prototypes, .shown = "roll"},
     {ROW_NUMBER(impacts, size, "contact.impacts.size"), KEY_NONE, 0.1, 1, "0.5", ROLL_SPACE,
-     "S of papers/002, the size of what rolls: durations 0.788 ms S A^-0.29 (equation 16)"},
+     "S of Conan et al. (2014a), the size of what rolls: durations 0.788 ms S A^-0.29 (equation 16)"},
     {ROW_NUMBER(impacts, velocity, "contact.impacts.velocity"), KEY_NONE, 0.1, 1, "0.5", ROLL_SPACE,
-     "V of papers/002: the amplitudes are modulated at 3 V/S Hz (equation 17)"},
+     "V of Conan et al. (2014a): the amplitudes are modulated at 3 V/S Hz (equation 17)"},
     {ROW_NUMBER(impacts, roughness, "contact.impacts.roughness"), KEY_NONE, 0, 1, "0.5", ROLL_SPACE,
-     "rho of papers/002: the series' statistics between the two columns of its table I"},
+     "rho of Conan et al. (2014a): the series' statistics between the two columns of their table I"},
     {ROW_NUMBER(impacts, unit_force, "contact.impacts.unit_force"), KEY_FORCE, 1e-12, 1e12, "1 N", IMPACTS,
      "force of an amplitude of 1"},
     {ROW_NUMBER(impacts, amplitude.mean, "contact.impacts.amplitude.mean"), KEY_NONE, -1e6, 1e6, "", ROLLING,
@@ -118,9 +122,9 @@ static const struct key keys[] = {
     {ROW_NUMBER(impacts, rate, "contact.impacts.modulation.rate"), KEY_FREQUENCY, 0, 1000, "", ROLLING,
      "nu; left out: the prototype's, 3 V/S Hz of roll", .shown = "3 Hz"},
     {ROW_NUMBER(impacts, least_amplitude, "contact.impacts.floor.amplitude"), KEY_NONE, 0, 1, "", ROLLING,
-     "least amplitude, as a share of the mean: draws below it are limited, counted and reported; left out: 0.01 of "
-     "roll; of custom, and of space but at roll's own place, amplitudes keep their sign, and only durations are taken "
-     "from at least 0.01 of the rms amplitude",
+     "least amplitude, as a share of the mean: draws below it are limited, counted and reported. Left out, it is "
+     "0.01 under roll. Under custom, and under space but at roll's own place, amplitudes then keep their sign, and "
+     "only durations are taken from at least 0.01 of the rms amplitude",
      .shown = "0.01"},
     {ROW_NUMBER(impacts, least_interval, "contact.impacts.floor.interval"), KEY_TIME, 1e-6, 1, "22.6757 us", IMPACTS,
      "least time from impact to impact (a sample at 44.1 kHz unless given): shorter draws are limited, counted and "
@@ -133,7 +137,7 @@ static const struct key keys[] = {
     {ROW_NUMBER(impacts, rub.interval, "contact.impacts.rub.interval"), KEY_TIME, 1e-6, 10, "22.6757 us", RUB,
      "time from impact to impact: a sample at 44.1 kHz unless given, at any sample rate"},
     {ROW_NUMBER(impacts, rub.duration, "contact.impacts.rub.duration"), KEY_TIME, 1e-6, 0.1, "22.6757 us", RUB,
-     "how long an impact lasts (papers/004: one sample; in seconds ours)" DULLER},
+     "how long an impact lasts (Conan et al. 2014b: one sample; in seconds ours)" DULLER},
     {ROW_NUMBER(impacts, scratch.deviation, "contact.impacts.scratch.deviation"), KEY_NONE, 0, 1e6, "0.15", SCRATCH,
      NORMAL},
     {ROW_NUMBER(impacts, scratch.interval, "contact.impacts.scratch.interval"), KEY_TIME, 1e-6, 10, "10 ms", SCRATCH,

@@ -652,17 +652,18 @@ static void roll_skip(struct stage_run *r, long frame)
 
 static const struct choice penetrations[] = {
     [PENETRATION_DEVIATION] =
-        {"deviation", "rho is the penetration at rest under the normal force, which an offset of the centre of "
-                      "mass and lobes of the rim vary, and how much deeper the ground presses in as the ball "
-                      "follows it like a mass on the contact's spring; slowly shifted so that the mean force is "
-                      "the normal force's"},
+        {"deviation",
+         "rho is the penetration at rest under the normal force, which an offset of the centre of mass and lobes of "
+         "the rim vary. Added is how much deeper the ground presses in as the ball follows it like a mass on the "
+         "contact's spring. The sum is slowly shifted so that the mean force is the normal force's"},
     [PENETRATION_PAPER] = {"paper",
                            "equation 16 as printed, rho = R - r cos(x/R) + S, with a stiffness chosen by hand"},
     {NULL, NULL}};
 
 static const struct choice followed[] = {
     [FOLLOWS_BALL] = {"ball", "the way of a ball's centre, which no valley narrower than the ball lets in"},
-    [FOLLOWS_POINT] = {"point", "the ground itself, as a scraper's point does: papers/000, section 4.1, as printed"},
+    [FOLLOWS_POINT] = {"point",
+                       "the ground itself, as a scraper's point does: Agarwal et al. (2021), section 4.1, as printed"},
     {NULL, NULL}};
 
 static const struct key keys[] = {

@@ -270,8 +270,10 @@ static const struct choice quantities[] = {
     [QUANTITY_DISPLACEMENT] = {"displacement", "displacement in m"},
     [QUANTITY_VELOCITY] = {"velocity", "velocity in m/s"},
     [QUANTITY_ACCELERATION] = {"acceleration", "acceleration in m/s^2, with its direct term"},
-    [QUANTITY_FORCE] = {"force", "the contact force itself, in N: papers/002 and 004 play it as a sound; no response "
-                                 "is needed, and none is computed"},
+    [QUANTITY_FORCE] =
+        {"force",
+         "the contact force itself, in N, which Conan et al. (2014a, 2014b) play as a sound; no response is needed, "
+         "and none is computed"},
     {NULL, NULL}};
 
 static const struct choice envelopes[] = {
@@ -297,9 +299,9 @@ static const struct key keys[] = {
      "parts that are written as WAVs of their own: force, surface, scraper, ball", .example = "[force, surface]",
      .shown = "[force, surface, scraper]"},
     {ROW_NUMBER(scene, output.level.full_scale, "output.level.full_scale"), KEY_OUTPUT, 1e-30, 1e30, "", NULL,
-     "physical level: the value, in the response's unit (of quantity: force in N), that becomes 1.0 in the file; "
-     "beyond 1.0, integers are refused, and floating point is written and warned of; so is a file whose samples are "
-     "all rounded to 0",
+     "physical level: the value, in the response's unit (of quantity: force in N), that becomes 1.0 in the file. "
+     "Beyond 1.0, integers are refused, and floating point is written and warned of; so is a file whose samples "
+     "are all rounded to 0",
      .shown = "0.01"},
     {ROW_NUMBER(scene, output.level.peak, "output.level.peak"), KEY_DECIBEL, -200, 0, "", NULL,
      "scales the file to this peak, dB re full scale", .shown = "-3 dB"},
@@ -309,7 +311,7 @@ static const struct key keys[] = {
      "scales the file to this integrated loudness (BS.1770, which needs 0.4 s; mono counts as dual mono)",
      .shown = "-23 LUFS"},
     {ROW_NUMBER(scene, output.level.dbfs_at_1_pa, "output.level.dbfs_at_1_pa"), KEY_DECIBEL, -200, 100, "", NULL,
-     "physical level of a sound in pascals: the level that 1 Pa gets, dB re full scale; beyond 1.0, integers are "
+     "physical level of a sound in pascals: the level that 1 Pa gets, dB re full scale. Beyond 1.0, integers are "
      "refused, and floating point is written and warned of; so is a file whose samples are all rounded to 0",
      .shown = "-20 dB"},
     {ROW_NUMBER(scene, output.ramp, "output.ramp"), KEY_TIME, 0, 10, "10 ms", NULL,

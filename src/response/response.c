@@ -264,16 +264,16 @@ static const struct choice materials[] = {
 static const struct key body_keys[] = {
     {ROW_COUNT(response, modes, ".modes"), KEY_NONE, 1, 100000, "50", NULL, "how many of the strongest modes ring"},
     {ROW_RANGE(response, band, ".band"), KEY_FREQUENCY, 0, 1e6, "[20 Hz, 20 kHz]", NULL,
-     "frequencies between which the strongest modes are chosen, whatever the sample rate (the lower end counts, the "
-     "upper does not; of objects undamped ones; where poles "
-     "differ from place to place, modes that somewhere lie inside); what is chosen and nowhere lies below 0.45 of the "
-     "sample rate does not ring, and is counted in a warning"},
+     "frequencies between which the strongest modes are chosen, whatever the sample rate. The lower end counts, "
+     "the upper does not. Of objects undamped frequencies count; where poles differ from place to place, a mode "
+     "counts that somewhere lies inside. What is chosen and nowhere lies below 0.45 of the sample rate does not "
+     "ring, and is counted in a warning"},
     {ROW_COUNT(response, gammatone, ".gammatone"), KEY_NONE, 1, 4, "1", NULL,
      "gamma: each mode begins like t^(gamma - 1), its envelope scaled to the same greatest value; 2 is the softer "
-     "onset of Hermes for what rolls (papers/002, section II-B); 1: at once"},
+     "onset of Hermes for what rolls (Conan et al. 2014a, section II-B); 1: at once"},
     {ROW_TIME_OR_AUTO(response, length, ".response_length"), KEY_TIME, 1e-4, 60, "auto", NULL,
-     "t0, at which the impulse response is cut off; auto: what rings is heard until the sound ends, but what launch "
-     "lets ring is dropped at -180 dB, and what overlap_add computes ends at -140 dB or after 60 s"},
+     "t0, at which the impulse response is cut off. With auto what rings is heard until the sound ends. But what "
+     "launch lets ring is dropped at -180 dB, and what overlap_add computes ends at -140 dB or after 60 s"},
     {ROW_CHOICE(response, convolution, ".convolution"), KEY_NONE, 0, 0, "auto", NULL, "how force becomes sound",
      engines},
     {ROW_CHOICE(response, object.material, ".material"), KEY_NONE, 0, 0, "custom", NULL,

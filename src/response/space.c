@@ -463,11 +463,11 @@ static void space_check(const struct scene_part *p, const struct contact *c, con
 const struct params space_params = {
     .section = "surface.space",
     .keys = keys,
-    .meaning = "an object somewhere between wood, metal and glass, and between bar, plate and shell, which may "
-               "change while it sounds; as anchors wood is basswood, metal steel and "
-               "glass glass, with elastic constants and damping as surface.material has them; the spacing of their "
-               "modes is that of a bar, plate and shell of each, by closed "
-               "forms; between anchors the logarithms of frequency ratios and of decays are averaged, by the shares "
-               "of wood, metal and glass at the place",
+    .meaning =
+        "an object somewhere between wood, metal and glass, and between bar, plate and shell, which may change while "
+        "it sounds. As anchors wood is basswood, metal steel and glass glass, with elastic constants and damping as "
+        "surface.material has them. The spacing of their modes is that of a bar, plate and shell of each, by closed "
+        "forms. Between anchors the logarithms of frequency ratios and of decays are averaged, by the shares of wood, "
+        "metal and glass at the place",
     .flag = offsetof(struct contact, surface.response.space.given),
     .check = space_check};

@@ -15,11 +15,10 @@ const struct keys_text_frame keys_text_frames[] = {
      "several contacts, whose sounds add up: each entry holds a name and what else stands at the top level of a "
      "scene with one (surface, scraper, motion, ...)"},
     {"materials", "map of names",
-     "materials of the scene's own, which material of a body takes by name: each a map of youngs_modulus (or "
-     "wave_speed, "
-     "sqrt(youngs_modulus/density), where the density is not known), poisson (or like: a wood, whose ratios of moduli "
-     "it "
-     "keeps), density, alpha, beta, loss, source; rasp modes material writes such entries"},
+     "materials of the scene's own, which material of a body takes by name. Each is a map of youngs_modulus (or "
+     "wave_speed, sqrt(youngs_modulus/density), where the density is not known), poisson (or like: a wood, whose "
+     "ratios of moduli it keeps), density, alpha, beta, loss, source. The command rasp modes material writes such "
+     "entries"},
     {"accuracy", "draft, standard, high, reference, or a map",
      "how much time is spent on accuracy: a preset, which is an error to aim at, or a map of preset, error and single "
      "knobs"},
@@ -300,7 +299,7 @@ static void put_sentence(FILE *f, const char *text)
         else if (*s == '^')
             fputs("\\(ha", f);
         else
-            fputc(*s, f);
+            fputc(s > text && text_ends_sentence(text, s - 1) ? '\n' : *s, f);
     fputs(text[strlen(text) - 1] == '.' ? "\n" : ".\n", f);
 }
 

@@ -44,7 +44,7 @@ static const struct choice between[] = {[INTERPOLATION_NEAREST] = {"nearest", "t
 
 static const struct key keys[] = {
     {ROW_NUMBER(fractal, exponent, "surface.fractal.exponent"), KEY_NONE, -6, 2, "-0.5", NULL,
-     "beta of papers/002: slope of the spectrum over spatial frequency; 004's beta is its negative"},
+     "beta of Conan et al. (2014a): slope of the spectrum over spatial frequency; the beta of 2014b is its negative"},
     {ROW_CHOICE(fractal, spectrum, "surface.fractal.spectrum"), KEY_NONE, 0, 0, "power", NULL,
      "of what the exponent is", spectra},
     {ROW_NUMBER(fractal, maximum, "surface.fractal.maximum"), KEY_LENGTH, 1e-12, 1e-3, "0.1 um", NULL,

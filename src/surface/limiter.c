@@ -340,7 +340,7 @@ static const struct key keys[] = {
     {ROW_NUMBER(limiter, alpha_max, "contact.limiter.alpha_max"), KEY_LENGTH, 1e-6, 1000, "5 cm", LIMITED,
      "alpha at the smallest normal force"},
     {ROW_NUMBER(limiter, ratio_y, "contact.limiter.ratio_y"), KEY_NONE, 0.01, 100, "1", "contact.force=paper",
-     "alpha_y over alpha_x: the paper's force has one alpha for each axis"},
+     "alpha_y over alpha_x: the force of Agarwal et al. (2021) has one alpha for each axis"},
     {ROW_NUMBER(limiter, zeta, "contact.limiter.zeta"), KEY_NONE, 0.01, 100, "0.95", LIMITED, "exponent of equation 7"},
     {ROW_RANGE(limiter, force_range, "contact.limiter.force_range"), KEY_FORCE, 0, 1e5, "", LIMITED,
      "[N_min, N_max] of equation 7, so that scenes compare; forces outside count as its ends, with a warning; left "

@@ -187,14 +187,20 @@ static const struct choice models[] = {
     [CONTACT_SCRAPE] = {"scrape", "a scraper that follows the surface without bouncing"},
     [CONTACT_STRIKE] = {"strike", "impacts: one, several, or a train of bounces, from mass, speed and stiffness"},
     [CONTACT_GIVEN] = {"given", "a force from a file"},
-    [CONTACT_ROLL] =
-        {"roll", "a ball that rolls: the force follows from its centre's way over the surface (papers/000, section 4)"},
-    [CONTACT_ROLL_COUPLED] = {"roll_coupled", "a ball that rolls and may bounce: its flight, the contact and the "
-                                              "surface's modes are solved together (papers/002, section II)"},
-    [CONTACT_IMPACTS] = {"impacts", "a series of impacts drawn from its statistics: rubbing, scratching, rolling, and "
-                                    "what lies between (papers/002, sections IV and V; papers/004)"},
-    [CONTACT_PLAYBACK] = {"playback", "the surface's heights are the force, played at the contact's speed "
-                                      "(FoleyAutomatic, in papers/002, section II-B)"},
+    [CONTACT_ROLL] = {"roll", "a ball that rolls: the force follows from its centre's way over the surface (Agarwal et "
+                              "al. 2021, section 4)"},
+    [CONTACT_ROLL_COUPLED] =
+        {"roll_coupled",
+         "a ball that rolls and may bounce: its flight, the contact and the surface's modes are solved together (Conan "
+         "et al. 2014a, section II)"},
+    [CONTACT_IMPACTS] =
+        {"impacts",
+         "a series of impacts drawn from its statistics: rubbing, scratching, rolling, and what lies between (Conan et "
+         "al. 2014a, sections IV and V; 2014b)"},
+    [CONTACT_PLAYBACK] =
+        {"playback",
+         "the surface's heights are the force, played at the contact's speed (FoleyAutomatic, in Conan et al. 2014a, "
+         "section II-B)"},
     {NULL, NULL}};
 
 static const struct key contact_keys[] = {
@@ -264,23 +270,27 @@ const struct params contact_ball_params = {
 static const struct choice forces[] = {
     [ABLATED_FORCE_VARYING] = {"varying", "as the scene has it"},
     [ABLATED_FORCE_CONSTANT] =
-        {"constant", "held (papers/000, omitting section 2.3): at its mean over a motion that ends as fast as it "
-                     "began, of a grip m g / (1 - mu tan theta), of a ball that turns its weight m g cos(incline); "
-                     "alpha is contact.limiter.alpha, or with force_range what that force makes of it"},
+        {"constant",
+         "held (Agarwal et al. 2021, omitting section 2.3). It is held at its mean over a motion that ends as fast as "
+         "it began: of a grip m g / (1 - mu tan theta), of a ball that turns its weight m g cos(incline). Then alpha "
+         "is contact.limiter.alpha, or with force_range what that force makes of it"},
     {NULL, NULL}};
 
 static const struct choice limits[] = {
     [ABLATED_NONLINEARITY_FULL] = {"kept", "as the scene has it"},
-    [ABLATED_NONLINEARITY_OMITTED] = {"omitted",
-                                      "it is not, and the smoothing that follows the limiter is left out, too "
-                                      "(papers/000, omitting section 2.2): the surface is followed exactly"},
+    [ABLATED_NONLINEARITY_OMITTED] =
+        {"omitted",
+         "it is not, and the smoothing that follows the limiter is left out, too (Agarwal et al. 2021, omitting "
+         "section 2.2): the surface is followed exactly"},
     [ABLATED_NONLINEARITY_SMOOTHED] = {"smoothed", "it is not, but smoothing stays, as for an alpha of 3 cm"},
     {NULL, NULL}};
 
 static const struct choice responses[] = {
     [ABLATED_RESPONSE_BY_PLACE] = {"by_place", "it does, as far as it has places"},
-    [ABLATED_RESPONSE_CONSTANT] = {"constant", "it does not (papers/000, omitting the morphing of section 2.4): the "
-                                               "surface rings everywhere, and all the time, as at one place"},
+    [ABLATED_RESPONSE_CONSTANT] =
+        {"constant",
+         "it does not (Agarwal et al. 2021, omitting the morphing of section 2.4): the surface rings everywhere, and "
+         "all the time, as at one place"},
     {NULL, NULL}};
 
 static const struct choice sounds[] = {[ABLATED_SOUND_BOTH] = {"both", "both, as far as they have responses"},
@@ -294,7 +304,8 @@ static const struct key ablation_keys[] = {
      "contact.model=scrape|roll", "how the normal force goes over the motion", forces},
     {ROW_CHOICE(contact, ablation.nonlinearity, "ablation.nonlinearity"), KEY_NONE, 0, 0, "kept",
      "contact.model=scrape|roll",
-     "whether the curvature of the contact's way is limited, as equations 4 and 5 of papers/000 have it", limits},
+     "whether the curvature of the contact's way is limited, as equations 4 and 5 of Agarwal et al. (2021) have it",
+     limits},
     {ROW_CHOICE(contact, ablation.response, "ablation.response"), KEY_NONE, 0, 0, "by_place", NULL,
      "whether the surface's response depends on where it is touched", responses},
     {ROW_POINT(contact, ablation.place, "ablation.place"), KEY_LENGTH, -100, 100, "", "ablation.response=constant",
@@ -309,6 +320,6 @@ const struct params contact_ablation_params = {
     .section = "ablation",
     .shown = true,
     .keys = ablation_keys,
-    .meaning = "what is left out of the model, to hear what it is for: the ablated models of papers/000, experiments "
-               "1 to 3; all else stays as the scene has it, bit for bit",
+    .meaning = "what is left out of the model, to hear what it is for: the ablated models of Agarwal et al. (2021), "
+               "experiments 1 to 3. All else stays as the scene has it, bit for bit",
     .flag = offsetof(struct contact, ablation.given)};

@@ -131,8 +131,9 @@ const struct params load_grip_params = {
 
 static const struct choice phases[] = {
     [LOAD_LOWEST] = {"lowest", "where the centre of mass is lowest, by Newton's second law"},
-    [LOAD_FALLING] = {"falling", "where it moves downwards, a quarter of a turn earlier: papers/000, section 4.1, as "
-                                 "printed"},
+    [LOAD_FALLING] =
+        {"falling",
+         "where it moves downwards, a quarter of a turn earlier: Agarwal et al. (2021), section 4.1, as printed"},
     {NULL, NULL}};
 
 #define LOWERED "contact.model=scrape|roll|roll_coupled|impacts|playback"
@@ -150,15 +151,15 @@ static const struct key keys[] = {
     {ROW_CHOICE(contact, load.phase, "load.phase"), KEY_NONE, 0, 0, "lowest", "contact.model=roll",
      "where the normal force of a ball whose centre of mass is off its centre (ball.offset) is greatest", phases},
     {ROW_TIME_OR_AUTO(contact, load.approach, "load.approach"), KEY_TIME, 0, 10, "auto", LOWERED,
-     "time over which the force rises at the start, by 10 u^3 - 15 u^4 + 6 u^5 at the share u of it, as the scraper "
-     "(or ball) is lowered; auto: 5 ms where the motion starts at speed, and where there is a force at rest too: of a "
-     "ball that lies on the surface, of impacts and of playback; else 0 (a ball that is dropped comes down by itself). "
-     "Approach and release must fit into the motion, also where they are auto: of one of a few milliseconds give 0 s, "
-     "or shorter ones"},
+     "time over which the force rises at the start, by 10 u^3 - 15 u^4 + 6 u^5 at the share u of it, as the "
+     "scraper (or ball) is lowered. With auto it is 5 ms where the motion starts at speed, and where there is a "
+     "force at rest too: of a ball that lies on the surface, of impacts and of playback. Else it is 0 (a ball that "
+     "is dropped comes down by itself). It must fit into the motion beside load.release"},
     {ROW_TIME_OR_AUTO(contact, load.release, "load.release"), KEY_TIME, 0, 10, "auto", LOWERED,
-     "time over which the force falls at the end, by the same law, as the scraper (or ball) is raised; auto: 5 ms "
-     "where the motion ends at speed, of every ball, of impacts and of playback, else 0; it must fit into the motion "
-     "beside load.approach"},
+     "time over which the force falls at the end, by the same law, as the scraper (or ball) is raised. With auto "
+     "it is 5 ms where the motion ends at speed, of every ball, of impacts and of playback, else 0. It must fit "
+     "into the motion beside load.approach, also where the two are auto: of a motion of a few milliseconds give 0 "
+     "s, or shorter ones"},
     {.path = NULL}};
 
 static const struct params load_params = {
