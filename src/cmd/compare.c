@@ -508,18 +508,20 @@ const struct command compare_command = {
     .name = "compare",
     .group = "Looking at results",
     .summary = "compare two sounds or two tables within tolerances",
-    .does = "Says whether B is A, the reference, and by how much it is not: for sounds the number of differing "
-            "samples, the first, the largest difference, the signal-to-noise ratio and the third-octave levels; for "
-            "tables (CSV, or NPY with named fields) the misses of each column and the worst of them; for both a "
-            "SHA-256. Limits given together must all be met. Cells agree when |B - A| <= ABS + REL |A|.\n"
-            "Sounds of different sample rates are not compared sample by sample: difference, LSB and SNR are left out, "
-            "and every criterion but --third-octave fails.\n"
-            "The SHA-256 of a sound is that of its audio, not of its file: the rate in Hz, the number of channels, "
-            "then all samples frame by frame (integers of n bits as multiples of 2^(1-n)), each as a little-endian "
-            "IEEE 754 double, -0 counted as +0; so A and B have the same exactly when --exact holds. That of a table "
-            "is that of the file's bytes. With --hash there is one FILE, which must have the hash that is given.\n"
-            "The exit code is 0 when the criteria are met, 1 when they are not, and never 0 when a file is missing or "
-            "empty.",
+    .does = "Says whether B is A, the reference, and by how much it is not. Of sounds it gives the number of "
+            "differing samples, the first of them, and the largest difference. The signal-to-noise ratio and the "
+            "third-octave levels follow. Of tables (CSV, or NPY with named fields) it gives the misses of each column "
+            "and the worst of them. Of both it gives a SHA-256.\n"
+            "Limits given together must all be met. Cells agree when |B - A| <= ABS + REL |A|. Sounds of different "
+            "sample rates are not compared sample by sample: difference, LSB and SNR are left out, and every "
+            "criterion but --third-octave fails.\n"
+            "The SHA-256 of a sound is that of its audio, not of its file. It is of the rate in Hz, the number of "
+            "channels, then all samples frame by frame. Each is a little-endian IEEE 754 double, integers of n bits "
+            "being multiples of 2^(1-n), and -0 counts as +0. So A and B have the same exactly when --exact holds. "
+            "That of a table is that of the file's bytes. With --hash there is one FILE, which must have the hash "
+            "that is given.\n"
+            "The exit code is 0 when the criteria are met and 1 when they are not. It is never 0 when a file is "
+            "missing or empty.",
     .operands = "A B | FILE --hash SHA256",
     .least = 1,
     .most = 2,

@@ -394,28 +394,28 @@ static const struct args_option export_options[] = {
 const struct command export_command = {
     .name = "export",
     .summary = "makes a listening experiment, or a data set, of a rendered set",
-    .does =
-        "DESIGN is that of the set in FOLDER, which rasp batch has rendered; its trials (rasp-design(5)) say what "
-        "listeners do. The folder that is made has the sounds, copied, a table of them with the columns of "
-        "manifest.csv and its side-car, and:\n"
-        "webmushra: configs/NAME_p01.yaml for each participant, to be added to a copy of webMUSHRA (which is not "
-        "part of this; PHP 7, or pymushra) and opened with ?config=NAME_p01.yaml. Trials with a reference are MUSHRA "
-        "pages, which want sounds of one length (length: longest); all others are Likert pages. webMUSHRA shuffles "
-        "the sounds of a page by itself. It has no page for two sounds that are compared. What its service writes "
-        "(results/name_p01/) rasp judge takes with --design DESIGN.\n"
-        "psychopy: conditions_p01.csv, a row a trial, in order (loopType sequential), with file_1, file_2 and so on.\n"
-        "jspsych: index.html and lists/p01.js, whose trials are timeline variables; npm install fetches jsPsych. "
-        "page: the same without any library: buttons, or sliders. Both are opened as index.html?list=p01, from the "
-        "disk or from a server of files, take an answer once its sounds were heard to their end, and give "
-        "answers_p01.csv, a row an answer, as a download, which rasp judge reads.\n"
-        "bids: stimuli/, and sub-01/beh/ with the trials of each participant, to be filled in; side-cars for all "
-        "columns. audiofolder: train/metadata.csv with its sounds, as Hugging Face's datasets read it, or a "
-        "folder for each of the design's splits.",
-    .also =
-        "Where trials have a session, each participant has a list for each (p01_s1); each session comes at each place, "
-        "and behind each other one, equally often. Orders are drawn from the seed: the same seed gives the same bytes "
-        "everywhere, and a participant more changes nobody's order. In tables seeds begin with s: 64 bits do not "
-        "survive where they are read as numbers. The folder appears when it is complete; SHA256SUMS has what is in it.",
+    .does = "DESIGN is that of the set in FOLDER, which rasp batch has rendered. Its trials (rasp-design(5)) say what "
+            "listeners do. The folder that is made has the sounds, copied, a table of them with the columns of "
+            "manifest.csv and its side-car, and what the format asks for.\n"
+            "For webmushra: configs/NAME_p01.yaml for each participant. They are added to a copy of webMUSHRA, which "
+            "is not part of this (PHP 7, or pymushra), and opened with ?config=NAME_p01.yaml. Trials with a reference "
+            "are MUSHRA pages, which want sounds of one length (length: longest). All others are Likert pages. It has "
+            "no page for two sounds that are compared, and shuffles the sounds of a page by itself. What its service "
+            "writes (results/name_p01/) rasp judge takes with --design DESIGN.\n"
+            "For psychopy: conditions_p01.csv, a row a trial, in order (loopType sequential), with file_1, file_2 and "
+            "so on.\n"
+            "For jspsych: index.html and lists/p01.js, whose trials are timeline variables. The command npm install "
+            "fetches jsPsych. For page: the same without any library, with buttons or sliders. Both are opened as "
+            "index.html?list=p01, from the disk or from a server of files. They take an answer once its sounds were "
+            "heard to their end. They give answers_p01.csv as a download, a row an answer, which rasp judge reads.\n"
+            "For bids: stimuli/, and sub-01/beh/ with the trials of each participant, to be filled in, and side-cars "
+            "for all columns. For audiofolder: train/metadata.csv with its sounds, as Hugging Face's datasets read "
+            "it, or a folder for each of the design's splits.",
+    .also = "Where trials have a session, each participant has a list for each (p01_s1). Each session comes at each "
+            "place, and behind each other one, equally often. Orders are drawn from the seed: the same seed gives the "
+            "same bytes everywhere, and one more participant changes nobody's order. In tables seeds begin with s, "
+            "since 64 bits do not survive where they are read as numbers. The folder appears when it is complete. "
+            "SHA256SUMS has what is in it.",
     .operands = "DESIGN FOLDER",
     .least = 2,
     .most = 2,

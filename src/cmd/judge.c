@@ -220,33 +220,32 @@ static const struct args_option options[] = {
 const struct command judge_command = {
     .name = "judge",
     .summary = "what listeners made of the sounds: confusions, ratings, pairs",
-    .does =
-        "rasp judge choices ANSWERS: confusion matrices of forced choices, with Wilson's intervals. A table has a "
-        "row for each answer (columns participant, condition, played, chosen; participant and condition may be "
-        "missing), or is matrices already (condition, played, and a column for each class that could be chosen: "
-        "answers, shares, or percent; a first line '# cells: answers' (or shares, percent) says which, else whole "
-        "numbers are answers). Rows for training in the tables that rasp export's pages give do not count. "
-        "The tables of webMUSHRA's service (mushra.csv, lms.csv, lss.csv) are taken with --design. With "
-        "--reference each other condition is compared with it: equation 14 of "
-        "Agarwal and others (2021); the share of right answers by a permutation test over listeners, and by two "
-        "one-sided t tests of equivalence; each row by chi-squared, which takes answers as independent.\n"
-        "rasp judge similarity TABLE...: equation 14 by both norms, of all conditions, against the first table's (or "
-        "its --reference): 1 is the same matrix. The paper does not say which norm; the spectral one comes first.\n"
-        "rasp judge ratings RATINGS: means, standard errors, and analysis of variance with repeated measures, of a "
-        "table with participant, rating and up to six factors. Everybody rates every combination equally often; "
-        "several ratings of one are averaged. epsilon is Greenhouse and Geisser's.",
-    .also =
-        "rasp judge pairs ANSWERS: paired comparisons (participant, a, b, answer A>B, A=B or B>A; set and condition "
-        "may be missing): scores as of Conan and others (2014), analysis of variance of each condition's, which may "
-        "have sounds of its own, Tukey's comparisons.\n"
-        "rasp judge listen SET --templates SET: a program listens. It compares each sound of a set (rasp batch) with "
-        "templates whose class it knows, and gives shares of answers: exp(-d/(2 spread)), d the distance to the "
-        "nearest template of a class. By motion, it compares level and brightness over time, each without its mean; by "
-        "material (--by material --factor material), how fast a struck object fades and how bright it is, in octaves. "
-        "A template among the sounds is judged without itself. It is no model of a person.\n"
-        "Tables of several listeners are joined by awk 'NR == 1 || FNR > 1' answers_p*.csv. What is missing, "
-        "unbalanced, unknown or twice there is an error with its place: nothing else is left out, or "
-        "filled in.",
+    .does = "What rasp judge choices ANSWERS gives is confusion matrices of forced choices, with Wilson's intervals. "
+            "A table has a row for each answer: columns participant, condition, played, chosen, of which the first "
+            "two may be missing. Or it is matrices already: condition, played, and a column for each class that could "
+            "be chosen, with answers, shares, or percent. A first line '# cells: answers' (or shares, percent) says "
+            "which; else whole numbers are answers. Rows for training in the tables that rasp export's pages give do "
+            "not count. The tables of webMUSHRA's service (mushra.csv, lms.csv, lss.csv) are taken with --design.\n"
+            "With --reference each other condition is compared with it, by equation 14 of Agarwal and others (2021). "
+            "The share of right answers is compared by a permutation test over listeners, and by two one-sided t "
+            "tests of equivalence. Each row is compared by chi-squared, which takes answers as independent.\n"
+            "What rasp judge similarity TABLE... gives is equation 14 by both norms, of all conditions, against the "
+            "first table's (or its --reference): 1 is the same matrix. The paper does not say which norm. The "
+            "spectral one comes first.\n"
+            "What rasp judge ratings RATINGS gives is means, standard errors, and analysis of variance with repeated "
+            "measures. The table has participant, rating and up to six factors. Everybody rates every combination "
+            "equally often, and several ratings of one are averaged. The column epsilon is Greenhouse and Geisser's.",
+    .also = "What rasp judge pairs ANSWERS gives is scores of paired comparisons, as of Conan and others (2014). The "
+            "table has participant, a, b and answer (A>B, A=B or B>A); set and condition may be missing. Each "
+            "condition, which may have sounds of its own, has an analysis of variance and Tukey's comparisons.\n"
+            "In rasp judge listen SET --templates SET a program listens. It compares each sound of a set (rasp batch) "
+            "with templates whose class it knows. It gives shares of answers: exp(-d/(2 spread)), d the distance to "
+            "the nearest template of a class. By motion, it compares level and brightness over time, each without its "
+            "mean. By material (--by material --factor material), it compares how fast a struck object fades and how "
+            "bright it is, in octaves. A template among the sounds is judged without itself. It is no model of a "
+            "person.\n"
+            "Tables of several listeners are joined by awk 'NR == 1 || FNR > 1' answers_p*.csv. What is missing, "
+            "unbalanced, unknown or there twice is an error with its place. Nothing else is left out or filled in.",
     .operands = "ACTION FILE...",
     .least = 1,
     .most = -1,

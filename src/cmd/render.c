@@ -390,20 +390,22 @@ const struct command render_command = {
     .name = "render",
     .group = "Sound from scenes",
     .summary = "renders scenes into sound files",
-    .does = "For NAME.yaml writes NAME.wav (if anything rings), NAME.csv or NAME.npy (if the scene asks for "
-            "diagnostics), NAME.impacts.csv (if it asks for the series of impacts), NAME.scene.yaml (the effective "
-            "scene: rendering it gives the same bytes) and NAME.json (level, cost per stage, real-time factor, which "
-            "files were written). A file whose samples are all 0, for nothing was there or for it was rounded away, is "
-            "warned of, and so is each silent channel of several; and so are samples beyond full scale, which floating "
-            "point holds (integers refuse them), with how many they are and how far beyond: in words and in the "
-            "summary (silent, samples_beyond_full_scale). Nothing half-written is ever left behind. An output that "
-            "would replace a file that one of the scenes reads is refused, whatever the names are (an effective scene "
-            "may be rendered onto itself: its bytes stay the same), and so are two scenes that would write the same "
-            "file. What an earlier render wrote is replaced; another file, or a symbolic link, is only with --force: "
-            "rasp(1), FILES. Where the scene asks for an error (accuracy.error), the knobs that it leaves unsaid are "
-            "chosen as the cheapest that keep it, and told; what cannot be kept is refused. A NAME.csv or NAME.wav of "
-            "an earlier render that this one does not replace stays, with a warning. Several scenes are all read "
-            "before the first is rendered; the first that fails ends the run, unless --keep-going is given.",
+    .does = "For NAME.yaml this writes NAME.wav, if anything rings, and NAME.scene.yaml, the effective scene, whose "
+            "render gives the same bytes. NAME.json has the level, the cost per stage, the real-time factor and which "
+            "files were written. NAME.csv or NAME.npy is there if the scene asks for diagnostics, NAME.impacts.csv if "
+            "it asks for the series of impacts.\n"
+            "Nothing half-written is ever left behind. An output that would replace a file that one of the scenes "
+            "reads is refused, whatever the names are. So are two scenes that would write the same file. An effective "
+            "scene may be rendered onto itself: its bytes stay the same. What an earlier render wrote is replaced. "
+            "Another file, or a symbolic link, is only with --force: rasp(1), FILES. A NAME.csv or NAME.wav of an "
+            "earlier render that this one does not replace stays, with a warning.\n"
+            "A file whose samples are all 0 is warned of, and so is each silent channel of several. Samples beyond "
+            "full scale, which integers refuse and floating point holds, are warned of, too: how many they are and "
+            "how far beyond.\n"
+            "Where the scene asks for an error (accuracy.error), the knobs that it leaves unsaid are chosen as the "
+            "cheapest that keep it. What cannot be kept is refused.\n"
+            "Several scenes are all read before the first is rendered. The first that fails ends the run, unless "
+            "--keep-going is given.",
     .operands = "SCENE...",
     .least = 1,
     .most = -1,
