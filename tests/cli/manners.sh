@@ -14,7 +14,7 @@ echo "-- another prefix is meant"
 with '48 kHz' '48 Hz' && try rasp check mine.yaml
 with '20 g' '20' && rasp check mine.yaml
 with 'rate: 2 Hz' 'rate: 48 Hz' && rasp check mine.yaml
-with '10 cm, 0 cm' '10 km, 0 cm' && try rasp check mine.yaml
+with '8 cm, 0 cm' '8 km, 0 cm' && try rasp check mine.yaml
 echo "-- near names of files"
 try rasp check scrape.ymal
 try rasp check srcape.yaml

@@ -30,4 +30,4 @@ echo '{"surface": {"roughness": {"rms": "4 um"}}, "scraper": {"mass": 0.02}, "mo
 python3 "$ROOT/scripts/rasp.py" in.json s.wav | grep -c rms
 echo '{"motion": 3}' > in.json
 python3 "$ROOT/scripts/rasp.py" in.json s.wav || echo $?
-ls -a | grep design || true
+for left in .design*; do [ ! -e "$left" ] || echo "left: $left"; done

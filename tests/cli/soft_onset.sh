@@ -21,8 +21,8 @@ cat > separate.csv << 'END'
 # poles: separate
 # quantity: velocity
 place,x_m,y_m,mode,frequency_hz,decay_per_s,gain,phase_rad
-0,0,0.037,1,400,20,1,0
-1,0.1,0.037,1,410,25,1,0
+0,0,0,1,400,20,1,0
+1,0.1,0,1,410,25,1,0
 END
 
 echo "== gammatone"
