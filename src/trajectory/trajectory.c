@@ -495,9 +495,9 @@ static bool stage_open(struct stage_run *r, struct err *e)
     r->board->trajectory = tr;
     r->board->moving = trajectory_frames(tr, r->board->rate);
     const struct contact *c = r->contact;
-    if (c->scraper.mass > MOST_MASS)
+    if (isgreater(c->scraper.mass, MOST_MASS)) /* NaN where there is none: quiet under traps */
         board_warn(r->board, arena_format(r->arena, "scraper.mass is %.6g kg: are grams meant?", c->scraper.mass));
-    if (c->motion.rate > MOST_RATE)
+    if (isgreater(c->motion.rate, MOST_RATE))
         board_warn(r->board, arena_format(r->arena, "motion.rate is %.6g Hz, faster than any hand: is it meant?",
                                           c->motion.rate));
     return true;
