@@ -502,8 +502,8 @@ bool plot_data(struct plot_page *p, struct err *e)
     bool table = text_ends(p->file, ".csv") || text_ends(p->file, ".npy");
     struct plot_summary summary = plot_summary_read(beside(p, ".json"), p->arena);
     /* A summary of another render: what it says is not of the file that is shown, and is not used. */
-    const char *why = p->silent ? "lists a sound" : "lists no sound";
-    bool ours = !summary.lists || (table ? summary_has(&summary, p->file, "", &why, e) : summary.sounds != p->silent);
+    const char *why = "lists no sound";
+    bool ours = !summary.lists || (table ? summary_has(&summary, p->file, "", &why, e) : summary.sounds);
     if (!ours && e->kind == ERR_NONE)
         message_warning(
             p->call, p->file,
@@ -512,10 +512,7 @@ bool plot_data(struct plot_page *p, struct err *e)
     if (*summary.title && ours)
         title = arena_format(p->arena, "%s: %s", relpath_stem(p->file, p->arena), summary.title);
     if (e->kind != ERR_NONE) return false;
-    if (table       ? !table_alone(p, e)
-        : p->silent ? !(tables_find(p, &summary, e) && (p->n_tables || span_set(p, p->length, e)))
-                    : !sound_gather(p, e) || !(!ours || tables_find(p, &summary, e)))
-        return false;
+    if (table ? !table_alone(p, e) : !sound_gather(p, e) || !(!ours || tables_find(p, &summary, e))) return false;
     if (!p->title) p->title = title;
     if (ours && !p->table_of_modes && !add_bodies(p, &summary, beside(p, ".scene.yaml"), e)) return false;
     bool anything = false;
@@ -539,10 +536,9 @@ bool plot_data(struct plot_page *p, struct err *e)
             return err_set(e, ERR_SCENE, "%s: the panel %s needs %s", p->file, plot_panels_words[k],
                            lacks[k == PLOT_DECAYS ? PLOT_MODES : k]);
     if (anything) return true;
-    return p->silent ? err_set(e, ERR_SCENE, "no sound, and nothing else that can be drawn")
-                     : err_set(e, ERR_SCENE, "%s: has none of the columns that are drawn (%s, %s, %s, %s, %s, %s)",
-                               p->file, plot_names[PLOT_PEAK], plot_names[PLOT_RMS], plot_names[PLOT_NORMAL],
-                               plot_names[PLOT_ALPHA], plot_names[PLOT_GROUND], plot_names[PLOT_TRAJECTORY]);
+    return err_set(e, ERR_SCENE, "%s: has none of the columns that are drawn (%s, %s, %s, %s, %s, %s)", p->file,
+                   plot_names[PLOT_PEAK], plot_names[PLOT_RMS], plot_names[PLOT_NORMAL], plot_names[PLOT_ALPHA],
+                   plot_names[PLOT_GROUND], plot_names[PLOT_TRAJECTORY]);
 }
 
 /* rasp plot: a picture of a render or mode table, or a page of pictures of many. */
@@ -552,15 +548,16 @@ static const struct args_option plot_options[] = {
      "where to write; default: NAME.png beside NAME.wav, or NAME.svg; of a gallery gallery.html in the folder"},
     {"panels", 'p', "PANEL,...", false,
      "which of waveform, spectrogram, force, normal, trajectory, motion, modes and decays; default: all that there are "
-     "data for, "
-     "of a gallery waveform and spectrogram of what has a sound"},
+     "data for"},
     {"gallery", 'g', NULL, false,
-     "a page of HTML for a folder of renders, or for the manifest.csv of a set: a picture, the sound and the factors "
+     "a page of HTML for a folder of sounds, or for the manifest.csv of a set: a spectrogram, the sound and the "
+     "factors "
      "of each"},
+    {"jobs", 'j', "N", false, "how many pictures of a gallery are made at once, 1 to 256; default: one for each core"},
     {"format", 'f', "png|svg", false, "format of the picture; default: by the output's ending, else png"},
     {"title", 't', "TEXT", false,
      "title; default: the file's name and the scene's title, if its summary lies beside the sound, else the file's "
-     "name"},
+     "name; of a gallery the design's title, else the folder's name"},
     {"from", 0, "SECONDS", false, "start of the time shown; default: 0"},
     {"channel", 'c', "N", false,
      "which channel of the sound, from 1 (of several listening places each is one); default: 1"},
@@ -664,9 +661,12 @@ const struct command plot_command = {
         "was drawn is printed. For NAME.csv or NAME.npy, of a render without sound, what the table has; a mode table "
         "gives the modes, and their decays over frequency. Of several channels one is drawn. Needs gnuplot.\n"
         "With --gallery the operand is a folder that rasp batch made, or its manifest.csv, or any folder of sounds. "
-        "The page shows every stimulus, with its factors, and plays it (of what has no sound: contact and normal force "
-        "and motion), or says why it failed; it needs no script, and nothing from elsewhere. Its pictures are drawn "
-        "anew, into a folder beside it: gallery_files/ of gallery.html. Sounds are linked where they are.",
+        "The page shows every stimulus in a table, with its factors, a small spectrogram and a player. Rows can be "
+        "sorted and filtered, and two sounds can be marked and compared; the page lists its keys. All spectrograms "
+        "have the same axes: the longest sound's time, frequency from 50 Hz to half the sample rate or 20 kHz, and the "
+        "80 dB below the loudest place of all sounds. Of several channels the first is drawn. They are made anew, into "
+        "a folder beside the page: gallery/ of gallery.html. Sounds are linked where they are. The page needs neither "
+        "gnuplot nor a network.",
     .operands = "NAME.wav|NAME.csv|NAME.npy|FOLDER/|manifest.csv",
     .least = 1,
     .most = 1,

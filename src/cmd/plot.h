@@ -67,8 +67,6 @@ struct plot_ground {        /* of a contact's surface, seen from above          
 struct plot_page {
     const char *file, *title;
     double from, to; /* s; NAN: as long as the data                          */
-    bool silent;     /* the file, a WAV, is not there: its render made no sound */
-    double length;   /* s, of what is silent and has no table                */
     bool svg;
     unsigned asked;           /* bits of panels; 0: all that there are data for       */
     int channel;              /* of the sound, from 1                                 */
@@ -126,5 +124,8 @@ void plot_draw(void *page, struct gnuplot *g);
 
 /* plot_gallery.c: rasp plot --gallery, a page of HTML for a folder or manifest. */
 int plot_gallery_run(struct cmd_call *c, struct err *e);
+
+/* plot_gallery_page.c: what of that page is the same for all. The script comes in parts and ends with NULL. */
+extern const char plot_gallery_page_style[], plot_gallery_page_bar[], *const plot_gallery_page_script[];
 
 #endif

@@ -1,9 +1,12 @@
-/* A gallery: one page of HTML for a set of stimuli (its manifest.csv) or for any folder of sounds. No script, no style
-   sheet or font from elsewhere; pictures and sounds are linked by relative names, so that the folder can be moved as a
-   whole. */
+/* A gallery: one page of HTML for a set of stimuli (its manifest.csv) or for any folder of sounds, with a small
+   spectrogram of each, all on the same axes of time, frequency and level. Pictures and sounds are linked by relative
+   names, so that the folder can be moved as a whole; nothing comes from elsewhere. What is shown stands in the page as
+   JSON, and a script in the page (plot_gallery_page.c) makes rows of the table as they come into view. */
 #include <dirent.h>
 #include <errno.h>
+#include <jansson.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -13,29 +16,31 @@
 #include "base/outfile.h"
 #include "base/relpath.h"
 #include "base/text.h"
+#include "batch/pool.h"
 #include "cmd/plot.h"
+#include "file/bytes.h"
 #include "file/csv.h"
 #include "file/wav.h"
-#include "output/gnuplot.h"
 #include "output/mark.h"
+#include "output/picture.h"
+
+enum { COLUMNS = 240, ROWS = 72, CELLS = COLUMNS * ROWS }; /* of the longest sound's picture */
 
 enum kind { SOUND, SILENT, FAILED }; /* silent: a render that made tables only */
 
 struct item {
-    const char *file,
-        *name; /* the sound, seen from here (of what is silent: as it would be called); what it is called */
+    const char *file, *name; /* the sound, seen from here; what it is called */
     enum kind kind;
-    const char *picture; /* NULL: there is none                          */
-    const char *why;     /* ... and why; NULL: it failed                 */
-    size_t row;          /* of the manifest                              */
+    double seconds;  /* of the sound; 0: it cannot be read     */
+    int columns;     /* of the picture; 0: there is none       */
+    int top;         /* its greatest level                     */
+    const char *why; /* it cannot be drawn; NULL: it can       */
+    size_t row;      /* of the manifest                        */
 };
 
 struct page {
-    const char *source, *title; /* title NULL: the folder's name */
-    unsigned asked;
-    int svg;
+    const char *source;
     bool force;
-    struct cmd_call *call;
     struct arena *arena;
     const char *folder;         /* of the sounds: "" or "out/"                  */
     const char *output, *files; /* the page, and the folder of its pictures     */
@@ -43,6 +48,13 @@ struct page {
     struct csv manifest;
     struct item *items;
     int n;
+    double longest; /* s, of all sounds          */
+    struct picture_axes axes;
+    int top;     /* the greatest level of all */
+    FILE *cells; /* of all pictures           */
+    struct pool_progress progress;
+    pthread_mutex_t lock; /* of the arena and the error while there are threads */
+    struct err *e;
 };
 
 /* ------------------------------------------------------------------ what is in it */
@@ -70,12 +82,11 @@ static bool from_manifest(struct page *g, const char *file, struct err *e)
         bool sounds = wav_is_name(sound),
              failed = status >= 0 ? strcmp(cell(g, row, status), "ok") != 0 : !is_there(sound);
         const char *wav = sounds ? sound : arena_format(g->arena, "%s.wav", called);
-        g->items[g->n++] = (struct item){arena_format(g->arena, "%s%s", g->folder, wav),
-                                         called,
-                                         failed ? FAILED : sounds ? SOUND : SILENT,
-                                         NULL,
-                                         NULL,
-                                         row};
+        g->items[g->n++] = (struct item){arena_format(g->arena, "%s%s", g->folder, wav), called,
+                                         failed   ? FAILED
+                                         : sounds ? SOUND
+                                                  : SILENT,
+                                         .row = row};
     }
     return true;
 }
@@ -105,120 +116,227 @@ static bool gather(struct page *g, struct err *e)
     if (n < 0) return err_set(e, ERR_INPUT, "%s: %s", source, strerror(errno));
     g->items = ARENA_TAKE(g->arena, struct item, n);
     for (int i = 0; i < n; i++) {
-        const char *name = entries[i]->d_name;
+        const char *name = entries[i]->d_name, *base = relpath_base(name, g->arena);
+        bool twice = i > 0 && !strcmp(relpath_base(entries[i - 1]->d_name, g->arena), base); /* WAV and FLAC */
         g->items[g->n++] = (struct item){.file = arena_format(g->arena, "%s%s", g->folder, name),
-                                         .name = relpath_base(name, g->arena),
+                                         .name = twice ? arena_text(g->arena, name) : base,
                                          .kind = SOUND};
-        free(entries[i]);
     }
+    for (int i = 0; i < n; i++)
+        free(entries[i]);
     free(entries);
     return g->n > 0 || err_set(e, ERR_SCENE, "%s: no sound (.wav) is in it", source);
 }
 
-/* ------------------------------------------------------------------ pictures */
+/* ------------------------------------------------------------------ pictures
 
-/* A sound that cannot be drawn leaves a note on the page; what no picture could be drawn without ends all. */
-static void draw_item(struct page *g, struct item *item, struct err *e)
+   Levels of all sounds are known before the first picture has colours: they wait in a file without a name. */
+
+static const char *picture_of(const struct page *g, const struct item *item, struct arena *a)
 {
-    struct arena *a = arena_open();
-    char *flat = arena_text(g->arena, item->name);
+    char *flat = arena_text(a, item->name);
     for (char *p = flat; *p; p++)
         *p = *p == '/' ? '=' : *p; /* which no name of a stimulus holds */
-    const char *target = arena_format(g->arena, "%s/%s.%s", g->files, flat, g->svg ? "svg" : "png");
-    struct plot_page p = {.file = item->file,
-                          .title = item->name,
-                          .from = NAN,
-                          .to = NAN,
-                          .svg = g->svg,
-                          .channel = 1,
-                          .arena = a,
-                          .call = g->call,
-                          .silent = item->kind == SILENT,
-                          .asked = g->asked,
-                          .length = NAN};
-    if (p.silent) { /* the panels that need no sound; where that leaves none of them, whatever there is */
-        int k = column(g, "duration_s");
-        p.asked &= ~(1u << PLOT_WAVEFORM | 1u << PLOT_SPECTROGRAM);
-        if (k < 0 || !text_double(cell(g, item->row, k), &p.length)) p.length = 0; /* the manifest does not say */
+    return arena_format(a, "%s/%s.png", g->files, flat);
+}
+
+/* The axes, from the headers. A sound that cannot be read leaves a note on the page. */
+static void axes_find(struct page *g)
+{
+    double rate = 0;
+    for (int i = 0; i < g->n; i++) {
+        struct item *item = &g->items[i];
+        struct wav_stream w;
+        struct err why = {0};
+        if (item->kind != SOUND || interrupt_seen()) continue;
+        if (wav_stream_open(&w, item->file, &why)) {
+            item->seconds = (double)w.frames / w.rate;
+            g->longest = fmax(g->longest, item->seconds);
+            rate = fmax(rate, w.rate);
+            wav_stream_close(&w);
+        } else
+            item->why = arena_text(g->arena, why.text);
     }
+    g->axes = picture_axes_make(rate, ROWS);
+    for (int i = 0; i < g->n; i++)
+        if (g->items[i].seconds > 0)
+            g->items[i].columns = (int)fmax(1, rint(COLUMNS * g->items[i].seconds / g->longest));
+}
+
+/* By any thread. What is wrong with a sound is its own; what else fails ends all. */
+static bool measure(void *page, int i)
+{
+    struct page *g = page;
+    struct item *item = &g->items[i];
+    if (!item->columns) return !interrupt_seen();
+    struct arena *a = arena_open();
+    struct wav w;
     struct err why = {0};
-    bool ok = plot_data(&p, &why);
-    if (!ok)
-        item->why = arena_text(g->arena, why.text);
-    else if (mark_permits(target, NULL, g->force, e) && gnuplot_write(target, p.svg, plot_draw, &p, e))
-        item->picture = target;
+    unsigned char *cells = ARENA_TAKE(a, unsigned char, CELLS);
+    size_t n = (size_t)item->columns * ROWS;
+    bool ok = wav_read(item->file, a, &w, &why), kept = true;
+    if (ok) {
+        for (size_t k = 0; k < w.frames; k++)
+            w.x[k] = w.x[k * (size_t)w.channels]; /* the first channel */
+        picture_cells(w.x, w.frames, w.rate, &g->axes, item->columns, cells);
+        item->top = picture_top(cells, n);
+        kept = pwrite(fileno(g->cells), cells, n, (off_t)i * CELLS) == (ssize_t)n;
+    }
+    pthread_mutex_lock(&g->lock);
+    if (!kept) err_set(g->e, ERR_IO, "%s: levels cannot be kept: %s", outfile_scratch_folder(), strerror(errno));
+    if (!ok) item->why = arena_text(g->arena, why.text);
+    if (!ok) item->columns = 0;
+    pthread_mutex_unlock(&g->lock);
     arena_close(a);
+    return kept && !interrupt_seen();
+}
+
+static void measured(void *page, int i)
+{
+    struct page *g = page;
+    g->top = g->items[i].top > g->top ? g->items[i].top : g->top;
+    pool_progress_step(&g->progress, g->items[i].name, 1, 0, g->items[i].seconds);
+}
+
+static bool draw(void *page, int i)
+{
+    struct page *g = page;
+    const struct item *item = &g->items[i];
+    if (!item->columns) return !interrupt_seen();
+    struct arena *a = arena_open();
+    struct err why = {0};
+    unsigned char *cells = ARENA_TAKE(a, unsigned char, CELLS);
+    const char *target = picture_of(g, item, a);
+    ssize_t n = (ssize_t)item->columns * ROWS;
+    bool ok = (pread(fileno(g->cells), cells, (size_t)n, (off_t)i * CELLS) == n ||
+               err_set(&why, ERR_IO, "%s: levels cannot be read", outfile_scratch_folder())) &&
+              mark_permits(target, NULL, g->force, &why) &&
+              picture_write(target, cells, item->columns, ROWS, g->top, &why);
+    pthread_mutex_lock(&g->lock);
+    if (!ok) err_set(g->e, why.kind, "%s", why.text);
+    pthread_mutex_unlock(&g->lock);
+    arena_close(a);
+    return ok && !interrupt_seen();
+}
+
+/* How many there are. */
+static int draw_all(struct page *g, int threads, struct err *e)
+{
+    int drawn = 0;
+    g->e = e;
+    g->cells = outfile_scratch_open();
+    if (!g->cells) return err_set(e, ERR_CREATE, "%s: %s", outfile_scratch_folder(), strerror(errno));
+    if (mkdir(g->files, 0777) != 0 && errno != EEXIST)
+        err_set(e, ERR_CREATE, "the folder %s cannot be created: %s", g->files, strerror(errno));
+    pthread_mutex_init(&g->lock, NULL);
+    axes_find(g);
+    pool_progress_begin(&g->progress, g->n, g->n, false);
+    if (e->kind == ERR_NONE && pool_run(&(struct pool_work){g->n, threads, g, measure, measured}) == g->n)
+        pool_run(&(struct pool_work){g->n, threads, g, draw, NULL});
+    pool_progress_clear(&g->progress);
+    if (interrupt_seen())
+        err_set(e, ERR_INTERRUPTED, "interrupted; the page was not written, run the same command again");
+    pthread_mutex_destroy(&g->lock);
+    fclose(g->cells);
+    for (int i = 0; i < g->n; i++)
+        drawn += g->items[i].columns > 0;
+    return drawn;
 }
 
 /* ------------------------------------------------------------------ the page */
 
-static const char *html(const struct page *g, const char *text)
-{
-    return text_html(g->arena, text_shown(g->arena, text));
-}
-
-/* A file as the page links it: relative, what is no plain character as %XX. */
-static const char *link_to(const struct page *g, const char *file)
+/* A file's name as the page links it: what is no plain character as %XX. */
+static const char *encoded(const struct page *g, const char *name)
 {
     static const char plain[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz-_.~/+";
-    const char *from = relpath_make(file, relpath_folder(g->output, g->arena), g->arena);
-    char *out = arena_take(g->arena, 3 * strlen(from) + 1, 1), *to = out;
-    for (const char *p = from; *p; p++)
+    char *out = arena_take(g->arena, 3 * strlen(name) + 1, 1), *to = out;
+    for (const char *p = name; *p; p++)
         to += snprintf(to, 4, strchr(plain, *p) ? "%c" : "%%%02X", (unsigned char)*p);
     return out;
 }
 
-/* Factors stand between scene_sha256 and text; of the rest what helps to compare. */
-static void put_facts(const struct page *g, const struct item *item, FILE *f)
+/* A column that the table shows. */
+struct shown {
+    const char *title;
+    int column;         /* of the manifest */
+    const char *format; /* of a number that is rounded; NULL: it stands as it is */
+};
+
+/* Factors stand between scene_sha256 and text; of the rest what helps to compare, where it is not the same for all. */
+static int columns_shown(const struct page *g, struct shown *to)
 {
-    static const char *const more[][3] = {{"replicate", "replicate", "%g"},
-                                          {"duration_s", "duration", "%.3f s"},
-                                          {"peak_dbfs", "peak", "%.1f dBFS"},
-                                          {"rms_dbfs", "rms", "%.1f dBFS"},
-                                          {"loudness_lufs", "loudness", "%.1f LUFS"}};
-    int first = column(g, "scene_sha256"), text = column(g, "text");
-    fputs("<dl>", f);
+    static const struct {
+        const char *name, *title, *format;
+    } more[] = {{"split", "split", NULL},
+                {"replicate", "replicate", "%g"},
+                {"duration_s", "duration / s", "%.3f"},
+                {"peak_dbfs", "peak / dBFS", "%.1f"},
+                {"rms_dbfs", "rms / dBFS", "%.1f"},
+                {"loudness_lufs", "loudness / LUFS", "%.1f"}};
+    int first = g->set ? column(g, "scene_sha256") : -1, text = g->set ? column(g, "text") : -1, n = 0;
     for (int k = first + 1; first >= 0 && k < text; k++)
-        fprintf(f, "<dt>%s</dt><dd>%s</dd>", html(g, g->manifest.names[k]), html(g, cell(g, item->row, k)));
-    for (int i = 0; i < 5; i++) {
-        int k = column(g, more[i][0]);
-        double x;            /* rounded: the manifest has all digits */
-        bool varies = i > 0; /* replicates, over those that have one */
+        to[n++] = (struct shown){g->manifest.names[k], k, NULL};
+    for (int i = 0; g->set && i < 6; i++) {
+        int k = column(g, more[i].name);
         const char *one = NULL;
+        bool varies = false;
         for (size_t row = 0; k >= 0 && !varies && row < g->manifest.rows; row++) {
             const char *here = is_there(cell(g, row, k)) ? cell(g, row, k) : one;
             varies = one && strcmp(here, one) != 0;
             one = here;
         }
-        if (k < 0 || !varies || !text_double(cell(g, item->row, k), &x)) continue;
-        fprintf(f, "<dt>%s</dt><dd>", more[i][1]);
-        fprintf(f, more[i][2], x);
-        fputs("</dd>", f);
+        if (varies) to[n++] = (struct shown){more[i].title, k, more[i].format};
     }
-    fputs("</dl>", f);
-    if (text >= 0 && is_there(cell(g, item->row, text))) fprintf(f, "<p>%s</p>", html(g, cell(g, item->row, text)));
+    return n;
 }
 
-static void put_item(const struct page *g, const struct item *item, FILE *f)
+/* A value, which is taken, within the page's script: < would end it. */
+static void put_json(json_t *value, FILE *f)
 {
-    fprintf(f, "<figure>\n<figcaption><h2>%s</h2>", html(g, item->name));
-    if (g->set) put_facts(g, item, f);
-    fputs("</figcaption>\n", f);
-    if (item->kind == SOUND)
-        fprintf(f, "<audio controls preload=\"none\" src=\"%s\"></audio>\n", link_to(g, item->file));
-    if (item->picture) {
-        const char *to = link_to(g, item->picture);
-        fprintf(f, "<a href=\"%s\"><img loading=\"lazy\" alt=\"plot\" src=\"%s\"></a>\n", to, to);
-    } else {
-        int status = g->set ? column(g, "status") : -1, error = g->set ? column(g, "error") : -1;
-        bool says = !item->why && error >= 0 && is_there(cell(g, item->row, error));
-        fprintf(f, "<p class=\"bad\">%s%s%s</p>\n",
-                html(g, item->why     ? item->why
-                        : status >= 0 ? cell(g, item->row, status)
-                                      : "no sound"),
-                says ? ": " : "", says ? html(g, cell(g, item->row, error)) : "");
+    char *text = json_dumps(value, JSON_COMPACT | JSON_ENSURE_ASCII | JSON_REAL_PRECISION(9));
+    for (const char *p = text ? text : "null"; *p; p++)
+        fputs(*p == '<' ? "\\u003c" : (const char[]){*p, '\0'}, f);
+    free(text);
+    json_decref(value);
+}
+
+static json_t *text_json(const struct page *g, const char *text) { return json_string(text_shown(g->arena, text)); }
+
+/* What the script calls an item. */
+static json_t *item_json(const struct page *g, const struct item *item, const struct shown *shown, int n)
+{
+    int status = g->set ? column(g, "status") : -1, error = g->set ? column(g, "error") : -1,
+        text = g->set ? column(g, "text") : -1;
+    const char *why = item->why;
+    if (!why && item->kind == SILENT) why = "no sound";
+    if (!why && item->kind == FAILED) {
+        why = status >= 0 ? cell(g, item->row, status) : "failed";
+        if (error >= 0 && is_there(cell(g, item->row, error)))
+            why = arena_format(g->arena, "%s: %s", why, cell(g, item->row, error));
     }
-    fputs("</figure>\n", f);
+    json_t *o = json_pack("{s:o}", "name", text_json(g, item->name)), *v = json_array();
+    if (item->kind == SOUND && !item->why) {
+        json_object_set_new(o, "file", json_string(encoded(g, item->file + strlen(g->folder))));
+        json_object_set_new(o, "picture",
+                            json_string(encoded(g, relpath_stem(picture_of(g, item, g->arena), g->arena))));
+        json_object_set_new(o, "columns", json_integer(item->columns));
+        json_object_set_new(o, "seconds", json_real(item->seconds));
+    }
+    if (why) json_object_set_new(o, "why", text_json(g, why));
+    if (text >= 0 && is_there(cell(g, item->row, text)))
+        json_object_set_new(o, "text", text_json(g, cell(g, item->row, text)));
+    for (int k = 0; k < n; k++) {
+        const char *here = cell(g, item->row, shown[k].column);
+        char rounded[32];
+        double x;
+        if (shown[k].format && text_double(here, &x)) {
+            snprintf(rounded, sizeof rounded, shown[k].format, x);
+            here = rounded;
+        }
+        json_array_append_new(v, text_json(g, here));
+    }
+    json_object_set_new(o, "values", v);
+    return o;
 }
 
 /* "4 sounds, 2 without sound, 1 failed" */
@@ -234,69 +352,78 @@ static const char *counted(const struct page *g)
     return n[FAILED] ? arena_format(g->arena, "%s%s%d failed", text, *text ? ", " : "", n[FAILED]) : text;
 }
 
-static void put_page(const struct page *g, FILE *f)
+/* --title, else that of the design that the folder of the set names, else the folder's name. */
+static const char *title_of(const struct page *g, struct cmd_call *c)
 {
-    const char *title = g->title     ? g->title
-                        : *g->folder ? arena_format(g->arena, "%.*s", (int)strlen(g->folder) - 1, g->folder)
-                                     : "sounds";
-    fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" MARK_PAGE
-          "\n<meta name=\"viewport\" content=\"width=device-width\">\n<title>",
-          f);
-    fputs(html(g, title), f);
-    fputs("</title>\n<style>\n"
-          "body { font: 15px/1.4 'DejaVu Sans', sans-serif; margin: 1.5em; color: #222; background: #fafafa }\n"
-          "main { display: grid; grid-template-columns: repeat(auto-fill, minmax(26em, 1fr)); gap: 1.2em }\n"
-          "figure { margin: 0; padding: 1em; background: #fff; border: 1px solid #ddd; border-radius: 6px; "
-          "overflow-wrap: anywhere }\n"
-          "h1 { font-size: 1.4em } h2 { font-size: 1em; margin: 0 0 .4em }\n"
-          "dl { display: grid; grid-template-columns: auto 1fr; gap: 0 .8em; margin: 0 0 .6em; font-size: .85em } dt { "
-          "color: #777 } dd { margin: 0 }\n"
-          "img, audio { width: 100% } .bad { color: #b00020 }\n"
-          "</style>\n</head>\n<body>\n<h1>",
-          f);
-    fprintf(f, "%s</h1>\n<p>%s</p>\n<main>\n", html(g, title), counted(g));
-    for (int i = 0; i < g->n; i++)
-        put_item(g, &g->items[i], f);
-    fputs("</main>\n</body>\n</html>\n", f);
+    const char *title = args_value(&c->args, "title"), *design = NULL;
+    struct bytes owner;
+    struct err none = {0};
+    if (!title && g->set && bytes_read(arena_format(g->arena, "%s.rasp/owner", g->folder), g->arena, &owner, &none)) {
+        char *rest = owner.at; /* batch/folder.h: its third line says where the design lies */
+        for (int line = 0; line < 3; line++)
+            design = strsep(&rest, "\n");
+        if (design && *design && strncmp(design, "- ", 2) != 0) {
+            design = *design == '/' ? design : arena_format(g->arena, "%s%s", g->folder, design);
+            title = access(design, R_OK) == 0 ? cmd_recipe_remark(c, design, "title") : NULL;
+        }
+    }
+    if (title) return title;
+    return *g->folder ? arena_format(g->arena, "%.*s", (int)strlen(g->folder) - 1, g->folder) : "sounds";
+}
+
+static void put_page(const struct page *g, const char *title, FILE *f)
+{
+    struct shown *shown = ARENA_TAKE(g->arena, struct shown, g->set ? g->manifest.columns + 6 : 1);
+    int n = columns_shown(g, shown);
+    const char *name = text_html(g->arena, text_shown(g->arena, title)),
+               *from = relpath_make(*g->folder ? g->folder : ".", relpath_folder(g->output, g->arena), g->arena);
+    json_t *columns = json_array(), *palette = json_array();
+    for (int k = 0; k < n; k++)
+        json_array_append_new(columns, text_json(g, shown[k].title));
+    for (int k = 0; k < PICTURE_ANCHORS; k++)
+        json_array_append_new(palette, json_sprintf("#%06x", picture_palette[k]));
+    fprintf(f,
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" MARK_PAGE
+            "\n<meta name=\"viewport\" content=\"width=device-width\">\n<title>%s</title>\n<style>\n%s</style>\n"
+            "</head>\n<body>\n<header>\n<h1>%s</h1>\n%s<script>\nconst set = ",
+            name, plot_gallery_page_style, name, plot_gallery_page_bar);
+    put_json(json_pack("{s:s, s:s, s:f, s:i, s:i, s:f, s:f, s:i, s:i, s:o, s:o}", "sounds",
+                       arena_format(g->arena, "%s%s", encoded(g, from), *from ? "/" : ""), "pictures",
+                       arena_format(g->arena, "%s/", encoded(g, relpath_stem(g->output, g->arena))), "seconds",
+                       g->longest, "width", COLUMNS, "height", ROWS, "low", g->axes.low, "high", g->axes.high, "top",
+                       g->top * PICTURE_STEP + PICTURE_LOWEST, "range", PICTURE_RANGE, "palette", palette, "columns",
+                       columns),
+             f);
+    fputs(";\nset.items = [\n", f);
+    for (int i = 0; i < g->n; i++) {
+        put_json(item_json(g, &g->items[i], shown, n), f);
+        fputs(",\n", f);
+    }
+    fputs("];\n", f);
+    for (const char *const *part = plot_gallery_page_script; *part; part++)
+        fputs(*part, f);
+    fputs("</script>\n</body>\n</html>\n", f);
 }
 
 int plot_gallery_run(struct cmd_call *c, struct err *e)
 {
-    static const char *const others[] = {"from", "to", "channel"}, *const formats[] = {"png", "svg"};
-    const char *panels = args_value(&c->args, "panels"), *output = args_value(&c->args, "output");
-    struct page g = {.source = c->args.operands[0],
-                     .title = args_value(&c->args, "title"),
-                     .force = args_given(&c->args, "force"),
-                     .call = c,
-                     .arena = c->arena};
+    static const char *const others[] = {"from", "to", "channel", "panels", "format"};
+    const char *output = args_value(&c->args, "output");
+    struct page g = {.source = c->args.operands[0], .force = args_given(&c->args, "force"), .arena = c->arena};
     struct outfile o;
-    int drawn = 0;
-    for (int k = 0; k < 3; k++)
+    int threads, drawn;
+    for (int k = 0; k < 5; k++)
         if (args_given(&c->args, others[k]))
-            err_set(e, ERR_USAGE, "--%s: not of a gallery, which shows whole sounds", others[k]);
-    if (e->kind || !cmd_either(c, "format", formats, &g.svg, e)) return (int)e->kind;
+            err_set(e, ERR_USAGE, "--%s: not of a gallery, which shows small spectrograms of whole sounds", others[k]);
     if (output && !text_ends(output, ".html"))
         err_set(e, ERR_USAGE, "--output %s: a gallery is a page of HTML, its name must end in .html", output);
-    if (e->kind || !plot_panels_read(panels ? panels : "waveform,spectrogram", &g.asked, c->arena, e) || !gather(&g, e))
-        return (int)e->kind;
+    if (e->kind || !batch_threads(c, &threads, e) || !gather(&g, e)) return (int)e->kind;
     g.output = output ? output : arena_format(c->arena, "%sgallery.html", g.folder);
-    g.files = arena_format(c->arena, "%.*s_files", (int)strlen(g.output) - 5, g.output);
+    g.files = arena_format(c->arena, "%.*s", (int)strlen(g.output) - 5, g.output);
     if (!mark_permits(g.output, NULL, g.force, e) || !outfile_open(&o, g.output, e)) return (int)e->kind;
-    bool tells = isatty(STDERR_FILENO);
-    if (mkdir(g.files, 0777) != 0 && errno != EEXIST)
-        err_set(e, ERR_CREATE, "the folder %s cannot be created: %s", g.files, strerror(errno));
-    for (int i = 0; i < g.n && e->kind == ERR_NONE; i++) {
-        if (interrupt_seen()) {
-            err_set(e, ERR_INTERRUPTED, "interrupted; the page was not written, run the same command again");
-            break;
-        }
-        if (tells) fprintf(stderr, "\r%d of %d", i, g.n);
-        if (g.items[i].kind != FAILED) draw_item(&g, &g.items[i], e);
-        drawn += g.items[i].picture != NULL;
-    }
-    if (tells) fputs("\r\033[K", stderr);
+    drawn = draw_all(&g, threads, e);
     if (e->kind == ERR_NONE) {
-        put_page(&g, o.stream);
+        put_page(&g, title_of(&g, c), o.stream);
         outfile_commit(&o, e);
     }
     outfile_drop(&o);

@@ -58,7 +58,7 @@ echo "-- plot, gallery, analyse --plot, golden"
 refused out/b.png rasp plot out/b.wav
 refused out/b.svg rasp plot out/b.wav -o out/b.svg
 refused out/gallery.html rasp plot --gallery out
-refused out/gallery_files/b.png rasp plot --gallery out
+refused out/gallery/b.png rasp plot --gallery out
 refused struck.correlations.svg rasp analyse struck.csv --plot struck --format svg
 refused golden/a/sound.wav rasp golden update a.yaml --kept golden
 refused golden/a/sound.csv rasp golden update a.yaml --kept golden

@@ -98,7 +98,7 @@ COMMANDS = {
     "plot": (["plot", "../in/sound.wav", "-o", "out.png"], ["out.png"]),
     "plot, a gallery": (["plot", "--gallery", "../in/sounds", "-o", "page.html"], None),
 }
-WITHOUT = [] if shutil.which("gnuplot") else ["plot", "plot, a gallery"]
+WITHOUT = [] if shutil.which("gnuplot") else ["plot"]
 
 
 def blocked(pid):
