@@ -13,6 +13,7 @@
 #include "batch/batch.h"
 #include "cmd/cmd.h"
 #include "file/bytes.h"
+#include "output/mark.h"
 
 enum { GAP = 2 /* of blanks between hash and name; the second may be * */ };
 
@@ -275,7 +276,7 @@ static bool golden_list(struct golden *g, struct err *e)
 }
 
 /* What `rasp golden` prints: lines for people, or the Test Anything Protocol, version 13, each failure with a YAML
- * block. */
+   block; and, into a file, JUnit's XML. */
 
 /* 'text' in YAML. */
 static void put_quoted(const struct golden *g, const char *text)
@@ -331,9 +332,10 @@ void golden_report_scene(const struct golden *g, const struct golden_scene *s, i
     fflush(stdout);
 }
 
+static const char stray_says[] = "is kept, and no scene of the list makes it: remove it, or list its scene";
+
 void golden_report_strays(const struct golden *g, const char *const *strays, int number)
 {
-    static const char says[] = "is kept, and no scene of the list makes it: remove it, or list its scene";
     if (g->tap) {
         printf("%sok %d - nothing else is kept\n", *strays ? "not " : "", number);
         if (*strays) puts("  ---\n  severity: fail\n  strays:");
@@ -345,7 +347,60 @@ void golden_report_strays(const struct golden *g, const char *const *strays, int
         return;
     }
     for (; *strays; strays++)
-        printf("FAILED  %s: %s\n", text_shown(g->call->arena, *strays), says);
+        printf("FAILED  %s: %s\n", text_shown(g->call->arena, *strays), stray_says);
+}
+
+/* Text in XML, whose lines stay lines. */
+static void put_xml(const struct golden *g, const char *text, FILE *f)
+{
+    for (const char *p = text, *end; *p; p = end + (*end != '\0')) {
+        end = p + strcspn(p, "\n");
+        const char *line = arena_format(g->call->arena, "%.*s", (int)(end - p), p);
+        fprintf(f, "%s%s", text_html(g->call->arena, text_shown(g->call->arena, line)), *end ? "\n" : "");
+    }
+}
+
+static void put_case(const struct golden *g, const char *name, const char *file, FILE *f)
+{
+    fputs("<testcase classname=\"rasp.golden\" name=\"", f);
+    put_xml(g, name, f);
+    if (file) fputs("\" file=\"", f);
+    put_xml(g, file ? file : "", f);
+    fputs("\">\n", f);
+}
+
+static void put_failure(const struct golden *g, const char *what, const char *file, const char *says,
+                        const char *report, FILE *f)
+{
+    fprintf(f, "<%s message=\"", what);
+    put_xml(g, arena_format(g->call->arena, "%s%s%s", file, *file ? ": " : "", says), f);
+    fputs("\">", f);
+    put_xml(g, report ? report : says, f);
+    fprintf(f, "</%s>\n", what);
+}
+
+void golden_report_junit(const struct golden *g, const char *const *strays, FILE *f)
+{
+    int failures = strays && *strays, errors = 0;
+    for (int i = 0; i < g->n; i++) {
+        errors += g->scenes[i].failed.kind != ERR_NONE;
+        failures += g->scenes[i].n_problems && !g->scenes[i].failed.kind;
+    }
+    fprintf(f,
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n"
+            "<testsuite name=\"rasp golden check\" tests=\"%d\" failures=\"%d\" errors=\"%d\" skipped=\"0\">\n",
+            g->n + (strays != NULL), failures, errors);
+    for (const struct golden_scene *s = g->scenes; s < g->scenes + g->n; s++) {
+        put_case(g, s->name, s->file, f);
+        for (const struct golden_problem *p = s->problems; p < s->problems + s->n_problems; p++)
+            put_failure(g, s->failed.kind ? "error" : "failure", p->file, p->says, p->report, f);
+        fputs("</testcase>\n", f);
+    }
+    if (strays) put_case(g, "nothing else is kept", NULL, f);
+    for (const char *const *p = strays; p && *p; p++)
+        put_failure(g, "failure", *p, stray_says, NULL, f);
+    fputs(strays ? "</testcase>\n</testsuite>\n</testsuites>\n" MARK_TEXT : "</testsuite>\n</testsuites>\n" MARK_TEXT,
+          f);
 }
 
 /* rasp golden: sounds and tables that are kept, and whether scenes still make them. */
@@ -355,6 +410,7 @@ static int run(struct cmd_call *c, int (*what)(struct golden *g, struct err *e),
     struct golden g = {.call = c,
                        .saved = args_value(&c->args, "kept"),
                        .hashes = args_value(&c->args, "hashes"),
+                       .junit = args_value(&c->args, "junit"),
                        .effective = args_given(&c->args, "effective"),
                        .tap = args_given(&c->args, "tap"),
                        .quiet = args_given(&c->args, "quiet")};
@@ -382,8 +438,8 @@ static const struct action actions[] = {
      "LIST|SCENE.yaml...",
      1,
      -1,
-     {"kept", "hashes", "output", "jobs", "effective", "tap", "quiet", "snr", "lsb", "third-octave", "within",
-      "tolerance", "column", "abs", "rel"},
+     {"kept", "hashes", "output", "jobs", "effective", "tap", "junit", "force", "quiet", "snr", "lsb", "third-octave",
+      "within", "tolerance", "column", "abs", "rel"},
      check_run},
     {"update", "LIST|SCENE.yaml...", 1, -1, {"kept", "hashes", "jobs", "force", "quiet"}, update_run},
     {NULL, NULL, 0, 0, {NULL}, NULL},
@@ -394,14 +450,19 @@ static const struct args_option options[] = {
      "where the files are kept, FOLDER/NAME/sound.wav and so on; default: golden, unless --hashes is given"},
     {"hashes", 0, "FILE", false,
      "keeps their SHA-256 in FILE, as sha256sum writes them; with --kept both, alone the hashes only"},
-    {"output", 'o', "FOLDER", false, "check: what was rendered of a scene that fails stays there, to be listened to"},
+    {"output", 'o', "FOLDER", false,
+     "check: what was rendered of a scene that fails stays there, to be listened to; beside a sound a picture shows "
+     "the "
+     "spectrograms of what is kept, of what was made, and of their difference"},
     {"jobs", 'j', "N", false, "how many scenes are rendered at once, 1 to 256; default: one for each core"},
     {"effective", 0, NULL, false, "check: renders each scene's effective scene, too, which has to make the same"},
     {"tap", 0, NULL, false, "check: prints the Test Anything Protocol, version 13"},
+    {"junit", 0, "FILE", false, "check: also writes the verdicts to FILE as JUnit's XML, which CI systems read"},
     COMPARE_SOUND_LIMITS,
     COMPARE_TABLE_LIMITS,
     {"force", 'f', NULL, false,
-     "update: replaces files in FOLDER that rasp did not write, and writes through symbolic links"},
+     "replaces files that rasp did not write (of update those in FOLDER, of check that of --junit), and writes through "
+     "symbolic links"},
     {"quiet", 'q', NULL, false, "prints only what fails"},
     {0}};
 

@@ -46,6 +46,7 @@ struct golden {
     struct golden_files sums; /* its lines, NAME/FILE                                   */
     const char *work;         /* folder of the renders                                  */
     bool stays;               /* ... of scenes that fail stays                          */
+    const char *junit;        /* file; NULL: none                                       */
     bool effective, tap, quiet;
     int threads;
 };
@@ -72,5 +73,7 @@ int golden_run_update(struct golden *g, struct err *e);
 /* What is printed. */
 void golden_report_scene(const struct golden *g, const struct golden_scene *s, int number);
 void golden_report_strays(const struct golden *g, const char *const *strays, int number);
+/* As JUnit's XML; strays NULL: they were not looked for. */
+void golden_report_junit(const struct golden *g, const char *const *strays, FILE *f);
 
 #endif

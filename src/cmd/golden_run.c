@@ -3,6 +3,7 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,11 +14,14 @@
 
 #include "base/interrupt.h"
 #include "base/outfile.h"
+#include "base/relpath.h"
 #include "base/text.h"
 #include "batch/pool.h"
 #include "cmd/message.h"
 #include "file/bytes.h"
+#include "file/wav.h"
 #include "output/mark.h"
+#include "output/picture.h"
 #include "pipeline/render.h"
 #include "scene/scene_places.h"
 #include "scene/scene_read.h"
@@ -76,7 +80,7 @@ static bool render(const struct golden *g, struct golden_scene *s, int pass, con
 /* What a render writes: no folder in it, and nothing of somebody else's. */
 static void clear_renders(const struct golden *g, const struct golden_scene *s)
 {
-    static const char *const endings[] = {".wav", ".csv", ".npy", ".json", ".yaml", NULL};
+    static const char *const endings[] = {".wav", ".csv", ".npy", ".json", ".yaml", ".png", NULL};
     for (int pass = 0; pass < 2; pass++) {
         const char *folder = path_of(g, s, pass, "", s->arena);
         DIR *d = opendir(folder);
@@ -150,6 +154,45 @@ static void judge_bytes(struct golden_scene *s, const char *name, const char *co
         s->note = arena_format(s->arena, "%s%s%s", s->note ? s->note : "", s->note ? ", " : "", name);
 }
 
+/* Spectrograms of what is kept, of what was made and of their difference, one below the other on one scale: of the
+   channel that differs most. Sounds of different rates have no difference. */
+static void draw_difference(struct golden_scene *s, const char *name, const char *const files[2])
+{
+    enum { WIDTH = 800, HEIGHT = 160, LINE = 3, EACH = (HEIGHT + LINE) * WIDTH };
+    struct arena *a = arena_open();
+    struct wav w[2];
+    struct err why = {0};
+    if (wav_read(files[0], a, &w[0], &why) && wav_read(files[1], a, &w[1], &why) && w[0].rate == w[1].rate) {
+        int both = w[0].channels < w[1].channels ? w[0].channels : w[1].channels, most = 0;
+        size_t n = w[0].frames > w[1].frames ? w[0].frames : w[1].frames;
+        double *x[3], greatest = -1;
+        struct picture_axes axes = picture_axes_make(w[0].rate, HEIGHT);
+        unsigned char *cells = ARENA_TAKE(a, unsigned char, 3 * EACH);
+        const char *target = arena_format(a, "%s.png", relpath_base(files[1], a));
+        for (int c = 0; c < both; c++)
+            for (size_t i = 0; i < n; i++) {
+                double off = fabs((i < w[0].frames ? w[0].x[i * (size_t)w[0].channels + (size_t)c] : 0) -
+                                  (i < w[1].frames ? w[1].x[i * (size_t)w[1].channels + (size_t)c] : 0));
+                most = off > greatest ? c : most;
+                greatest = fmax(off, greatest);
+            }
+        memset(cells, PICTURE_LINE, 3 * EACH);
+        for (int k = 0; k < 3; k++)
+            x[k] = ARENA_TAKE(a, double, n);
+        for (int k = 0; k < 2; k++)
+            for (size_t i = 0; i < w[k].frames; i++)
+                x[k][i] = w[k].x[i * (size_t)w[k].channels + (size_t)most];
+        for (size_t i = 0; i < n; i++)
+            x[2][i] = x[1][i] - x[0][i];
+        for (int k = 0; k < 3; k++)
+            picture_cells(x[k], n, w[0].rate, &axes, WIDTH, cells + k * EACH);
+        if (mark_permits(target, NULL, false, &why))
+            picture_write(target, cells, WIDTH, 3 * (HEIGHT + LINE) - LINE, picture_top(cells, 3 * EACH), &why);
+    }
+    if (why.kind) problem(s, name, NULL, "has no picture of the difference: %s", why.text);
+    arena_close(a);
+}
+
 static void judge_file(const struct golden *g, struct golden_scene *s, const struct golden_file *saved, int pass)
 {
     const struct golden_file *made = golden_find(&s->made[pass], saved->name);
@@ -167,11 +210,12 @@ static void judge_file(const struct golden *g, struct golden_scene *s, const str
         problem(s, saved->name, NULL, "is kept, but not made any more");
     else if (strcmp(made->sha256, saved->sha256) == 0)
         return;
-    else if (g->saved)
-        judge_bytes(s, saved->name,
-                    (const char *[]){arena_format(s->arena, "%s/%s/%s", g->saved, s->name, saved->name), new},
-                    pass ? "what is kept (rendered from the effective scene)" : "what is kept");
-    else
+    else if (g->saved) {
+        const char *files[] = {arena_format(s->arena, "%s/%s/%s", g->saved, s->name, saved->name), new};
+        int before = s->n_problems;
+        judge_bytes(s, saved->name, files, pass ? "what is kept (rendered from the effective scene)" : "what is kept");
+        if (g->stays && s->n_problems > before && wav_is_name(saved->name)) draw_difference(s, saved->name, files);
+    } else
         problem(
             s, saved->name, NULL,
             "is not what is kept%s: its sha256 is %s, where %s has %s; how far it is off only kept files could tell",
@@ -235,12 +279,18 @@ static void check_took(void *self, int i)
 int golden_run_check(struct golden *g, struct err *e)
 {
     int points = g->n + g->whole, good = 0, code = 0;
+    const char **strays = NULL;
+    struct outfile o = {0};
     if (!golden_read_hashes(g, e)) return (int)e->kind;
+    if (g->junit &&
+        (!mark_permits(g->junit, NULL, args_given(&g->call->args, "force"), e) || !outfile_open(&o, g->junit, e)))
+        return (int)e->kind;
     if (g->tap) printf("TAP version 13\n1..%d\n", points);
     if (pool_run(&(struct pool_work){
             .n = g->n, .threads = g->threads, .context = g, .job = check_scene, .took = check_took}) < g->n ||
         interrupt_seen()) {
         err_set(e, ERR_INTERRUPTED, "interrupted; run the same command again");
+        outfile_drop(&o);
         return (int)e->kind;
     }
     for (int i = 0; i < g->n; i++) {
@@ -248,10 +298,12 @@ int golden_run_check(struct golden *g, struct err *e)
         code = code ? code : (int)g->scenes[i].failed.kind;
     }
     if (g->whole) {
-        const char **strays = golden_strays(g, g->call->arena);
+        strays = golden_strays(g, g->call->arena);
         golden_report_strays(g, strays, points);
         good += !*strays;
     }
+    if (g->junit) golden_report_junit(g, strays, o.stream);
+    if (g->junit && !outfile_commit(&o, e)) return (int)e->kind;
     if (!g->tap && (!g->quiet || good < points)) printf("%d passed, %d failed\n", good, points - good);
     return code ? code : good < points ? ERR_DIFFERS : 0;
 }

@@ -11,7 +11,7 @@
 
 enum { HEAD = 1 << 16, TAIL = 64, END = 12 /* bytes of a PNG's last chunk */ };
 
-static const char svg_mark[] = "<!-- made by rasp -->\n";
+static const char svg_mark[] = MARK_TEXT;
 
 /* The chunk tEXt of PNG (RFC 2083, 4.2.3): its length, type, keyword and text, and the CRC of the last three. */
 static const unsigned char png_mark[] = {0,   0,   0,   13, 't', 'E', 'X', 't', 'S',  'o',  'f',  't', 'w',

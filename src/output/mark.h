@@ -15,6 +15,8 @@
 
 #define MARK_PAGE "<meta name=\"generator\" content=\"rasp\">" /* within a page's first kilobytes */
 
+#define MARK_TEXT "<!-- made by rasp -->\n" /* at the end of a text of XML */
+
 /* The rule. What is neither a file nor a link to one is left to outfile_open. ERR_CREATE */
 bool mark_permits(const char *path, const char *summary, bool force, struct err *e);
 
