@@ -11,7 +11,7 @@
 
 static const double hides = 10e-3;                  /* s about an impact */
 static const double one = 0.6e-3;                   /* s: pulses of one impact */
-static const double clicks = 2.5e-3;                /* s of a click in all, the last 1 ms fading */
+static const double clicks = 2.5e-3, faded = 1e-3;  /* s of a click in all at least, and of its end that fades */
 static const double small = 1.0 / 12, clear = 0.25; /* of another impact nearby, that is one: at last, and at first */
 static const double longest = 0.5;                  /* s of a response */
 enum { STATES = 240, FIT = 2048, REACH = 65536, MOST = 100000 };
@@ -110,9 +110,27 @@ void source_filter_sound(const struct source_filter *f, double *y)
             y[t] += z.im;
         }
     }
-    for (long t = 0; f->clicks > 0 && t < f->n; t++)
-        for (long k = 0; f->source[t] != 0 && k < f->clicks && t + k < f->n; k++)
-            y[t + k] += f->source[t] * f->click[k];
+    if (!f->clicks) return;
+    long size = (long)fft_good_size((size_t)(f->n + f->clicks)), bins = size / 2 + 1;
+    struct arena *a = arena_open();
+    double *x = ARENA_TAKE(a, double, size), *re = ARENA_TAKE(a, double, bins), *im = ARENA_TAKE(a, double, bins),
+           *cr = ARENA_TAKE(a, double, bins), *ci = ARENA_TAKE(a, double, bins);
+    struct fft *fft = fft_open((size_t)size);
+    memcpy(x, f->click, (size_t)f->clicks * sizeof *x);
+    fft_forward(fft, x, cr, ci);
+    memset(x, 0, (size_t)f->clicks * sizeof *x);
+    memcpy(x, f->source, (size_t)f->n * sizeof *x);
+    fft_forward(fft, x, re, im);
+    for (long k = 0; k < bins; k++) {
+        cplx z = cplx_mul((cplx){re[k], im[k]}, (cplx){cr[k] / (double)size, ci[k] / (double)size});
+        re[k] = z.re;
+        im[k] = z.im;
+    }
+    fft_inverse(fft, re, im, x);
+    for (long t = 0; t < f->n; t++)
+        y[t] += x[t];
+    fft_close(fft);
+    arena_close(a);
 }
 
 /* So that |h| is at most 1; or with modes given, so that gains are theirs at low frequencies, where an impact is short.
@@ -221,6 +239,16 @@ static double squares(const double *x, long n)
 }
 
 /* ------------------------------------------------------------------ impacts */
+
+/* None yet; with room for n. */
+static struct impact_events events_open(const struct source_filter *f, int n, struct arena *a)
+{
+    return (struct impact_events){.time = ARENA_TAKE(a, double, n + 1),
+                                  .amplitude = ARENA_TAKE(a, double, n + 1),
+                                  .duration = ARENA_TAKE(a, double, n + 1),
+                                  .alone = ARENA_TAKE(a, bool, n + 1),
+                                  .blur = {0, 1 / f->rate}};
+}
 
 struct peak {
     double at; /* samples */
@@ -373,11 +401,7 @@ static void find_impacts(struct source_filter *f, bool both, const struct pulse 
     n = merge(peak, n, (double)width);
     f->struck = energy > 0 ? 1 - squares(rest, f->n) / energy : 0;
     struct impact_events *v = &f->impacts;
-    *v = (struct impact_events){.time = ARENA_TAKE(a, double, n + 1),
-                                .amplitude = ARENA_TAKE(a, double, n + 1),
-                                .duration = ARENA_TAKE(a, double, n + 1),
-                                .alone = ARENA_TAKE(a, bool, n + 1),
-                                .blur = {0, 1 / f->rate}};
+    *v = events_open(f, n, a);
     for (int k = 0; k < n; k++) {
         if (fabs(peak[k].size) * pulse->x[0] <= least || (!both && peak[k].size <= 0)) continue;
         v->time[v->n] = peak[k].at / f->rate;
@@ -390,7 +414,7 @@ static void find_impacts(struct source_filter *f, bool both, const struct pulse 
 
 static void fade(struct source_filter *f)
 {
-    long n = f->clicks, fades = (long)(1e-3 * f->rate);
+    long n = f->clicks, fades = (long)(faded * f->rate);
     for (long t = n - fades > 0 ? n - fades : 0; t < n; t++)
         f->click[t] *= 0.5 + 0.5 * real_cospi((double)(t - n + fades) / (double)fades);
 }
@@ -402,10 +426,7 @@ static void own_gains(struct source_filter *f, struct jump *jump, int jumps, str
     double loudest = 0;
     for (int k = 0; k < jumps; k++)
         loudest = fmax(loudest, jump[k].energy);
-    *v = (struct impact_events){.time = ARENA_TAKE(a, double, jumps),
-                                .amplitude = ARENA_TAKE(a, double, jumps),
-                                .duration = ARENA_TAKE(a, double, jumps),
-                                .alone = ARENA_TAKE(a, bool, jumps)};
+    *v = events_open(f, jumps, a);
     f->place_time = ARENA_TAKE(a, double, jumps);
     f->place_gain = ARENA_TAKE(a, cplx, jumps * f->m);
     struct source_response_hits h = {.n = jumps, .at = ARENA_TAKE(a, double, jumps), .size = v->amplitude};
@@ -447,15 +468,15 @@ static int by_loudness(const void *x, const void *y)
     return (p < q) - (p > q);
 }
 
-/* By falling energy, but for what is 30 dB below a mode nearby: no response is quite the mean one, and what is left
-   of a strong mode looks like weak ones about it. */
+/* By falling energy, but for what is 30 dB below a mode nearby, or 60 dB below the strongest: no response is quite the
+   mean one, and what is left of a strong mode looks like weak ones about it. */
 static void leave_out_skirts(struct source_filter *f)
 {
     static const double beside = 25; /* Hz */
     int n = 0;
     qsort(f->mode, (size_t)f->m, sizeof *f->mode, by_loudness);
     for (int i = 0; i < f->m; i++) {
-        bool skirt = false;
+        bool skirt = loudness(&f->mode[i]) < 1e-6 * loudness(&f->mode[0]);
         for (int k = 0; k < n; k++)
             skirt = skirt || (fabs(f->mode[k].frequency - f->mode[i].frequency) < beside &&
                               loudness(&f->mode[i]) < 1e-3 * loudness(&f->mode[k]));
@@ -480,8 +501,8 @@ static void prune(struct source_filter *f, const struct jump *jump, int jumps, i
         f->m--;
 }
 
-/* The modes' gains and the click of the response h[n] to an impact of 1. */
-static void take_click(struct source_filter *f, const double *h, long n, struct arena *a)
+/* The click of the response h[n] to an impact of 1, until the modes alone ring. */
+static void take_click(struct source_filter *f, const double *h, long n, double until, struct arena *a)
 {
     struct source_filter unit = *f;
     double *x = ARENA_TAKE(a, double, n), *y = ARENA_TAKE(a, double, n);
@@ -490,7 +511,7 @@ static void take_click(struct source_filter *f, const double *h, long n, struct 
     unit.source = x;
     unit.clicks = 0;
     source_filter_sound(&unit, y);
-    f->clicks = (long)(clicks * f->rate) < n ? (long)(clicks * f->rate) : n;
+    f->clicks = (long)(until * f->rate) < n ? (long)(until * f->rate) : n;
     f->click = ARENA_TAKE(a, double, f->clicks);
     for (long t = 0; t < f->clicks; t++)
         f->click[t] = h[t] - y[t];
@@ -523,7 +544,7 @@ static struct source_response_hits find_pulses(const struct source_filter *f, co
         h.at[k] -= SOURCE_MARGIN * f->rate;
     double share = source_response_mean(unforeseen, f->n, &h, response, n);
     first.noise = sqrt(fmax(1 - share, 1e-6) * loud);
-    take_click(&first, response, n, a);
+    take_click(&first, response, n, clicks, a);
     normalise(&first, 0, NULL);
     divide(&first, NAN, 1e-2, loud, &pulse);
     find_impacts(&first, o->both, &pulse, clear, a);
@@ -553,36 +574,107 @@ static bool find_driven(struct source_filter *f, const struct source_filter_opti
     return true;
 }
 
+/* As they are in hits. */
+static struct impact_events events_of(const struct source_filter *f, const struct source_response_hits *h,
+                                      struct arena *a)
+{
+    struct impact_events v = events_open(f, h->n, a);
+    for (; v.n < h->n; v.n++) {
+        v.time[v.n] = h->at[v.n] / f->rate;
+        v.amplitude[v.n] = h->size[v.n];
+        v.duration[v.n] = NAN;
+    }
+    return v;
+}
+
+/* Do so many impacts, which give that share of the recording, tell more than fewer? Each gives as much as `small` of
+   the others' size would. Any sound is that of one impact and a response, or of many and another: of these the fewest. */
+static bool tells_more(double fits, int n, double before, int fewer)
+{
+    return fits - before >= small * small * before * (n - fewer) / fewer;
+}
+
+/* The strongest n of them. */
+static struct source_response_hits strongest(const struct source_response_hits *h, int n, struct arena *a)
+{
+    struct source_response_hits few = {.at = ARENA_TAKE(a, double, n + 1), .size = ARENA_TAKE(a, double, n + 1)};
+    double *sorted = ARENA_TAKE(a, double, h->n + 1);
+    for (int k = 0; k < h->n; k++)
+        sorted[k] = -fabs(h->size[k]);
+    gsl_sort(sorted, 1, (size_t)h->n);
+    for (int k = 0; k < h->n && few.n < n; k++)
+        if (fabs(h->size[k]) >= -sorted[n - 1]) {
+            few.at[few.n] = h->at[k];
+            few.size[few.n++] = h->size[k];
+        }
+    return few;
+}
+
+/* Of `all` the strongest that tell as much, doubled from those that have a sixteenth of the squares on. *fits: the share
+   that they give; response[length]: the mean one. */
+static struct source_response_hits fewest(const struct source_filter *f, struct source_response_hits all, double *fits,
+                                          double *response, long length, struct arena *a)
+{
+    double share = source_response_mean(f->x, f->n, &all, response, length);
+    for (int n = 1; n < all.n; n *= 2) {
+        struct source_response_hits few = strongest(&all, n, a);
+        if (squares(few.size, few.n) < squares(all.size, all.n) / 16) continue;
+        *fits = source_response_mean(f->x, f->n, &few, response, length);
+        if (!tells_more(share, all.n, *fits, few.n)) return few;
+    }
+    *fits = source_response_mean(f->x, f->n, &all, response, length);
+    return all;
+}
+
 /* One filter for all impacts: their mean response, its modes, the source divided by them, the impacts in it, and so on,
    until they give no more of the recording. */
-static bool find_lagrange(struct source_filter *f, const struct source_filter_options *o, struct source_response_hits h,
+static bool find_lagrange(struct source_filter *f, const struct source_filter_options *o, const double *unforeseen,
                           int m, const struct source_filter_mode *mode, struct arena *a, struct err *e)
 {
     enum { ROUNDS = 6 };
     static const double alike = 0.35; /* share of the recording, from which on impacts are what drives it */
     const struct source_response_hits none = {0};
+    struct source_response_hits all = find_pulses(f, o, unforeseen, a);
     struct pulse pulse = {.x = ARENA_TAKE(a, double, REACH)};
     long length = (long)(fmin(longest * f->rate, (double)f->n / 2));
-    double loud = squares(f->x, f->n) / (double)f->n, before = 0, *response = ARENA_TAKE(a, double, length);
+    double loud = squares(f->x, f->n) / (double)f->n, before = 0, best = 0, left = HUGE_VAL,
+           *response = ARENA_TAKE(a, double, length);
+    struct source_response_hits h = fewest(f, all, &f->fits, response, length, a);
+    f->impacts = events_of(f, &h, a);
     f->mode = ARENA_TAKE(a, struct source_filter_mode, m + 1);
+    f->m = m;
+    if (mode) memcpy(f->mode, mode, (size_t)m * sizeof *mode);
+    struct impact_events kept = f->impacts;
     for (int round = 1;; round++) {
-        f->fits = source_response_mean(f->x, f->n, &h, response, length);
-        f->noise = sqrt(fmax(1 - f->fits, 1e-6) * loud);
-        bool last = round == ROUNDS || (round > 2 && f->fits < before + 1e-3);
+        bool last = round == ROUNDS || f->fits < alike || (round > 2 && f->fits < before + 1e-3);
         before = f->fits;
-        f->m = m;
-        if (mode) memcpy(f->mode, mode, (size_t)m * sizeof *mode);
+        if (round == 1 || tells_more(f->fits, h.n, best, kept.n)) {
+            kept = f->impacts;
+            best = f->fits;
+        } else if (last) {
+            f->impacts = kept;
+            h = hits_of(f, a);
+            f->fits = source_response_mean(f->x, f->n, &h, response, length);
+        }
+        f->noise = sqrt(fmax(1 - f->fits, 1e-6) * loud);
         if (f->fits < alike) return find_driven(f, o, mode != NULL, a, e);
+        if (!mode && (last || left > 2 * (1 - f->fits))) { /* anew; until the response is clearly better they do */
+            f->m = 0;
+            left = 1 - f->fits;
+        }
         if (!source_poles_response(f, o, response, length, last ? &h : &none, a, e)) return false;
         if (!f->m) return find_driven(f, o, false, a, e);
-        take_click(f, response, length, a);
+        if (!mode) leave_out_skirts(f);
+        for (int i = 0; i < f->m; i++)
+            f->mode[i].gain = cplx_mul(f->mode[i].gain, cplx_exp(source_poles_of(&f->mode[i]), -f->free));
+        take_click(f, response, length, fmax(clicks, f->free + faded), a);
         normalise(f, m, mode);
         divide(f, o->snr, last ? 1e-4 : 1e-2, loud, &pulse);
         if (last) break;
         find_impacts(f, o->both, &pulse, round < 2 ? clear : small, a);
         h = hits_of(f, a);
+        f->fits = source_response_mean(f->x, f->n, &h, response, length);
     }
-    if (!mode) leave_out_skirts(f);
     return true;
 }
 
@@ -612,10 +704,11 @@ bool source_filter_find(const double *x, long n, double rate, const struct sourc
     static const double weak = 0.1, next_to_none = 1e-10; /* noise with which prediction is made */
     bool lee = o->method == SOURCE_FILTER_LEE;
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
-    *f = (struct source_filter){.x = x, .n = n, .rate = rate, .fits = NAN, .source = ARENA_TAKE(a, double, n)};
+    *f = (struct source_filter){
+        .x = x, .n = n, .rate = rate, .fits = NAN, .reflected = NAN, .source = ARENA_TAKE(a, double, n)};
     double *y = source_poles_unforeseen(x, n, lee ? next_to_none : weak, a);
     source_poles_onsets(f, y, o->rise, a);
-    bool ok = lee ? find_lee(f, o, y, m, mode, a, e) : find_lagrange(f, o, find_pulses(f, o, y, a), m, mode, a, e);
+    bool ok = lee ? find_lee(f, o, y, m, mode, a, e) : find_lagrange(f, o, y, m, mode, a, e);
     if (ok) {
         double *given = ARENA_TAKE(a, double, n), all = squares(x, n), left = 0;
         source_filter_sound(f, given);

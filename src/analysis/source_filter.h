@@ -11,15 +11,17 @@
      x = sum_k a_k h(t - t_k) + rest
 
    least in squares over the whole recording: what all impacts have in common, however closely they follow each other.
-   Its poles, with those of the longest free frames, are found by ESPRIT and output error (analysis/modal.h); what is
-   left of it at once is the click, which no mode is: the force itself as it sounds, and what decays at once. The source
+   Its poles, with those of the longest free frames, are found by ESPRIT and output error (analysis/modal.h), from the
+   last early reflection on: a room adds copies of what rings, which move no pole. What is left of the response until
+   then is the click, which no mode is: the force itself as it sounds, what decays at once, the room. The source
    is the recording divided by the response H of both, where that is loud enough:
 
      F = X H* / (|H|^2 + eps)      eps: the noise's power over the source's, and a share of the greatest |H|^2: -20 dB
                                    while impacts are looked for, -40 dB in the source that is written
 
    An impact in it is a pulse, IFFT(|H|^2/(|H|^2 + eps)); the greatest is taken off, and so on down to the noise.
-   With these impacts the mean response is found again, until they give no more of the recording. 002 takes the poles
+   With these impacts the mean response is found again, until they give no more of the recording. Any sound is that of
+   one impact and a response, or of many and another: of these the fewest are taken. 002 takes the poles
    of frames of the recording alone, and prints no eps, no gains and no search of impacts: the mean response and these
    are ours. An impact's own shape (II-C: a Meixner window) is not separated from the click. Impacts are drawn as
    short raised cosines, of series as rasp analyse finds them (002 section IV-E), not of exponential amplitudes and
@@ -68,8 +70,10 @@ struct source_filter {
     int m;
     struct source_filter_mode *mode; /* [m] by falling energy */
     long clicks;
-    double *click; /* [clicks] what an impact of 1 sounds at once besides, from its time on; none: 0 */
-    double noise;  /* rms of what modes leave of the frames */
+    double *click;                /* [clicks] what an impact of 1 sounds at once besides, from its time on; none: 0 */
+    double free;                  /* s after an impact's time, from which on the modes alone ring */
+    double reflected, reflection; /* s after an impact, and its share of it: a room's strongest; NAN: none is clear */
+    double noise;                 /* rms of what modes leave of the frames */
     double fits; /* share of the recording that impacts, all alike, give; Lee: of the energy between them the modes' */
     /* Lee: places of a filter that changes */
     int places;

@@ -216,20 +216,46 @@ static int best_frames(struct source_filter *f, const struct source_poles_frame 
     return f->frames = all;
 }
 
+/* f->free, until the last early reflection in a response is over: what prediction does not foresee stands out of what it
+   mostly is, and is not much less than the impact's. f->reflected, the strongest later than the impact itself. */
+static void find_free(struct source_filter *f, const double *h, long n)
+{
+    static const double noise = 1e-3, early = 80e-3, own = 3e-3 /* s */, least = 0.05, clear = 0.2, stands_out = 6;
+    struct arena *a = arena_open();
+    double *x = ARENA_TAKE(a, double, PREDICT + n), most = 0, reflection;
+    long last = 0;
+    memcpy(x + PREDICT, h, (size_t)n * sizeof *h);
+    double *y = source_poles_unforeseen(x, PREDICT + n, noise, a) + PREDICT;
+    for (long i = 0; i < n; i++)
+        most = fmax(most, y[i] = fabs(y[i]));
+    gsl_sort(memcpy(x, y, (size_t)n * sizeof *x), 1, (size_t)n);
+    double chance = stands_out * gsl_stats_median_from_sorted_data(x, 1, (size_t)n) / 0.6745;
+    f->reflected = NAN;
+    f->reflection = reflection = fmax(clear * most, chance);
+    for (long i = 0; i < n / 2 && (double)i < early * f->rate; i++) {
+        if (y[i] > fmax(least * most, chance)) last = i;
+        if (y[i] <= reflection || (double)i < (SOURCE_MARGIN + own) * f->rate) continue;
+        f->reflected = (double)i / f->rate - SOURCE_MARGIN;
+        f->reflection = (reflection = y[i]) / most;
+    }
+    f->free = floor(fmax(SOURCE_MARGIN * f->rate, (double)last) + SOURCE_PAST * f->rate) / f->rate;
+    arena_close(a);
+}
+
 bool source_poles_response(struct source_filter *f, const struct source_filter_options *o, const double *h, long n,
                            const struct source_response_hits *hits, struct arena *a, struct err *e)
 {
-    long past = (long)((SOURCE_MARGIN + SOURCE_PAST) * f->rate);
+    find_free(f, h, n);
+    long past = lrint(f->free * f->rate);
     struct source_poles_frame best[POLES];
     struct modal_stretch st[1 + POLES] = {{.y = h + past, .n = n - past}};
     int frames = best_frames(f, source_poles_frames(f, hits, a), hits->n, rings, best);
     f->longest = fmax(f->longest, (double)n / f->rate);
     for (int k = 0; k < frames; k++)
         st[1 + k] = (struct modal_stretch){.y = f->x + best[k].from, .first = best[k].from, .n = best[k].n};
-    if (!poles_fitted(f, o, st, 1 + frames, a, e)) return false;
-    for (int i = 0; i < f->m; i++)
-        f->mode[i].gain = cplx_mul(f->mode[i].gain, cplx_exp(source_poles_of(&f->mode[i]), -(double)past / f->rate));
-    return true;
+    struct source_filter_options slow = *o;
+    slow.fastest = fmin(o->fastest, 6.9 / f->free); /* by 60 dB until then */
+    return poles_fitted(f, &slow, st, 1 + frames, a, e);
 }
 
 /* r(l) of the recording, l from SOURCE_PAST on, until it has sunk into what chance makes. */

@@ -37,7 +37,8 @@ struct source_poles_frame *source_poles_frames(const struct source_filter *f, co
 bool source_poles_frames_find(struct source_filter *f, const struct source_filter_options *o,
                               const struct source_poles_frame *frame, struct arena *a, struct err *e);
 
-/* Of a response h[n] to an impact of 1, which begins SOURCE_MARGIN before it, and of what is free for long behind the
+/* Of a response h[n] to an impact of 1, which begins SOURCE_MARGIN before it, from f->free on, which is found: the last
+   early reflection is over; gains are those there. And of what is free for long behind the
    impacts, if there are any, by ESPRIT; of modes that there are (f->m) the gains alone. */
 bool source_poles_response(struct source_filter *f, const struct source_filter_options *o, const double *h, long n,
                            const struct source_response_hits *hits, struct arena *a, struct err *e);

@@ -207,6 +207,12 @@ static void judge(struct decompose *d)
              "the object rings freely for %.3g ms at most: modes nearer to each other than %.0f Hz are one, and slow "
              "decays are guesses",
              1e3 * f->longest, 1 / f->longest);
+    if (!isnan(f->reflected))
+        note(d,
+             "a reflection follows each impact by %.3g ms, %.0f dB weaker: modes are of what rings from %.3g ms on, "
+             "where "
+             "those that decay fast and neighbours are guesses; the room is in what the scene plays",
+             1e3 * f->reflected, -20 * real_log10(f->reflection), 1e3 * f->free);
     if (d->fits < 0.5 && !f->correlated)
         note(
             d,

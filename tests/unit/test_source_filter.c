@@ -148,6 +148,19 @@ START_TEST(known_modes)
 }
 END_TEST
 
+/* One strike is one impact: what it leaves is in the response. */
+START_TEST(one_strike)
+{
+    struct known *k = made(17, 10, 0);
+    ck_assert_int_eq(k->n, 1);
+    struct source_filter f = found(k, &options, 0, NULL);
+    ck_assert_int_eq(f.impacts.n, 1);
+    ck_assert_int_eq(f.m, MODES);
+    ck_assert_int_eq(modes_found(k, &f, 0.01), MODES);
+    ck_assert(isnan(f.reflected));
+}
+END_TEST
+
 /* Each impact has gains of its own: frequencies within 1 Hz, and more of the recording than a third. */
 START_TEST(own_gains)
 {
@@ -217,4 +230,4 @@ START_TEST(refused)
 }
 END_TEST
 
-UNIT("source_filter", taken_apart, known_modes, own_gains, driven_by_noise, refused)
+UNIT("source_filter", taken_apart, known_modes, one_strike, own_gains, driven_by_noise, refused)
