@@ -587,8 +587,9 @@ static struct impact_events events_of(const struct source_filter *f, const struc
     return v;
 }
 
-/* Do so many impacts, which give that share of the recording, tell more than fewer? Each gives as much as `small` of
-   the others' size would. Any sound is that of one impact and a response, or of many and another: of these the fewest. */
+/* Do so many impacts, which give that share of the recording, tell more than fewer? Each gives as much as `small`
+   of the others' size would. Any sound is that of one impact and a response, or of many and another: the
+   fewest are taken. */
 static bool tells_more(double fits, int n, double before, int fewer)
 {
     return fits - before >= small * small * before * (n - fewer) / fewer;
@@ -610,8 +611,8 @@ static struct source_response_hits strongest(const struct source_response_hits *
     return few;
 }
 
-/* Of `all` the strongest that tell as much, doubled from those that have a sixteenth of the squares on. *fits: the share
-   that they give; response[length]: the mean one. */
+/* Of `all` the strongest that tell as much, doubled from those that have a sixteenth of the squares on. *fits: the
+   share that they give; response[length]: the mean one. */
 static struct source_response_hits fewest(const struct source_filter *f, struct source_response_hits all, double *fits,
                                           double *response, long length, struct arena *a)
 {

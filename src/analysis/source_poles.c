@@ -216,8 +216,8 @@ static int best_frames(struct source_filter *f, const struct source_poles_frame 
     return f->frames = all;
 }
 
-/* f->free, until the last early reflection in a response is over: what prediction does not foresee stands out of what it
-   mostly is, and is not much less than the impact's. f->reflected, the strongest later than the impact itself. */
+/* f->free, until the last early reflection in a response is over: what prediction does not foresee stands out of what
+   it mostly is, and is not much less than the impact's. f->reflected, the strongest later than the impact itself. */
 static void find_free(struct source_filter *f, const double *h, long n)
 {
     static const double noise = 1e-3, early = 80e-3, own = 3e-3 /* s */, least = 0.05, clear = 0.2, stands_out = 6;
