@@ -157,6 +157,26 @@ static void toeplitz_solve(const double *r, const double *c, double *h, long n)
     arena_close(a);
 }
 
+struct filter {
+    struct fft *fft;
+    long size;
+    const double *by_re, *by_im; /* [size/2 + 1] its spectrum */
+    double *re, *im;             /* work */
+};
+
+/* y[size] by the filter, sign 1, or by its conjugate, -1. */
+static void filter(const struct filter *f, double *y, int sign)
+{
+    fft_forward(f->fft, y, f->re, f->im);
+    for (long k = 0; k <= f->size / 2; k++) {
+        double re = f->re[k] / (double)f->size, im = f->im[k] / (double)f->size;
+        f->re[k] = re * f->by_re[k] - sign * im * f->by_im[k];
+        f->im[k] = im * f->by_re[k] + sign * re * f->by_im[k];
+    }
+    fft_inverse(f->fft, f->re, f->im, y);
+}
+
+/* The share given back is of the recording as it is: what its continuation gives does not count. */
 double source_response_mean(const double *x, long n, const struct source_response_hits *hits, double *h, long length)
 {
     enum { PASSES = 3 };
@@ -166,7 +186,8 @@ double source_response_mean(const double *x, long n, const struct source_respons
     struct fft *fft = fft_open((size_t)size);
     double *y = ARENA_TAKE(a, double, size), *re = ARENA_TAKE(a, double, bins), *im = ARENA_TAKE(a, double, bins),
            *tr = ARENA_TAKE(a, double, bins), *ti = ARENA_TAKE(a, double, bins), *r = ARENA_TAKE(a, double, length),
-           *c = ARENA_TAKE(a, double, length), share = 0;
+           left = 0;
+    const struct filter train = {fft, size, tr, ti, re, im};
     for (int k = 0; k < hits->n; k++) { /* between samples, as source_response_between */
         long at = (long)floor(hits->at[k]);
         double u = hits->at[k] - (double)at;
@@ -188,28 +209,20 @@ double source_response_mean(const double *x, long n, const struct source_respons
     for (int pass = 0; pass < PASSES && r[0] > 0; pass++) { /* behind its end the recording goes on as the last says */
         memset(y, 0, (size_t)size * sizeof *y);
         memcpy(y, h, (size_t)length * sizeof *h);
-        fft_forward(fft, y, re, im);
-        for (long k = 0; k < bins; k++) {
-            double real = re[k];
-            re[k] = (real * tr[k] - im[k] * ti[k]) / (double)size;
-            im[k] = (real * ti[k] + im[k] * tr[k]) / (double)size;
-        }
-        fft_inverse(fft, re, im, y);
+        filter(&train, y, 1);
         memcpy(y, x, (size_t)n * sizeof *y);
-        fft_forward(fft, y, re, im);
-        for (long k = 0; k < bins; k++) {
-            double real = re[k];
-            re[k] = (real * tr[k] + im[k] * ti[k]) / (double)size;
-            im[k] = (im[k] * tr[k] - real * ti[k]) / (double)size;
-        }
-        fft_inverse(fft, re, im, y);
-        memcpy(c, y, (size_t)length * sizeof *c);
-        toeplitz_solve(r, c, h, length);
+        filter(&train, y, -1);
+        toeplitz_solve(r, y, h, length);
     }
-    share = product(x, x, n) > 0 ? product(c, h, length) / product(x, x, n) : 0;
+    memset(y, 0, (size_t)size * sizeof *y);
+    memcpy(y, h, (size_t)length * sizeof *h);
+    filter(&train, y, 1);
+    for (long i = 0; i < n; i++)
+        left += (x[i] - y[i]) * (x[i] - y[i]);
+    double all = product(x, x, n);
     fft_close(fft);
     arena_close(a);
-    return share;
+    return all > 0 ? 1 - left / all : 0;
 }
 
 bool source_response_solve(const double *basis, long columns, long stride, long n, double *x, double *to)
