@@ -216,8 +216,9 @@ static int best_frames(struct source_filter *f, const struct source_poles_frame 
     return f->frames = all;
 }
 
-/* f->free, until the last early reflection in a response is over: what prediction does not foresee stands out of what
-   it mostly is, and is not much less than the impact's. f->reflected, the strongest later than the impact itself. */
+/* f->reflected, the strongest reflection in a response: what prediction does not foresee, later than the impact itself,
+   stands out of what it mostly is, and is not much less than the impact's. f->free, until the last is over; without a
+   strong one until the impact itself is. */
 static void find_free(struct source_filter *f, const double *h, long n)
 {
     static const double noise = 1e-3, early = 80e-3, own = 3e-3 /* s */, least = 0.05, clear = 0.2, stands_out = 6;
@@ -238,6 +239,7 @@ static void find_free(struct source_filter *f, const double *h, long n)
         f->reflected = (double)i / f->rate - SOURCE_MARGIN;
         f->reflection = (reflection = y[i]) / most;
     }
+    if (isnan(f->reflected)) last = 0; /* what is left of many impacts looks like weak ones */
     f->free = floor(fmax(SOURCE_MARGIN * f->rate, (double)last) + SOURCE_PAST * f->rate) / f->rate;
     arena_close(a);
 }
