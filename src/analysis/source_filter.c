@@ -468,7 +468,7 @@ static int by_loudness(const void *x, const void *y)
     return (p < q) - (p > q);
 }
 
-/* By falling energy, but for what is 30 dB below a mode nearby, or 60 dB below the strongest: no response is quite the
+/* By falling energy, but for what is 30 dB below a mode nearby, or 90 dB below the strongest: no response is quite the
    mean one, and what is left of a strong mode looks like weak ones about it. */
 static void leave_out_skirts(struct source_filter *f)
 {
@@ -476,7 +476,7 @@ static void leave_out_skirts(struct source_filter *f)
     int n = 0;
     qsort(f->mode, (size_t)f->m, sizeof *f->mode, by_loudness);
     for (int i = 0; i < f->m; i++) {
-        bool skirt = loudness(&f->mode[i]) < 1e-6 * loudness(&f->mode[0]);
+        bool skirt = loudness(&f->mode[i]) < 1e-9 * loudness(&f->mode[0]);
         for (int k = 0; k < n; k++)
             skirt = skirt || (fabs(f->mode[k].frequency - f->mode[i].frequency) < beside &&
                               loudness(&f->mode[i]) < 1e-3 * loudness(&f->mode[k]));
