@@ -5,7 +5,7 @@
 #include <gsl/gsl_sort_double.h>
 #include <string.h>
 
-#include "num/fft.h"
+#include "num/toeplitz.h"
 
 enum { ROUNDS = 6 };
 
@@ -95,65 +95,20 @@ void source_response_pulses(const struct source_filter *f, const double *y, bool
 
 /* ------------------------------------------------------------------ response */
 
-/* Products with a symmetric Toeplitz matrix, by the spectrum of the circulant one that it is a part of. */
-struct toeplitz {
-    struct fft *fft;
-    long n, size;
-    double *spectrum, *x, *re, *im;
-};
-
-static void times(const struct toeplitz *m, const double *x, double *y)
+/* h[n] of M h = c, M of the autocorrelation r[n], from the h there is. */
+static void solve(const double *r, const double *c, double *h, long n)
 {
-    memset(m->x, 0, (size_t)m->size * sizeof *m->x);
-    memcpy(m->x, x, (size_t)m->n * sizeof *x);
-    fft_forward(m->fft, m->x, m->re, m->im);
-    for (long k = 0; k <= m->size / 2; k++) {
-        m->re[k] *= m->spectrum[k];
-        m->im[k] *= m->spectrum[k];
-    }
-    fft_inverse(m->fft, m->re, m->im, m->x);
-    memcpy(y, m->x, (size_t)m->n * sizeof *y);
-}
-
-static double product(const double *x, const double *y, long n)
-{
-    double sum = 0;
-    for (long i = 0; i < n; i++)
-        sum += x[i] * y[i];
-    return sum;
-}
-
-/* h[n] of M h = c, M of the autocorrelation r[n], by conjugate gradients from the h there is. */
-static void toeplitz_solve(const double *r, const double *c, double *h, long n)
-{
-    enum { STEPS = 200 };
     struct arena *a = arena_open();
-    struct toeplitz m = {.n = n, .size = (long)fft_good_size((size_t)(2 * n))};
-    m.fft = fft_open((size_t)m.size);
-    m.spectrum = ARENA_TAKE(a, double, m.size / 2 + 1);
-    m.x = ARENA_TAKE(a, double, m.size);
-    m.re = ARENA_TAKE(a, double, m.size / 2 + 1);
-    m.im = ARENA_TAKE(a, double, m.size / 2 + 1);
-    double *rest = ARENA_TAKE(a, double, n), *way = ARENA_TAKE(a, double, n), *ahead = ARENA_TAKE(a, double, n);
+    long size = (long)fft_good_size((size_t)(2 * n));
+    double *x = ARENA_TAKE(a, double, size), *re = ARENA_TAKE(a, double, size / 2 + 1),
+           *im = ARENA_TAKE(a, double, size / 2 + 1);
+    struct toeplitz t = {
+        .fft = fft_open((size_t)size), .n = n, .size = size, .spectrum = re, .most = 200, .enough = 1e-8};
     for (long i = 0; i < n; i++)
-        m.x[i] = m.x[i ? m.size - i : 0] = r[i] / (double)m.size;
-    fft_forward(m.fft, m.x, m.spectrum, m.im);
-    times(&m, h, ahead);
-    for (long i = 0; i < n; i++)
-        way[i] = rest[i] = c[i] - ahead[i];
-    double left = product(rest, rest, n), enough = 1e-8 * product(c, c, n);
-    for (int step = 0; step < STEPS && left > enough; step++) {
-        times(&m, way, ahead);
-        double by = left / product(way, ahead, n), was = left;
-        for (long i = 0; i < n; i++) {
-            h[i] += by * way[i];
-            rest[i] -= by * ahead[i];
-        }
-        left = product(rest, rest, n);
-        for (long i = 0; i < n; i++)
-            way[i] = rest[i] + left / was * way[i];
-    }
-    fft_close(m.fft);
+        x[i] = x[i ? size - i : 0] = r[i];
+    fft_forward(t.fft, x, re, im);
+    toeplitz_solve(&t, c, h);
+    fft_close(t.fft);
     arena_close(a);
 }
 
@@ -186,7 +141,7 @@ double source_response_mean(const double *x, long n, const struct source_respons
     struct fft *fft = fft_open((size_t)size);
     double *y = ARENA_TAKE(a, double, size), *re = ARENA_TAKE(a, double, bins), *im = ARENA_TAKE(a, double, bins),
            *tr = ARENA_TAKE(a, double, bins), *ti = ARENA_TAKE(a, double, bins), *r = ARENA_TAKE(a, double, length),
-           left = 0;
+           left = 0, all = 0;
     const struct filter train = {fft, size, tr, ti, re, im};
     for (int k = 0; k < hits->n; k++) { /* between samples, as source_response_between */
         long at = (long)floor(hits->at[k]);
@@ -212,14 +167,15 @@ double source_response_mean(const double *x, long n, const struct source_respons
         filter(&train, y, 1);
         memcpy(y, x, (size_t)n * sizeof *y);
         filter(&train, y, -1);
-        toeplitz_solve(r, y, h, length);
+        solve(r, y, h, length);
     }
     memset(y, 0, (size_t)size * sizeof *y);
     memcpy(y, h, (size_t)length * sizeof *h);
     filter(&train, y, 1);
-    for (long i = 0; i < n; i++)
+    for (long i = 0; i < n; i++) {
         left += (x[i] - y[i]) * (x[i] - y[i]);
-    double all = product(x, x, n);
+        all += x[i] * x[i];
+    }
     fft_close(fft);
     arena_close(a);
     return all > 0 ? 1 - left / all : 0;

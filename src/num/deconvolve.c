@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/arena.h"
-#include "num/fft.h"
+#include "num/toeplitz.h"
 
 enum { MOST = 500 };
 static const double enough = 1e-9;
@@ -17,21 +17,6 @@ struct deconvolution {
     double *f_re, *f_im; /* the force's spectrum */
     double *power;       /* [bins] |F|^2 + weak */
 };
-
-/* to[n]: of from[n], filtered by the spectrum `by` or, inverse, by 1 over it. */
-static void filtered(struct deconvolution *d, const double *from, bool inverse, double *to)
-{
-    memset(d->x, 0, (size_t)d->size * sizeof *d->x);
-    memcpy(d->x, from, (size_t)d->n * sizeof *from);
-    fft_forward(d->fft, d->x, d->re, d->im);
-    for (long k = 0; k < d->bins; k++) {
-        double g = (inverse ? 1.0 / d->power[k] : d->power[k]) / (double)d->size;
-        d->re[k] *= g;
-        d->im[k] *= g;
-    }
-    fft_inverse(d->fft, d->re, d->im, d->x);
-    memcpy(to, d->x, (size_t)d->n * sizeof *to);
-}
 
 /* to[n]: y by the conjugate of the force's spectrum. */
 static void correlated(struct deconvolution *d, const double *y, double *to)
@@ -46,14 +31,6 @@ static void correlated(struct deconvolution *d, const double *y, double *to)
     }
     fft_inverse(d->fft, d->re, d->im, d->x);
     memcpy(to, d->x, (size_t)d->n * sizeof *to);
-}
-
-static double product(const double *x, const double *y, long n)
-{
-    double sum = 0.0;
-    for (long i = 0; i < n; i++)
-        sum += x[i] * y[i];
-    return sum;
 }
 
 /* The force's spectrum, and the power that is divided by. Returns false if there is no force. */
@@ -80,27 +57,13 @@ int deconvolve(const double *y, long n, const double *f, long m, double limit, d
     double **spectra[] = {&d.re, &d.im, &d.f_re, &d.f_im, &d.power};
     for (int k = 0; k < 5; k++)
         *spectra[k] = ARENA_TAKE(work, double, d.bins);
-    double *r = ARENA_TAKE(work, double, n), *z = ARENA_TAKE(work, double, n), *p = ARENA_TAKE(work, double, n),
-           *q = ARENA_TAKE(work, double, n);
+    double *c = ARENA_TAKE(work, double, n);
     int step = 0;
     memset(h, 0, (size_t)n * sizeof *h);
     if (force(&d, f, m, limit)) {
-        correlated(&d, y, r);
-        filtered(&d, r, true, z);
-        memcpy(p, z, (size_t)n * sizeof *p);
-        double rz = product(r, z, n), first = rz;
-        for (; step < MOST && rz > enough * enough * first; step++) {
-            filtered(&d, p, false, q);
-            double length = rz / product(p, q, n), before = rz;
-            for (long i = 0; i < n; i++) {
-                h[i] += length * p[i];
-                r[i] -= length * q[i];
-            }
-            filtered(&d, r, true, z);
-            rz = product(r, z, n);
-            for (long i = 0; i < n; i++)
-                p[i] = z[i] + rz / before * p[i];
-        }
+        struct toeplitz t = {d.fft, n, d.size, d.power, true, MOST, enough * enough};
+        correlated(&d, y, c);
+        step = toeplitz_solve(&t, c, h);
     }
     fft_close(d.fft);
     arena_close(work);

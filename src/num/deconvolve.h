@@ -4,8 +4,7 @@
    the spectra with the same limit has no such beginning: its response rings before sample 0, and cutting that off loses
    up to 5 dB where the sound is long. Here f * h is y wherever |F|^2 is above the limit, and fades below it.
 
-   The normal equations are symmetric Toeplitz, solved by conjugate gradients with a circulant preconditioner, 1 over
-   |F|^2 + weak (Chan and Ng, Conjugate gradient methods for Toeplitz systems, SIAM Review 38, 1996). */
+   The normal equations are symmetric Toeplitz: num/toeplitz.h, with the preconditioner 1 over |F|^2 + weak. */
 #ifndef NUM_DECONVOLVE_H
 #define NUM_DECONVOLVE_H
 /* y[n], h[n]; f[m], f[0] at the time of y[0]. limit: of power, > 0. Returns the iterations, at most 500; until the
