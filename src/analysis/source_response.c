@@ -103,7 +103,7 @@ static void solve(const double *r, const double *c, double *h, long n)
     double *x = ARENA_TAKE(a, double, size), *re = ARENA_TAKE(a, double, size / 2 + 1),
            *im = ARENA_TAKE(a, double, size / 2 + 1);
     struct toeplitz t = {
-        .fft = fft_open((size_t)size), .n = n, .size = size, .spectrum = re, .most = 200, .enough = 1e-8};
+        .fft = fft_open((size_t)size), .n = n, .size = size, .spectrum = re, .most = 1000, .enough = 1e-12};
     for (long i = 0; i < n; i++)
         x[i] = x[i ? size - i : 0] = r[i];
     fft_forward(t.fft, x, re, im);
