@@ -406,25 +406,21 @@ static const struct args_option decompose_options[] = {
 const struct command decompose_command = {
     .name = "decompose",
     .summary = "a recording of rolling or scraping as modes, a source and impacts: a scene",
-    .does =
-        "Takes a recording of a contact that lasts apart into what rings and what drives it, after Lagrange et al. and "
-        "Lee "
-        "et al. as Conan et al. (2014) describe them. Impacts are what linear prediction does not foresee; the modes "
-        "are fitted to their mean response, by least squares over the recording, and to what rings freely for long. "
-        "The source is the recording divided by that response, as far as it is above the noise; impacts are its "
-        "pulses, "
-        "and with them all is found once more. Their amplitudes and the times between them are analysed as rasp "
-        "analyse does. FOLDER gets modes.csv (frequencies "
-        "and decays with their errors), source.wav (the force), impacts.csv, impacts.yaml (a scene part that draws "
-        "impacts like them), scene.yaml, which renders what was found: impacts, or where the contact does not break "
-        "the force as it was; force.yaml, which has the force in any case; decompose.json, the report, and "
-        "decompose.png where gnuplot is installed. Levels are relative: a recording does not say how hard was struck.",
-    .also =
-        "What a recording cannot say is said: no impacts that are alike (a contact that does not break: modes "
-        "are then those of the autocorrelation, with no intervals), noise, clipping, echoes of a room, modes that are "
-        "little of what rings (speech, several objects), too few impacts for statistics. Intervals of modes are by "
-        "noise "
-        "and by differences between frames; they do not hold what reflections add.",
+    .does = "Takes a recording of a contact that lasts apart into what rings and what drives it. It does so after "
+            "Lagrange et al. and Lee et al. as Conan et al. (2014) describe them. Impacts are what linear prediction "
+            "does not foresee. The modes are fitted to their mean response, by least squares over the recording, and "
+            "to what rings freely for long. The source is the recording divided by that response, as far as it is "
+            "above the noise. Impacts are its pulses, and with them all is found once more. Their amplitudes and the "
+            "times between them are analysed as rasp analyse does.\n"
+            "FOLDER gets modes.csv (frequencies and decays with their errors), source.wav (the force) and "
+            "impacts.csv. The scene part impacts.yaml draws impacts like them. The scene scene.yaml renders what was "
+            "found: impacts, or where the contact does not break the force as it was. The scene force.yaml has the "
+            "force in any case. The report is decompose.json, and decompose.png where gnuplot is installed. Levels "
+            "are relative: a recording does not say how hard was struck.",
+    .also = "What a recording cannot say is said: noise, clipping, echoes of a room, too few impacts for statistics. "
+            "So are modes that are little of what rings (speech, several objects). A contact that does not break has "
+            "no impacts that are alike: modes are then those of the autocorrelation, with no intervals. Intervals of "
+            "modes are by noise and by differences between frames. They do not hold what reflections add.",
     .operands = "RECORDING...",
     .least = 1,
     .most = -1,

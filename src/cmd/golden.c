@@ -469,20 +469,20 @@ static const struct args_option options[] = {
 const struct command golden_command = {
     .name = "golden",
     .summary = "keep what scenes make, and check that they still do",
-    .does = "rasp golden update LIST renders every scene, then every scene again, and keeps the sounds and tables; "
-            "where the two renders of one have not the same bytes, nothing is written and the exit code is 1. rasp "
-            "golden check LIST renders every scene and compares with what is kept: the same bytes, or, where the "
-            "command or a line of the list gives limits (as of rasp compare), within these. Of a file that is not, "
-            "rasp compare's report says how far it is off.\n"
-            "LIST is a text file, one scene a line, with its own options behind it (limits, --set KEY=VALUE, --seed, "
-            "and --name, for a scene that stands there twice); # begins a comment, and names of files start at the "
-            "list's folder. An operand that ends in .yaml is a scene itself. What is kept is called by the scene's "
-            "name without .yaml.\n"
-            "check fails where nothing is kept of a scene (and says what makes it), where a kept file is not made any "
-            "more, where a list is empty, and, when all operands are lists, where something is kept that no scene of "
-            "theirs makes. With --kept and --hashes, the kept files must have the kept hashes. The exit code is 0 when "
-            "all is as kept, 1 when it is not, and where a scene could not be rendered that render's own; the others "
-            "are checked all the same.",
+    .does = "The action update renders every scene of LIST, then every scene again, and keeps the sounds and tables. "
+            "Where the two renders of one have not the same bytes, nothing is written and the exit code is 1. The "
+            "action check renders every scene and compares with what is kept: the same bytes, or within limits (as of "
+            "rasp compare) that the command or a line of the list gives. Of a file that is not, rasp compare's report "
+            "says how far it is off.\n"
+            "LIST is a text file, one scene a line, with its own options behind it: limits, --set KEY=VALUE, --seed, "
+            "and --name for a scene that stands there twice. A # begins a comment. Names of files start at the list's "
+            "folder. An operand that ends in .yaml is a scene itself. What is kept is called by the scene's name "
+            "without .yaml.\n"
+            "A check fails where nothing is kept of a scene (and says what makes it), where a kept file is not made "
+            "any more, and where a list is empty. When all operands are lists, it also fails where something is kept "
+            "that no scene of theirs makes. With --kept and --hashes, the kept files must have the kept hashes.\n"
+            "The exit code is 0 when all is as kept and 1 when it is not. Where a scene could not be rendered it is "
+            "that render's own; the others are checked all the same.",
     .operands = "ACTION LIST|SCENE.yaml...",
     .least = 1,
     .most = -1,

@@ -649,24 +649,23 @@ static int plot_run(struct cmd_call *c, struct err *e)
 const struct command plot_command = {
     .name = "plot",
     .summary = "draws a render: waveform, spectrogram, forces, motion, modes",
-    .does =
-        "For NAME.wav writes NAME.png: the waveform, the spectrogram (Hann window of 20 ms, the 80 dB below the "
-        "loudest place, up to 20 kHz) and, from the diagnostics beside it (NAME.csv, NAME.npy, or NAME.CONTACT.csv), "
-        "the contact force, the normal force with alpha, and the ground with the limited trajectory (where the table "
-        "has "
-        "them), on one time axis; below them the way of the contact from "
-        "above, coloured by speed, and the modes of what rings (NAME.scene.yaml): stems of their largest gain on that "
-        "way, coloured by their time of decay. A table that is not of the same render, as the hashes in NAME.json "
-        "tell, is left out with a warning; without NAME.json it is taken to be. Panels without data are left out; what "
-        "was drawn is printed. For NAME.csv or NAME.npy, of a render without sound, what the table has; a mode table "
-        "gives the modes, and their decays over frequency. Of several channels one is drawn. Needs gnuplot.\n"
-        "With --gallery the operand is a folder that rasp batch made, or its manifest.csv, or any folder of sounds. "
-        "The page shows every stimulus in a table, with its factors, a small spectrogram and a player. Rows can be "
-        "sorted and filtered, and two sounds can be marked and compared; the page lists its keys. All spectrograms "
-        "have the same axes: the longest sound's time, frequency from 50 Hz to half the sample rate or 20 kHz, and the "
-        "80 dB below the loudest place of all sounds. Of several channels the first is drawn. They are made anew, into "
-        "a folder beside the page: gallery/ of gallery.html. Sounds are linked where they are. The page needs neither "
-        "gnuplot nor a network.",
+    .does = "For NAME.wav this writes NAME.png. On one time axis there are the waveform and the spectrogram (Hann "
+            "window of 20 ms, the 80 dB below the loudest place, up to 20 kHz). From the diagnostics beside it "
+            "(NAME.csv, NAME.npy, or NAME.CONTACT.csv) come the contact force and the normal force with alpha. The "
+            "ground with the limited trajectory follows where the table has them. Below them is the way of the "
+            "contact from above, coloured by speed. Last come the modes of what rings (NAME.scene.yaml): stems of "
+            "their largest gain on that way, coloured by their time of decay.\n"
+            "A table that is not of the same render, by the hashes in NAME.json, is left out with a warning. Without "
+            "NAME.json it is taken to be. Panels without data are left out, and what was drawn is printed. For "
+            "NAME.csv or NAME.npy, of a render without sound, what the table has is drawn. A mode table gives the "
+            "modes, and their decays over frequency. Of several channels one is drawn. All this needs gnuplot.\n"
+            "With --gallery the operand is a folder that rasp batch made, or its manifest.csv, or any folder of "
+            "sounds. The page shows every stimulus in a table, with its factors, a small spectrogram and a player. "
+            "Rows can be sorted and filtered, and two sounds can be marked and compared. The page lists its keys. All "
+            "spectrograms have the same axes: the longest sound's time, and frequency from 50 Hz to half the sample "
+            "rate or 20 kHz. All show the 80 dB below the loudest place of all sounds, of the first channel.\n"
+            "They are made anew, into a folder beside the page: gallery/ of gallery.html. Sounds are linked where "
+            "they are. The page needs neither gnuplot nor a network.",
     .operands = "NAME.wav|NAME.csv|NAME.npy|FOLDER/|manifest.csv",
     .least = 1,
     .most = 1,

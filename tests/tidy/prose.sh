@@ -3,8 +3,8 @@
 . "$ROOT/tests/lib/test.sh"
 command -v python3 > /dev/null || skip "python3 is not installed"
 
-# Pages that keep to it. Of man/rasp.1, which the help texts make, what is written by hand.
-PAGES="README.md man/rasp-scene.5 man/rasp-accuracy.1 man/rasp-design.5 man/rasp-record.7 man/rasp.1.in"
+# Pages that keep to it.
+PAGES="README.md man/rasp.1 man/rasp-scene.5 man/rasp-accuracy.1 man/rasp-design.5 man/rasp-record.7"
 
 # long FILE...: sentences and paragraphs that are too long.
 long() { (cd "$ROOT" && python3 tests/tidy/prose.py "$@"); }
