@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "file/yaml.h"
+#include "num/real.h"
 #include "scene/scene_materials.h"
 #include "scene/scene_merge.h"
 #include "scene/units.h"
@@ -110,15 +111,19 @@ static const struct key *longer_key(struct yaml *y, const struct key *k, const s
 }
 
 /* What is out of range, and would not be with a prefix: 48 Hz for 48 kHz, 20 kg for 20 g; NULL: it is not that. */
-static const char *prefix_meant(const struct key *k, double value, struct arena *a)
+static const char *prefix_meant(const struct key *k, const char *text, double value, struct arena *a)
 {
-    static const double prefixes[] = {1e3, 1e-3, 1e-6};
+    int power = 0;
     if (k->dimension == KEY_NONE || k->dimension == KEY_DECIBEL || k->dimension == KEY_LUFS ||
         k->dimension == KEY_ANGLE)
         return NULL;
-    for (int i = 0; i < 3; i++)
-        if (value * prefixes[i] >= k->low && value * prefixes[i] <= k->high)
-            return units_text(value * prefixes[i], k->dimension, a);
+    const char *example = units_example(k->dimension), *unit = strchr(example, ' ');
+    bool bare = text_number_length(text) == strlen(text);
+    if (!bare || !unit || !units_find(unit + 1, &power)) power = 0;
+    double factors[] = {real_exp10(power), 1e3, 1e-3, 1e-6}; /* of a bare number the usual unit first: 68 GPa */
+    for (int i = 0; i < 4; i++)
+        if (value * factors[i] >= k->low && value * factors[i] <= k->high)
+            return units_text(value * factors[i], k->dimension, a);
     return NULL;
 }
 
@@ -139,7 +144,7 @@ bool scene_values_number(const struct scene_part *p, const struct key *k, const 
         const char *range = units_text(k->low, k->dimension, y->arena);
         if (k->low < k->high)
             range = arena_format(y->arena, "from %s to %s", range, units_text(k->high, k->dimension, y->arena));
-        const char *meant = prefix_meant(k, value, y->arena);
+        const char *meant = prefix_meant(k, node->text, value, y->arena);
         return diag_add(y->diag, node->at,
                         meant ? arena_format(y->arena, "did you mean %s?", meant)
                               : arena_format(y->arena, "%s: %s", k->path, k->meaning),
