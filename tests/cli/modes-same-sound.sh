@@ -6,7 +6,7 @@ surface:
   object: {shape: plate, edges: supported, length: 40 cm, width: 10 cm, thickness: 4 mm, origin: [1 cm, 2 cm]}
   modes: 10000
 scraper: {mass: 5 g}
-motion: {path: still, at: [15 cm, 0 cm], duration: 0.1 s}
+motion: {path: still, at: [15 cm, 3.7 cm], duration: 0.1 s}
 contact: {model: strike, strike: {pulse: half_sine, speed: 0.3 m/s, stiffness: 1e6}}
 output: {sample_rate: 48 kHz, encoding: float64, level: {full_scale: 1}, tail: 0.1 s}
 END
