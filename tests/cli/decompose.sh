@@ -49,6 +49,39 @@ done
 cp force.wav twice.wav
 rasp decompose twice.wav -q -o again
 near "$(said again/decompose.json impacts.number)" "$(said parts/decompose.json impacts.number)" $((n / 20 + 1)) 'taken apart twice'
+echo "-- what is written gives the recording back: the force by modes and click, and so do the impacts"
+rasp render parts/force.yaml -q -o given.wav --set output.encoding=float32 --set 'output.level={full_scale: 1}' 2> said || { cat said; fail 'force.yaml'; }
+python3 - <<'PY' || fail "what is written does not give back what the report says: $(cat shares)"
+import array, cmath, csv, json, math
+def wav(path):
+    data = open(path, 'rb').read()
+    at = data.index(b'data')
+    return array.array('f', data[at + 8:at + 8 + int.from_bytes(data[at + 4:at + 8], 'little')])
+def share(y):
+    return 1 - sum((a - b) ** 2 for a, b in zip(x, y)) / sum(a * a for a in x)
+x, click = wav('truth.wav'), wav('parts/click.wav')
+report = json.load(open('parts/decompose.json'))
+rate = int(report['sample_rate'])
+modes = [0.0] * (rate // 4)
+for row in csv.DictReader(line for line in open('parts/modes.csv') if line[0] != '#'):
+    z = cmath.rect(float(row['gain']), float(row['phase_rad']))
+    turn = cmath.exp(complex(-float(row['decay_per_s']), 2 * math.pi * float(row['frequency_hz'])) / rate)
+    for t in range(len(modes)):
+        modes[t] += z.imag
+        z *= turn
+def struck(h): # by all impacts, between samples by a line; a push is newtons over a sample
+    y = [0.0] * (len(x) + len(h) + 1)
+    for row in csv.DictReader(open('parts/impacts.csv')):
+        at, push = float(row['time_s']) * rate, float(row['amplitude_n']) / rate
+        for first, part in ((int(at), 1 - at % 1), (int(at) + 1, at % 1)):
+            for t, v in enumerate(h):
+                y[first + t] += push * part * v
+    return share(y)
+force, alone = share(wav('given.wav')), struck(modes)
+both = struck([m + c for m, c in zip(modes, list(click) + [0.0] * (len(modes) - len(click)))])
+print(f"report {report['given_back']:.4f}, force {force:.4f}, impacts {both:.4f}, without the click {alone:.4f}", file=open('shares', 'w'))
+raise SystemExit(not (abs(force - report['given_back']) < 2e-3 and both > report['given_back'] - 2e-3 and both > alone + 1e-2))
+PY
 echo "-- with the table of a strike, and with gains of their own"
 rasp decompose truth.wav --table modes.csv -q -o known
 # Newtons: a raised cosine of 0.2 ms has half its peak's momentum, a recording of full_scale 1e-2 a hundred times as much;
@@ -75,6 +108,9 @@ sox -D truth.wav -b 16 loud.wav gain 30 2> /dev/null
 rasp decompose loud.wav -o loud --json | grep -o 'it clips'
 sox -D truth.wav one.wav trim 0 0.4 2> /dev/null
 rasp decompose one.wav -o one | grep -A 1 'statistics take'
+echo "-- a reflection, by its delay"
+sox -D truth.wav room.wav echo 0.9 0.7 7 0.5 2> /dev/null
+rasp decompose room.wav -o room | grep -A 1 'followed by another'
 echo "-- options"
 rasp decompose truth.wav || echo "exit code $?"
 rasp decompose truth.wav -o parts || echo "exit code $?"

@@ -161,6 +161,22 @@ START_TEST(one_strike)
 }
 END_TEST
 
+/* 330 impacts a second and one reflection, half as strong, 7.1 ms later: its delay is found. */
+START_TEST(reflection)
+{
+    struct known *k = made(51, 3e-3, 1e-3);
+    long late = (long)(7.1e-3 * RATE);
+    for (long t = LENGTH - 1; t >= late; t--)
+        k->x[t] += 0.5 * k->x[t - late];
+    struct source_filter f = found(k, &options, 0, NULL);
+    double extra, scatter, share = impacts_found(k, &f.impacts, &extra, &scatter);
+    printf("reflection %.2f ms, %.2f; %d of %d modes, %.1f %% of %d impacts, %.1f %% more\n", 1e3 * f.reflected,
+           f.reflection, modes_found(k, &f, 1), f.m, 100 * share, k->n, 100 * extra);
+    fflush(stdout);
+    ck_assert_double_eq_tol(f.reflected, 7.1e-3, 0.2e-3);
+}
+END_TEST
+
 /* Each impact has gains of its own: frequencies within 1 Hz, and more of the recording than a third. */
 START_TEST(own_gains)
 {
@@ -230,4 +246,4 @@ START_TEST(refused)
 }
 END_TEST
 
-UNIT("source_filter", taken_apart, known_modes, one_strike, own_gains, driven_by_noise, refused)
+UNIT("source_filter", taken_apart, known_modes, one_strike, reflection, own_gains, driven_by_noise, refused)
