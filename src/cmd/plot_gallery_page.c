@@ -1,8 +1,8 @@
 /* The page of `rasp plot --gallery` (plot_gallery.c): its style, what stands above the table, and its script.
 
    The script finds `set`: the axes (seconds, low, high, top, range, width, height), the palette, the columns' names,
-   and items, each with name and values, and where it has a sound with file, picture, columns (of pixels) and seconds; where
-   it has none `why`. All rows have one height, so that of 10 000 only those in view exist. */
+   and items, each with name and values, and where it has a sound with file, picture, columns (of pixels) and seconds;
+   where it has none `why`. All rows have one height, so that of 10 000 only those in view exist. */
 #include "cmd/plot.h"
 
 #include <stddef.h>

@@ -1,5 +1,5 @@
-/* Small spectrograms on axes that many sounds share: levels as bytes, and PNGs of 8-bit palettes made of them by libpng.
-   Time goes right, frequency goes up in its logarithm. */
+/* Small spectrograms on axes that many sounds share: levels as bytes, and PNGs of 8-bit palettes made of them by
+   libpng. Time goes right, frequency goes up in its logarithm. */
 #ifndef OUTPUT_PICTURE_H
 #define OUTPUT_PICTURE_H
 #include <stddef.h>
