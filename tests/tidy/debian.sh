@@ -10,7 +10,7 @@ diff <(listed) <(needs "$ROOT/debian/control") || fail "debian/control and packa
 sed 's/^ libpng-dev,$/ libpng-dev (>= 1),\n other-dev,/' "$ROOT/debian/control" > planted
 [ "$(diff <(listed) <(needs planted) | grep -c '^[<>]')" = 3 ] || fail "debian: a planted dependency was not caught"
 
-version=$(sed -n 's/^#define VERSION "\(.*\)"/\1/p' "$ROOT/src/cmd/version.c")
+version=$(sed -n 's/^#define VERSION "\(.*\)"/\1/p' "$ROOT/src/base/version.h")
 [ "$(sed -n '1s/^rasp (\([^)]*\)).*/\1/p' "$ROOT/debian/changelog")" = "$version" ] || fail "debian/changelog is not of version $version"
 grep -qx "Maintainer: rasp developers <rasp@[e]xample[.]invalid>" "$ROOT/debian/control" || fail "the maintainer is another"
 [ -x "$ROOT/debian/rules" ] || fail "debian/rules is not executable"
