@@ -38,6 +38,10 @@ rows = [raw[k * 801 + 1 : (k + 1) * 801] for k in range(486)]
 parts = [rows[k : k + 160] for k in (0, 163, 326)]
 print(parts[0] == parts[1], {c for row in rows[160:163] for c in row}, max(map(max, parts[0])), max(map(max, parts[2])) < 20)
 END
+echo "-- a picture of an earlier check does not stay where the sound is as kept again"
+flip golden/stroke/sound.wav 300
+echo x >> golden/stroke/sound.csv
+rasp golden check -q stroke.yaml -o differs > /dev/null || find differs -name '*.png' -o -name sound.wav
 echo "-- what cannot be, and what is not rasp's"
 echo mine > mine.xml
 try rasp golden check -q list.txt --junit mine.xml
