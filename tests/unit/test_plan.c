@@ -236,7 +236,8 @@ START_TEST(traps_name_the_stage)
             ck_assert_msg(ok == (!on || plants < 0), "%s", e.text);
             if (!ok) {
                 ck_assert(e.kind == ERR_NUMBERS && strstr(e.text, "'smooth'") && strstr(e.text, words[plants]));
-                ck_assert_msg(strstr(e.text, "between 0.04"), "%s", e.text);
+                ck_assert_msg(strstr(e.text, "between 0.02") || strstr(e.text, "between 0.04"), "%s",
+                              e.text); /* the third run, wherever its block begins */
             }
             run_close(&r);
         }
