@@ -26,7 +26,7 @@ sed "s|\.\./\.\./irs|$ROOT/irs|; s|\.\./basswood|$ROOT/scenes/basswood|; s/^samp
 sed 's/^set: {/set: {output.encoding: flac24, /' wav.yaml > flac.yaml
 {
     echo 'motion.rate,scraper.mass,load.constant'
-    awk -v n="$ROWS" 'BEGIN { srand(1); for (i = 0; i < n; i++) printf "%.5f Hz,%.4f g,%.5f N\n", 1 + 3 * rand(), 5 + 45 * rand(), 0.1 + 9.9 * rand() }'
+    awk -v n="$ROWS" 'function part(x) { return x - int(x) } BEGIN { for (i = 0; i < n; i++) printf "%.5f Hz,%.4f g,%.5f N\n", 1 + 3 * part(i * 0.6180339887), 5 + 45 * part(i * 0.7548776662), 0.1 + 9.9 * part(i * 0.5698402910) }'
 } > rows.csv
 cat > rows.yaml << END
 rasp-design: 1

@@ -31,7 +31,7 @@
 #include "scene/keys_yaml.h"
 #include "scene/scene_merge.h"
 
-enum { DIGITS = 4, TABLE_ERRORS = 20 /* of a column that are told */ };
+enum { DIGITS = 4, TABLE_ERRORS = 20 /* of a column that are reported */ };
 
 /* Standard deviations: of the smallest u; where P is still a normal number. */
 #define FARTHEST 8.3
@@ -321,7 +321,7 @@ static void column_read(struct design_reading *r, int f, const struct yaml_node 
         return;
     }
     if (!design_factors_key(r, factor->key)) return;
-    if (column < 0) { /* a column that is missing is told with the others */
+    if (column < 0) { /* a missing column is reported with the others */
         if (!yaml_get(r->root, "cells") || yaml_get(r->root, "cells")->kind != YAML_SCALAR)
             diag_add(r->yaml->diag, factor->at, "write for instance: cells: rows.csv",
                      "%s has its levels from the table of cells, and there is none", to->name);

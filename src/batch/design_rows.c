@@ -19,7 +19,7 @@
 
 /* ------------------------------------------------------------------ cells */
 
-enum { MATCHES = 1000, TABLE_ERRORS = 20 /* of the rows of a table that are told */ };
+enum { MATCHES = 1000, TABLE_ERRORS = 20 /* of the rows of a table that are reported */ };
 
 /* ------------------------------------------------------------------ crossing */
 

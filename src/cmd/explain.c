@@ -537,9 +537,8 @@ static void unknown(const char *word, const char *meant, struct err *e)
 }
 
 /* Words that people have for what is called otherwise here. */
-static const char *const synonyms[][2] = {{"repeat", "replicate"}, {"volume", "loudness"}, {"gain", "level"},
-                                          {"pressure", "force"},   {"noise", "random"},    {"length", "duration"},
-                                          {"velocity", "speed"},   {"weight", "mass"},     {"quality", "accuracy"}};
+static const char *const synonyms[][2] = {
+    {"repeat", "replicate"}, {"volume", "loudness"}, {"velocity", "speed"}, {"quality", "accuracy"}};
 
 /* Does the text hold the word, or one that means the same? Without an s at its end; letters of either case. */
 static bool speaks_of(const char *text, const char *word, struct arena *a)
@@ -585,8 +584,8 @@ static bool explain_search(json_t *schema, const char *word, struct arena *a)
     if (n == 0 || n == MOST) return false;
     printf("no key is called '%s'; these speak of it:\n", word);
     for (int i = 0; i < n; i++)
-        text_wrap(stdout, arena_format(a, "%.*s", (int)gist(found[i][1]), found[i][1]),
-                  printf("  %-30s ", found[i][0]), "                                 ");
+        text_wrap(stdout, arena_format(a, "%.*s", (int)gist(found[i][1]), found[i][1]), printf("  %-30s ", found[i][0]),
+                  "                                 ");
     return true;
 }
 

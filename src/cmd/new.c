@@ -25,7 +25,7 @@
 #define STEEL "surface.material steel; " PLATE
 #define SCRAPER "scraper.mass 20 g; "
 #define STROKES                                                                                                        \
-    "motion.path back_and_forth; motion.from [0 cm, 0 cm]; motion.to [8 cm, 0 cm]; motion.rate 2 Hz; "                \
+    "motion.path back_and_forth; motion.from [0 cm, 0 cm]; motion.to [8 cm, 0 cm]; motion.rate 2 Hz; "                 \
     "motion.duration 2 s; "
 #define LINE "motion.path line; motion.from [0 cm, 0 cm]; motion.to [8 cm, 0 cm]; "
 #define CIRCLE                                                                                                         \
@@ -63,8 +63,7 @@ const struct new_starter new_starters[] = {
      "rasp 1; title a curve as a hand draws it; seed 1; " ROUGHNESS
      "surface.roughness.grain 5; surface.roughness.grain_direction 0 deg; " WOOD SCRAPER STROKE_OF_A_PEN
      "#load.constant 1.5 N; " TAIL},
-    {"nail_on_glass", "a nail scribbles on a pane of glass",
-     "A light and hard tip on a smooth surface: little of it is heard below 1 kHz.",
+    {"nail_on_glass", "a nail scribbles on a pane of glass", "A light tip on a smooth surface.",
      "rasp 1; title a nail scribbles on glass; seed 1; surface.roughness.rms 0.5 um; surface.roughness.shortest 10 "
      "um; " GLASS "scraper.mass 3 g; " SCRIBBLE TAIL},
     {"wood_on_sandpaper", "a thin board rubbed on sandpaper",

@@ -7,7 +7,6 @@
 
 #include "base/child.h"
 #include "base/interrupt.h"
-#include "base/text.h"
 #include "cmd/cmd.h"
 #include "file/bytes.h"
 #include "file/wav.h"

@@ -202,20 +202,24 @@ static bool encoding_of_name(const char *o, int *encoding, struct err *e)
         keys_find("output.encoding")->choices[*encoding].word, ending, text_ends(o, ".wav") ? "pcm24" : "flac24");
 }
 
-/* One scene's error, where the others go on: it is reported at once, and the exit code is the first's. */
-static void render_failed(struct cmd_call *c, struct err *first, struct err *e)
+/* With --keep-going: how many scenes failed, and the kind of the first's error, which is the exit code. */
+struct failures {
+    int n;
+    enum err_kind first;
+};
+
+/* One scene's error, where the others go on: it is reported at once. */
+static void render_failed(struct cmd_call *c, struct failures *failures, struct err *e)
 {
     message_error(c, "render", e);
-    int failed = first->kind ? atoi(first->text) + 1 : 1; /* the text counts them */
-    if (!first->kind) first->kind = e->kind;
-    snprintf(first->text, sizeof first->text, "%d of %d scenes failed", failed, c->args.n_operands);
+    if (failures->n++ == 0) failures->first = e->kind;
     *e = (struct err){0};
 }
 
 /* All scenes, and what each would write; nothing is written yet. With --keep-going those that are none are reported and
-   left out, and *e is the first's error. */
-static struct outputs *render_read(struct cmd_call *c, struct file_cache *file_cache, int *n_read, struct err *first,
-                                   struct err *e)
+   left out. */
+static struct outputs *render_read(struct cmd_call *c, struct file_cache *file_cache, int *n_read,
+                                   struct failures *failures, struct err *e)
 {
     int n = 0;
     struct scene *scenes = ARENA_TAKE(c->arena, struct scene, c->args.n_operands);
@@ -225,7 +229,7 @@ static struct outputs *render_read(struct cmd_call *c, struct file_cache *file_c
         if (!base) return NULL;
         if (!cmd_read_scene(c, file, &scenes[n], e)) {
             if (!args_given(&c->args, "keep-going") || e->kind == ERR_INTERRUPTED) return NULL;
-            render_failed(c, first, e);
+            render_failed(c, failures, e);
             continue;
         }
         scenes[n].file_cache = file_cache;
@@ -319,8 +323,9 @@ struct render_all {
     struct cmd_call *call;
     const struct outputs *outputs;
     struct render_job *jobs;
-    int done;         /* summaries that are printed */
-    struct err first; /* of those that failed; without --keep-going the only one */
+    int done; /* summaries that are printed */
+    struct failures failures;
+    struct err ends; /* what ends the run */
 };
 
 static bool job(void *all, int i)
@@ -341,7 +346,7 @@ static void took(void *all, int i)
     const struct outputs *o = &r->outputs[i];
     struct err *e = &j->error;
     bool ok = !e->kind || scene_places_report(o->scene, e), json = args_given(args, "json"),
-         stopped = r->first.kind && !args_given(args, "keep-going");
+         stopped = r->ends.kind != ERR_NONE;
     if (stopped || !j->arena) return;
     if (ok) {
         ok = !args_given(args, "verify") || render_verify(r->call, o->scene->file, o->scene, report, e);
@@ -359,9 +364,9 @@ static void took(void *all, int i)
             printf("%s\n", text_shown(j->arena, report->notes[k]));
     }
     if (!ok && args_given(args, "keep-going") && e->kind != ERR_INTERRUPTED)
-        render_failed(r->call, &r->first, e);
+        render_failed(r->call, &r->failures, e);
     else if (!ok)
-        r->first = *e;
+        r->ends = *e;
     arena_close(j->arena);
 }
 
@@ -376,13 +381,15 @@ static int render_run(struct cmd_call *c, struct err *e)
     if (args_given(&c->args, "traps")) run_traps();
     struct file_cache *file_cache = file_cache_open(FILE_CACHE_MOST);
     struct render_all all = {.call = c};
-    all.outputs = render_read(c, file_cache, &n, &all.first, e);
+    all.outputs = render_read(c, file_cache, &n, &all.failures, e);
     all.jobs = ARENA_TAKE(c->arena, struct render_job, n + 1);
     if (all.outputs)
         pool_run(&(struct pool_work){.n = n, .threads = (int)threads, .context = &all, .job = job, .took = took});
     if (all.done) puts("]");
     file_cache_close(file_cache);
-    if (!e->kind && all.first.kind) *e = all.first;
+    if (!e->kind && all.ends.kind) *e = all.ends;
+    if (!e->kind && all.failures.n)
+        err_set(e, all.failures.first, "%d of %d scenes failed", all.failures.n, c->args.n_operands);
     return (int)e->kind;
 }
 

@@ -138,7 +138,7 @@ static void warn_written_by(const struct scene *s, struct render_report *report,
 {
     static const char own[] = "rasp " VERSION;
     const char *by = s->written_by, *point = strrchr(own, '.');
-    if (!by || !*by || strncmp(by, own, (size_t)(point - own) + 1) == 0) return;
+    if (!by || strncmp(by, own, (size_t)(point - own) + 1) == 0) return;
     warn(report, arena_format(a,
                               "written_by: this scene was written by %s, and this is %s, whose sounds are others "
                               "(CHANGELOG.md): the sound is not quite that one's",
