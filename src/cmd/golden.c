@@ -307,7 +307,7 @@ void golden_report_scene(const struct golden *g, const struct golden_scene *s, i
         fputs("  ---\n  scene: ", stdout);
         put_quoted(g, s->file);
         puts("  severity: fail\n  problems:");
-        for (const struct golden_problem *p = s->problems; p && p < s->problems + s->n_problems; p++) {
+        for (const struct golden_problem *p = s->problems; p < s->problems + s->n_problems; p++) {
             if (*p->file) {
                 fputs("    - file: ", stdout);
                 put_quoted(g, p->file);
