@@ -3,7 +3,7 @@
 
 kind_unit() {
     [ -x "$BUILD/unit" ] || { echo "not built: $BUILD/unit (make unit)"; return 1; }
-    "$BUILD/unit" "$1"
+    OPENBLAS_NUM_THREADS=1 "$BUILD/unit" "$1" # as rasp-modes sets it
 }
 
 kind_tidy() { bash "$ROOT/tests/tidy/$1.sh"; }

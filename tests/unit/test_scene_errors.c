@@ -11,7 +11,7 @@ struct bad {
 static const struct bad bads[] = {
     /* unknown, misplaced, duplicate keys */
     {"titel: x\n", "5:1", "unknown key 'titel'", "did you mean 'title'?"},
-    {"trajectory: x\n", "5:1", "unknown key 'trajectory'", "keys here: rasp, title"},
+    {"trajectory: x\n", "5:1", "unknown key 'trajectory'", "keys here: rasp, written_by, title"},
     {"rate: 3 Hz\n", "5:1", "unknown key 'rate'",
      "'rate' belongs elsewhere: motion.rate or contact.impacts.modulation.rate or contact.given.rate or "
      "contact.modulation.rate"},
@@ -64,7 +64,8 @@ static const struct bad bads[] = {
     {"output: {level: {peak: 3 dB}}\n", "5:24", "output.level.peak must be from -200 dB to 0 dB", "peak"},
     /* words */
     {"output: {encoding: pcm_24}\n", "5:20",
-     "output.encoding must be one of: pcm16, pcm24, float32, float64, not 'pcm_24'", "did you mean 'pcm24'?"},
+     "output.encoding must be one of: pcm16, pcm24, float32, float64, flac16, flac24, not 'pcm_24'",
+     "did you mean 'pcm24'?"},
     {"output: {encoding: mp3}\n", "5:20", "one of: pcm16", "encoding: pcm24"},
     {"contact: {model: slip}\n", "5:18",
      "contact.model must be one of: scrape, strike, given, roll, roll_coupled, impacts, playback, not 'slip'",
@@ -207,7 +208,7 @@ static const struct bad bads[] = {
     {"contact: {smoothing: 1e-10}\n", "5:22", "contact.smoothing must be 0 or at least 1 ns", "0 turns it off"},
     {"#rasp: 1\nsurface: {height_map: a.npy, pitch: 9 nm, response: a.csv}\nscraper: {mass: 1 g}\nmotion: {path: line, "
      "to: [1, 0], duration: 1}\n",
-     "2:37", "surface.pitch must be from 10 nm to 1 mm", "two samples"},
+     "2:37", "surface.pitch must be from 10 nm to 1 mm", "did you mean 9 um?"},
     {"#rasp: 1\nsurface: {roughness: {}, response: a.csv, response_length: 1 s, convolution: resonators}\nscraper: "
      "{mass: 1 g}\n"
      "motion: {path: line, to: [1, 0], duration: 1}\n",
