@@ -112,7 +112,7 @@ const void *file_cache_take(struct file_cache *s, const struct file_cache_ask *a
     const struct cached wanted = {
         .kind = ask->kind, .file = ask->file, .key = ask->key ? ask->key : "", .state = look(ask->file)};
     struct cached *mine = NULL;
-    if (s && wanted.state.of[1]) {
+    if (s && (wanted.state.of[1] || !*ask->file)) {
         pthread_mutex_lock(&s->lock);
         struct cached *const *at = tfind(&wanted, &s->tree, order);
         const struct cached *found = at ? *at : NULL;

@@ -1,6 +1,6 @@
-/* What several renders read of the same files: each file is read by the first that asks, and what came of it stays for
-   the others, who only look at it. Any number of threads may ask; who asks for what is being read waits. A file that
-   has changed since (its size, its time, its place on the disk) is read anew. */
+/* What several renders read of the same files, or compute from the same keys: it is made by the first that asks, and
+   stays for the others, who only look at it. Any number of threads may ask; who asks for what is being made waits. A
+   file that has changed since (its size, its time, its place on the disk) is read anew. */
 #ifndef BASE_FILE_CACHE_H
 #define BASE_FILE_CACHE_H
 #include <stdbool.h>
@@ -20,9 +20,9 @@ struct file_cache_kind {
 
 struct file_cache_ask {
     const struct file_cache_kind *kind;
-    const char *file;
-    const char *key; /* all that it depends on besides the file's content, as text; NULL: nothing */
-    const void *how; /* the same, for make                                                       */
+    const char *file; /* "": it is made of the key alone                                              */
+    const char *key;  /* all that it depends on besides the file's content, as text; NULL: nothing   */
+    const void *how;  /* the same, for make                                                          */
 };
 
 /* Holds that many bytes, about: what is asked for beyond is read by everyone who asks, unless it is small. Hashes are

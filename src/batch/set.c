@@ -55,6 +55,18 @@ void set_lay(const struct set *s, struct scene *over)
             (struct level){.later = true, .full_scale = 1, .peak = NAN, .rms = NAN, .lufs = NAN, .dbfs_at_1_pa = NAN};
 }
 
+void set_means(const struct set *s, const struct scene *scene, struct arena *a, char hex[HASH_TEXT])
+{
+    struct scene own = *scene;
+    struct set level = *s;
+    level.length = NAN;
+    set_lay(&level, &own);
+    own.seed = 0;
+    if (s->design->length_rule != DESIGN_LENGTH_OWN) own.output.duration = NAN;
+    const char *text = outputs_effective(&own, s->design->file, a);
+    hash_bytes(text, strlen(text), hex);
+}
+
 const char *set_level_text(const struct set *s, struct arena *a)
 {
     static const char *const rules[] = {
@@ -157,6 +169,7 @@ static bool estimate(const struct planning *p, int i, struct look *l)
     /* File names are seen from the base scene: where all lies does not count. */
     const char *text = scene_write(s, relpath_folder(s->sources[0], t->arena), t->arena);
     hash_bytes(text, strlen(text), t->sha256);
+    set_means(p->set, s, t->arena, p->set->means[i]);
     for (int k = 0; k < s->n_contacts; k++)
         l->drawn = l->drawn || s->contacts[k].motion.path == PATH_SCRIBBLE;
     set_lay(p->set, s);
@@ -507,6 +520,7 @@ bool set_plan(struct set *s, const struct set_plan_ask *ask, struct arena *a, st
     *out = (struct set_plan){.inputs = folder_inputs(a)};
     s->cost = ARENA_TAKE(a, double, s->n);
     s->lengths = ARENA_TAKE(a, double, s->n);
+    s->means = arena_take(a, (size_t)s->n, HASH_TEXT);
     /* The file cache knows what the design was read from and sees whether it changes; a pipe is read and gone. */
     for (const char *const *file = s->design->sources; *file; file++) {
         struct stat status;
@@ -522,8 +536,10 @@ bool set_plan(struct set *s, const struct set_plan_ask *ask, struct arena *a, st
     hash_end(&p.scenes, sha256);
     s->sha256 = sha256;
     double longest = 0;
-    for (int i = 0; i < s->n; i++)
+    for (int i = 0; i < s->n; i++) {
         longest = fmax(longest, p.looks[p.first[i]].seconds);
+        memcpy(s->means[i], s->means[p.first[i]], HASH_TEXT);
+    }
     if (s->design->length_rule == DESIGN_LENGTH_LONGEST) s->length = longest;
     look_at_levels(&p);
     add_up(&p);

@@ -12,11 +12,12 @@ struct set {
     int n;               /* stimuli                                                                     */
     int level_rule;      /* enum design_level_rule                                                      */
     struct level level;
-    double length;          /* s, output.duration of every stimulus; NAN: each has its own                 */
-    double rate;            /* Hz                                                                          */
-    int channels, encoding; /* of the WAVs: recordings must have them; encoding is an enum encoding        */
-    double ramp;            /* s, of a recording that is cut                                               */
-    double *cost, *lengths; /* [n] predicted cycles, above 0; s                                            */
+    double length;            /* s, output.duration of every stimulus; NAN: each has its own                 */
+    double rate;              /* Hz                                                                          */
+    int channels, encoding;   /* of the WAVs: recordings must have them; encoding is an enum encoding        */
+    double ramp;              /* s, of a recording that is cut                                               */
+    double *cost, *lengths;   /* [n] predicted cycles, above 0; s                                            */
+    char (*means)[HASH_TEXT]; /* [n] as set_means; of a recording nothing                                    */
 };
 
 /* What the text of the design tells; the rest set_plan finds. */
@@ -30,6 +31,10 @@ void set_lay(const struct set *s, struct scene *over);
 
 /* "common peak -3 dB", for the manifest. */
 const char *set_level_text(const struct set *s, struct arena *a);
+
+/* SHA-256 of what a stimulus with that scene is besides its seed and the set's length: its effective scene, with the
+   set's level, and with its inputs, as they are seen from the design. The scene has its file cache. */
+void set_means(const struct set *s, const struct scene *scene, struct arena *a, char hex[HASH_TEXT]);
 
 /* SHA-256 of the texts one after the other, each with its length. */
 const char *set_hash(const char *const *texts, int n, struct arena *a);

@@ -74,27 +74,40 @@ static bool has_files(const struct work *w)
     return there;
 }
 
-static bool begin(struct work *w, const struct stimulus_set *k, int i, struct arena *a, struct err *e)
+/* means: as set_means */
+static const char *scene_key(const struct set *s, int i, const char *means, struct arena *a)
 {
-    const struct design_stimulus *x = &k->set->design->stimuli[i];
+    const char *waits = !set_waits(s)          ? ""
+                        : isnan(s->level.lufs) ? "waits"
+                                               : "waits, loudness",
+               *seed = arena_format(a, "%llu", (unsigned long long)s->design->stimuli[i].seed),
+               *length = arena_format(a, "%a", s->length);
+    return set_hash((const char *const[]){"rasp set 2", "stimulus", s->program, waits, means, seed, length}, 7, a);
+}
+
+/* planned: what the scene means is known from when the set was planned, and it is not read. */
+static bool begin(struct work *w, const struct stimulus_set *k, int i, bool planned, struct arena *a, struct err *e)
+{
+    const struct set *set = k->set;
+    const struct design_stimulus *x = &set->design->stimuli[i];
+    char hex[HASH_TEXT];
     *w = (struct work){.k = k, .i = i, .name = x->name, .arena = a, .file = x->recording};
     w->base = arena_format(a, "%s/%s", k->folder, x->name);
     if (w->file) {
-        char hex[HASH_TEXT];
         w->inputs = file_cache_watch(&w->file, 1, a);
-        if (!hash_file(w->file, hex, e)) return design_scene_recording(k->set->design, i, e);
-        w->key = recording_key(k->set, hex, a);
-    } else {
-        const struct set *set = k->set;
-        const char *messages = "", *waits = "";
+        if (!hash_file(w->file, hex, e)) return design_scene_recording(set->design, i, e);
+        w->key = recording_key(set, hex, a);
+    } else if (planned)
+        w->key = scene_key(set, i, set->means[i], a);
+    else {
+        const char *messages = "";
         if (!design_scene(set->design, i, a, &w->scene, &messages, e)) return false;
-        set_lay(set, &w->scene);
-        design_scene_places(set->design, &w->scene, a);
         w->scene.file_cache = k->file_cache;
         w->inputs = inputs_watch(&w->scene, a);
-        if (set_waits(set)) waits = isnan(set->level.lufs) ? "waits" : "waits, loudness";
-        const char *effective = outputs_effective(&w->scene, set->design->file, a);
-        w->key = set_hash((const char *const[]){"rasp set 2", "stimulus", set->program, waits, effective}, 5, a);
+        set_means(set, &w->scene, a, hex);
+        w->key = scene_key(set, i, hex, a);
+        set_lay(set, &w->scene);
+        design_scene_places(set->design, &w->scene, a);
     }
     struct record *r = ARENA_TAKE(a, struct record, 1);
     w->was = record_read(k->folder, w->name, a, r) ? r : NULL;
@@ -116,7 +129,7 @@ bool stimulus_look(const struct stimulus_set *k, int i, struct arena *a, struct 
 {
     struct work w;
     *s = (struct stimulus){.full_scale = NAN};
-    if (!begin(&w, k, i, a, e)) return false;
+    if (!begin(&w, k, i, true, a, e)) return false;
     s->key = w.key;
     s->state = w.state;
     if (w.state == STIMULUS_THERE) fill(s, &w, w.was);
@@ -333,7 +346,7 @@ bool stimulus_make(const struct stimulus_set *k, int i, enum stimulus_how how, s
 {
     struct work w;
     *s = (struct stimulus){.full_scale = NAN};
-    if (!begin(&w, k, i, a, e)) return false;
+    if (!begin(&w, k, i, false, a, e)) return false;
     s->key = w.key;
     s->state = w.state;
     s->made = how == STIMULUS_ANEW || (how == STIMULUS_IF_NEEDED && w.state != STIMULUS_THERE);
@@ -461,7 +474,7 @@ bool stimulus_level(const struct stimulus_set *k, int i, double full_scale, bool
                     struct stimulus *s, struct err *e)
 {
     struct work w;
-    if (!begin(&w, k, i, a, e)) return false;
+    if (!begin(&w, k, i, false, a, e)) return false;
     if (w.state == STIMULUS_KEY)
         return err_set(e, ERR_INPUT,
                        "what it is made of has changed since its level was measured: run the same command again");

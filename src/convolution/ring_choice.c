@@ -23,7 +23,10 @@
 #include "convolution/ring_choice.h"
 
 #include <math.h>
+#include <string.h>
 
+#include "base/file_cache.h"
+#include "base/hash.h"
 #include "convolution/gammatone.h"
 #include "num/lanes.h"
 #include "num/real.h"
@@ -31,6 +34,7 @@
 #include "response/object.h"
 #include "response/response.h"
 #include "response/space.h"
+#include "scene/material.h"
 #include "stage.h"
 #include "trajectory/contact.h"
 #include "trajectory/motion.h"
@@ -50,17 +54,70 @@ struct ring_choosing {
 
 /* ------------------------------------------------------------------ reading */
 
+struct computed {       /* an object's modes, for every contact that asks for the same */
+    struct modes modes; /* the strongest, without those that are too high */
+    const char *note;
+    int high; /* how many of the strongest that were */
+};
+
+struct computed_ask {
+    const struct object_given *given;
+    const char *key;
+    const struct modes_ask *modes;
+};
+
+static bool compute(const char *file, const void *how, struct arena *a, void *thing, struct err *e)
+{
+    const struct computed_ask *ask = (const struct computed_ask *)how;
+    const struct modes_ask *m = ask->modes;
+    struct computed *to = (struct computed *)thing;
+    struct object *o = ARENA_TAKE(a, struct object, 1);
+    struct object_given *given = ARENA_TAKE(a, struct object_given, 1); /* the object looks at it as long as it lives */
+    const struct object_ask what = {.key = arena_text(a, ask->key),
+                                    .low = m->band[0],
+                                    .top = m->band[1],
+                                    .most = 4 * m->strongest,
+                                    .audible = MODES_TOP * m->rate};
+    (void)file;
+    *given = *ask->given;
+    if (!object_make(given, &what, a, o, &to->note, e)) return false;
+    object_modes(o, given->origin, NULL, m->strongest, a, &to->modes);
+    to->high = modes_drop_above(&to->modes, m->rate);
+    return true;
+}
+
+/* All that an object's modes follow from, as text: every byte of what is given but addresses, and the material it has
+   of the scene's own. */
+static const char *computed_from(const struct computed_ask *ask, struct arena *a)
+{
+    const struct modes_ask *m = ask->modes;
+    struct object_given given;
+    struct material own = {NULL};
+    char hex[HASH_TEXT];
+    struct hash h = hash_start();
+    memcpy(&given, ask->given, sizeof given);
+    if (given.own) {
+        own = *given.own;
+        hash_text(&h, own.name);
+        own.name = own.source = own.damping_source = NULL;
+    }
+    given.own = NULL;
+    hash_add(&h, &given, sizeof given);
+    hash_add(&h, &own, sizeof own);
+    hash_end(&h, hex);
+    return arena_format(a, "%s %s %d %a %a %a", hex, ask->key, m->strongest, m->band[0], m->band[1], m->rate);
+}
+
 static bool read_object(struct ring_choosing *c, const struct modes_ask *ask, struct err *e)
 {
-    struct object *o = ARENA_TAKE(c->arena, struct object, 1);
-    struct object_ask what = {.key = arena_format(c->arena, "%s.object", c->key),
-                              .low = ask->band[0],
-                              .top = ask->band[1],
-                              .most = 4 * ask->strongest,
-                              .audible = MODES_TOP * ask->rate};
-    if (!object_make(&c->given->object, &what, c->arena, o, &c->to->note, e))
-        return err_at(e, "contact '%s'", c->contact->name);
-    object_modes(o, c->given->object.origin, NULL, ask->strongest, c->arena, &c->to->modes);
+    static const struct file_cache_kind objects = {"object", sizeof(struct computed), compute, false};
+    const struct computed_ask own = {&c->given->object, arena_format(c->arena, "%s.object", c->key), ask};
+    const struct computed *made = file_cache_take(
+        ask->file_cache, &(struct file_cache_ask){&objects, "", computed_from(&own, c->arena), &own}, c->arena, e);
+    if (!made) return err_at(e, "contact '%s'", c->contact->name);
+    c->to->modes = made->modes;
+    c->to->note = made->note;
+    c->to->high = made->high;
     return true;
 }
 
@@ -78,8 +135,8 @@ static bool read_modes(struct ring_choosing *c, struct err *e)
                                 : !modes_table(c->given->file, &ask, c->arena, m, e))
         return false;
     c->to->note = c->to->note ? c->to->note : m->note;
-    c->to->chosen = m->n;
-    c->to->high = modes_drop_above(m, rate);
+    if (!c->given->object.given) c->to->high = modes_drop_above(m, rate);
+    c->to->chosen = m->n + c->to->high;
     return m->n > 0 ||
            err_set(e, ERR_SCENE,
                    "%s: all of its modes in the band lie above %.6g Hz (0.45 times output.sample_rate), and nothing "

@@ -4,6 +4,7 @@
 #include <assert.h>
 #include <pthread.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -129,6 +130,13 @@ static void rows_take(struct taken *t, const char *place)
 
 static long n_keys;
 static const struct key **deciders; /* [keys of the table] which of them decides; NULL: none */
+static const struct key **by_path;  /* [n_keys] */
+
+static int path_order(const void *p, const void *q)
+{
+    const struct key *const *a = (const struct key *const *)p, *const *b = (const struct key *const *)q;
+    return strcmp((*a)->path, (*b)->path);
+}
 
 static const struct key *decider_find(const struct key *k)
 {
@@ -161,9 +169,12 @@ static void tables_make(void)
     t.keys->path = t.sections->path = r->paths[0] = NULL;
     all = (struct keys){table, sections, rivals};
     deciders = memory_take(MOST * sizeof *deciders);
-    for (const struct key *k = table; k->path; k++)
+    by_path = memory_take(MOST * sizeof *by_path);
+    for (const struct key *k = table; k->path; k++) {
         deciders[k - table] = decider_find(k);
-    n_keys = t.keys - table;
+        by_path[n_keys++] = k;
+    }
+    qsort(by_path, (size_t)n_keys, sizeof *by_path, path_order);
 }
 
 const struct keys *keys_all(void)
@@ -225,9 +236,10 @@ const char *keys_former(const char *path, const char *word)
 
 const struct key *keys_find(const char *path)
 {
-    for (const struct key *k = keys_table; k->path; k++)
-        if (strcmp(k->path, path) == 0) return k;
-    return NULL;
+    const struct key wanted = {.path = path}, *w = &wanted;
+    keys_all();
+    const struct key *const *at = bsearch(&w, by_path, (size_t)n_keys, sizeof *by_path, path_order);
+    return at ? *at : NULL;
 }
 
 const struct key *keys_decider(const struct key *k)

@@ -259,4 +259,4 @@ START_TEST(refused)
 }
 END_TEST
 
-UNIT("source_filter", taken_apart, known_modes, one_strike, reflection, own_gains, driven_by_noise, refused)
+UNIT("source_filter", taken_apart, known_modes, one_strike, UNIT_PLAIN(reflection), own_gains, driven_by_noise, refused)
