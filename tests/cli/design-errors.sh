@@ -76,7 +76,7 @@ tell check equal.yaml
 printf '%s\n' 'rasp-design: 1' 'base: scrape.yaml' 'factors: {motion.rate: [1 Hz, 2 Hz]}' 'name: "SHA256SUMS/{motion.rate}"' > sums.yaml
 tell check sums.yaml
 # Promises that cannot be kept: each once, with its place.
-printf '%s\n' 'rasp-design: 1' 'base: scrape.yaml' 'replicates: 2' 'order: {seed: 3}' 'factors:' '  accuracy.error: [-40 dB, -200 dB, -210 dB]' '  motion.rate: [1 Hz, 2 Hz]' 'exclude: [{accuracy.error: -40 dB, motion.rate: 1 Hz}]' > promises.yaml
+printf '%s\n' 'rasp-design: 1' 'base: scrape.yaml' 'order: {seed: 3}' 'set: {motion.duration: 50 ms, surface.modes: 2, surface.roughness.shortest: 0.5 mm}' 'factors:' '  accuracy.error: [-40 dB, -200 dB, -210 dB]' '  motion.rate: [1 Hz, 2 Hz]' 'exclude: [{accuracy.error: -40 dB, motion.rate: 1 Hz}]' > promises.yaml
 tell check promises.yaml
 # a scene in place of a design, as a design in place of a scene
 tell batch scrape.yaml -o out
