@@ -277,6 +277,22 @@ static const struct yaml_node *innermost(const struct scene_part *p, const char 
     return at;
 }
 
+bool scene_part_misspelt(const struct scene_part *p, const char *path)
+{
+    const char *rest;
+    const struct yaml_node *map = innermost(p, path, &rest);
+    const char *const wanted[] = {arena_format(p->yaml->arena, "%.*s", (int)strcspn(rest, "."), rest), NULL};
+    for (const struct yaml_node *item = map ? map->first : NULL; item; item = item->next) {
+        const char *word = item->key->text,
+                   *full = arena_format(p->yaml->arena, "%.*s%s", (int)(rest - path), path, word);
+        const struct key *k = keys_table;
+        while (k->path && strcmp(k->path, full) != 0 && !under(k->path, full))
+            k++;
+        if (!k->path && text_nearest(word, wanted)) return true;
+    }
+    return false;
+}
+
 /* "add for instance: rate: 2 Hz", or "motion: {rate: 2 Hz}" where there is no motion yet. */
 static const char *add_cure(const struct scene_part *p, const char *rest, const char *value)
 {
@@ -300,7 +316,7 @@ void scene_part_missing(const struct scene_part *p, const char *path, const char
 {
     const char *rest;
     const struct yaml_node *map = innermost(p, path, &rest);
-    if (map && !p->yaml->missing && !yaml_find(p->map, path))
+    if (map && !p->yaml->missing && !yaml_find(p->map, path) && !scene_part_misspelt(p, path))
         diag_add(p->yaml->diag, scene_part_place(p, map), add_cure(p, rest, value), "%s is missing%s",
                  scene_part_label(p, path), because);
 }
@@ -331,6 +347,8 @@ static void both_given(const struct scene_part *p, const struct yaml_node *const
 static void none_given(const struct scene_part *p, const char *const *candidates, int n)
 {
     const char *rest, *all = "";
+    for (int i = 0; i < n; i++)
+        if (scene_part_misspelt(p, candidates[i])) return;
     const struct yaml_node *map = innermost(p, candidates[0], &rest);
     if (n == 1) {
         missing(p, candidates[0]);

@@ -56,6 +56,10 @@ void scene_part_names(struct yaml *y, const struct yaml_node *map, enum scene_pa
    missing, does not apply, or excludes another. */
 void scene_part_fill(const struct scene_part *p);
 
+/* Is there an unknown key in the path's place whose name is nearly its own? Then the value is not missing: it stands
+   there, which is reported by itself. */
+bool scene_part_misspelt(const struct scene_part *p, const char *path);
+
 /* Where the path is not there (not even in error): "PATH is missing" and BECAUSE, reported at the innermost map on its
    way, with the line that adds the value. */
 void scene_part_missing(const struct scene_part *p, const char *path, const char *value, const char *because);

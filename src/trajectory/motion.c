@@ -263,7 +263,8 @@ static void time_check(const struct scene_part *p, const struct motion *m)
                            arena_format(p->yaml->arena, ": under the law %s a recording gives the path only",
                                         word("motion.law", m->law)));
     else if (m->path != PATH_RECORDED && m->path != PATH_INCLINE && !scene_part_given(p, duration) &&
-             !scene_part_given(p, "motion.speed"))
+             !scene_part_given(p, "motion.speed") && !scene_part_misspelt(p, duration) &&
+             !scene_part_misspelt(p, "motion.speed"))
         diag_add(p->yaml->diag, motion_place(p), "add for instance: speed: 10 cm/s", "%s or %s must be given",
                  scene_part_label(p, "motion.speed"), scene_part_label(p, duration));
 }

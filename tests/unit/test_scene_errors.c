@@ -21,6 +21,16 @@ static const struct bad bads[] = {
     {"output: {level: {peek: -3}}\n", "5:18", "unknown key 'peek' in output.level", "did you mean 'peak'?"},
     {"output: {ramp:1 s}\n", "5:10", "unknown key 'ramp:1 s' in output", "space after the colon"},
     {"output.ramp: 1 s\n", "5:1", "unknown key 'output.ramp'", "keys here"},
+    /* what is missing only because its key, or a section above it, is misspelt is no error of its own */
+    {"#rasp: 1\nsurfce: {height_map: a.npy, response: a.csv}\nscraper: {mass: 1 g}\nmotion: {path: line, to: [1, 0], "
+     "duration: 1}\n",
+     "2:1", "unknown key 'surfce'", "'surface'"},
+    {"#rasp: 1\nsurface: {heigth_map: a.npy, response: a.csv}\nscraper: {mass: 1 g}\nmotion: {path: line, to: [1, 0], "
+     "duration: 1}\n",
+     "2:11", "unknown key 'heigth_map'", "'height_map'"},
+    {"#rasp: 1\nsurface: {height_map: a.npy, response: a.csv}\nscraper: {mass: 1 g}\nmotion: {path: line, to: [1, 0], "
+     "duraton: 1}\n",
+     "4:34", "unknown key 'duraton'", "'duration'"},
     {"\"\": 1\n", "5:1", "unknown key ''", "keys here"},
     {"rasp: 1\n", "5:1", "duplicate key 'rasp'", "first set on line 1"},
     {"output: {ramp: 1 s, ramp: 2 s}\n", "5:21", "duplicate key 'ramp'", "first set on line 5"},
