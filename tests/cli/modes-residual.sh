@@ -1,6 +1,7 @@
 # The residual of a recorded strike: with the true table it is the noise, a mode that is left out is in it, what is no
 # mode comes back by either domain; estimated tables; the folder, whole or not there; what is refused.
 command -v python3 > /dev/null || { echo "no python3"; exit 77; }
+[ -z "${SANITIZED:-}" ] || { echo "minutes under sanitizers; unit/test_residual runs the same"; exit 77; }
 try() { local code=0; "$@" || code=$?; echo "exit code $code"; }
 residual() { rasp modes residual "$@"; }
 # make NAME SEED KIND: KIND.wav of 44.1 kHz, a strike at 0.3 s on ten modes, with noise at -60 dB; true.csv has the modes

@@ -21,7 +21,7 @@ print(sys.argv[1].split("/")[-1] + ":", len(rows), "effects; not as planned:", o
 END
 done
 # What is measured are times, of which nothing is held but their order.
-rasp plan --without --measure --json "$scenes/porcelain_scrape_fitted.yaml" > measured.json
+rasp plan --without --measure --json "$scenes/residual_strike.yaml" > measured.json
 python3 -c 'import json; r = [w for w in json.load(open("measured.json"))[0]["without"] if w["effect"] == "residual"][0]; print(r["effect"], r["more_s"] < 1, r["more_quartiles_s"][0] <= r["more_s"] <= r["more_quartiles_s"][1])'
 # The whole scene beside its plan: once, a sample, and what is in no stage.
 rasp plan --measure --json "$scenes/basswood_scrape.yaml" > whole.json
