@@ -102,7 +102,7 @@ $(BUILD)/unit: tests/unit/unit.c $(BUILD)/tests/table.h $(UNIT) $(BUILD)/librasp
 $(BUILD)/flags: FORCE
 	@mkdir -p $(@D); echo '$(CC) $(CFLAGS)' | cmp -s - $@ || echo '$(CC) $(CFLAGS)' > $@
 $(BUILD)/files: FORCE
-	@mkdir -p $(@D); echo '$(OBJ) $(UNIT)' | cmp -s - $@ || echo '$(OBJ) $(UNIT)' > $@
+	@mkdir -p $(@D); echo '$(patsubst $(BUILD)/%,%,$(OBJ) $(UNIT))' | cmp -s - $@ || echo '$(patsubst $(BUILD)/%,%,$(OBJ) $(UNIT))' > $@
 $(BUILD)/revision: FORCE
 	@mkdir -p $(@D); echo '$(REVISION)' | cmp -s - $@ || echo '$(REVISION)' > $@
 
