@@ -110,14 +110,17 @@ int text_distance(const char *a, const char *b)
 const char *text_nearest(const char *word, const char *const *names)
 {
     const char *best = NULL;
-    size_t half = strlen(word) / 2;
+    size_t half = strlen(word) / 2, alike = 0;
     int limit = half > 3 ? 3 : half < 1 ? 1 : (int)half;
     for (; *names; names++) {
         int distance = text_distance(word, *names);
-        if (distance <= limit) {
-            best = *names;
-            limit = distance - 1;
-        }
+        size_t begins = 0;
+        while (word[begins] && word[begins] == (*names)[begins])
+            begins++;
+        if (distance > limit || (best && distance == limit && begins <= alike)) continue;
+        best = *names;
+        limit = distance;
+        alike = begins;
     }
     return best;
 }

@@ -27,7 +27,8 @@ void text_digits(double x, char digits[20], int *exponent);
 /* Damerau-Levenshtein distance (insert, delete, replace, exchange neighbours), bytes; 99 for words over 63 bytes. */
 int text_distance(const char *a, const char *b);
 
-/* The nearest of the names (NULL-terminated), not farther than 3 and than half the word's length; NULL: none. */
+/* The nearest of the names (NULL-terminated), not farther than 3 and than half the word's length; of equally near ones
+   that which begins as the word does for longest; NULL: none. */
 const char *text_nearest(const char *word, const char *const *names);
 
 /* Is the word one of the names (NULL-terminated)? */

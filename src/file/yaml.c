@@ -194,8 +194,17 @@ static void syntax_error(struct parse *p)
     const char *problem = p->parser->problem ? p->parser->problem : "cannot be read";
     struct diag_place at = {p->source, (int)p->parser->problem_mark.line + 1, column_of(p, &p->parser->problem_mark),
                             1};
-    const char *cure = "check quotes, brackets and indentation near here";
-    if (strstr(problem, "cannot start any token") || strstr(problem, "tab character"))
+    const char *cure = "check quotes, brackets and indentation near here",
+               *context = p->parser->context ? p->parser->context : "";
+    const yaml_mark_t *opens = &p->parser->context_mark;
+    if (opens->line < p->parser->problem_mark.line && strstr(context, "quoted scalar")) {
+        at = (struct diag_place){p->source, (int)opens->line + 1, column_of(p, opens), 1};
+        problem = "these quotes are not closed";
+        cure = "put the same quotes behind the text";
+    } else if (opens->line < p->parser->problem_mark.line && strstr(context, "flow") && !p->source->option)
+        cure = arena_format(p->y->arena, "close the bracket that opens on line %d, or put a comma between its entries",
+                            (int)opens->line + 1);
+    else if (strstr(problem, "cannot start any token") || strstr(problem, "tab character"))
         cure = "indent with spaces, not tabs; put quotes around a text that starts with @, ` or %";
     else if (strstr(problem, "mapping values"))
         cure = "check the indentation; put quotes around a text that holds ': '";

@@ -126,6 +126,19 @@ static const char *joined(struct arena *a, const char *const *names, const char 
     return all;
 }
 
+/* The name that is meant: one of nearly the same letters, or what people call otherwise. */
+static const char *meant(const char *word, const char *const *names)
+{
+    static const char *const otherwise[][2] = {{"frequency", "rate"}, {"freq", "rate"},
+                                               {"velocity", "speed"}, {"time", "duration"},
+                                               {"loudness", "lufs"},  {"samplerate", "sample_rate"},
+                                               {"amplitude", "rms"},  {"weight", "mass"}};
+    const char *near = text_nearest(word, names);
+    for (size_t i = 0; !near && i < sizeof otherwise / sizeof *otherwise; i++)
+        if (!strcmp(otherwise[i][0], word) && text_is_one(otherwise[i][1], names)) near = otherwise[i][1];
+    return near;
+}
+
 static void unknown(const struct walk *w, const struct yaml_node *key, const char *section)
 {
     struct diag *d = w->y->diag;
@@ -134,7 +147,7 @@ static void unknown(const struct walk *w, const struct yaml_node *key, const cha
         return;
     }
     const char *const *names = names_in(w, section);
-    const char *word = key->text, *near = text_nearest(word, names), *paths[5] = {NULL};
+    const char *word = key->text, *near = meant(word, names), *paths[5] = {NULL};
     int n = 0; /* full paths of keys whose last part is the word */
     for (const struct key *k = keys_table; k->path && n < 4; k++) {
         const char *last = strrchr(k->path, '.');
@@ -171,6 +184,21 @@ static void misplaced(const struct walk *w, const struct yaml_node *key, const s
                  key->text);
 }
 
+/* Of what stands where a map of keys belongs. */
+static const char *map_cure(const struct walk *w, const char *path, const struct yaml_node *item)
+{
+    const char *const *names = names_in(w, path);
+    for (const char *const *name = names; item->kind == YAML_SCALAR && *name; name++) {
+        size_t n = strlen(*name);
+        if (strncmp(item->text, *name, n) != 0 || (item->text[n] != ' ' && item->text[n] != ':')) continue;
+        return arena_format(w->y->arena, "write: %s: %s, with a colon and a space", *name,
+                            item->text + n + 1 + strspn(item->text + n + 1, ": "));
+    }
+    bool empty = item->kind == YAML_SCALAR && item->plain && !*item->text;
+    return arena_format(w->y->arena, empty ? "indent the keys that belong to it: %s" : "keys here: %s",
+                        joined(w->y->arena, names, ", "));
+}
+
 static void walk_map(const struct walk *w, const struct yaml_node *map, const char *section)
 {
     for (const struct yaml_node *item = map->first; item; item = item->next) {
@@ -189,9 +217,8 @@ static void walk_map(const struct walk *w, const struct yaml_node *map, const ch
         else if (is_section && item->kind == YAML_MAP)
             walk_map(w, item, path);
         else if (is_section)
-            diag_add(w->y->diag, item->at,
-                     arena_format(w->y->arena, "keys here: %s", joined(w->y->arena, names_in(w, path), ", ")),
-                     "%s%s must be a map of keys, not %s", w->prefix, path, scene_values_kind(w->y, item));
+            diag_add(w->y->diag, item->at, map_cure(w, path, item), "%s%s must be a map of keys, not %s", w->prefix,
+                     path, scene_values_kind(w->y, item));
     }
 }
 
@@ -288,7 +315,7 @@ bool scene_part_misspelt(const struct scene_part *p, const char *path)
         const struct key *k = keys_table;
         while (k->path && strcmp(k->path, full) != 0 && !under(k->path, full))
             k++;
-        if (!k->path && text_nearest(word, wanted)) return true;
+        if (!k->path && meant(word, wanted)) return true;
     }
     return false;
 }

@@ -31,13 +31,21 @@ static const struct bad bads[] = {
     {"#rasp: 1\nsurface: {height_map: a.npy, response: a.csv}\nscraper: {mass: 1 g}\nmotion: {path: line, to: [1, 0], "
      "duraton: 1}\n",
      "4:34", "unknown key 'duraton'", "'duration'"},
+    {"#rasp: 1\nsurface: {height_map: a.npy, response: a.csv}\nscraper: {mass: 1 g}\nmotion: {path: back_and_forth, "
+     "to: "
+     "[1, 0], frequency: 2 Hz, duration: 1}\n",
+     "4:44", "unknown key 'frequency'", "'rate'"},
+    {"#rasp: 1\nsurface: {height_map: a.npy, response: a.csv}\nscraper:\n  weight 1 N\nmotion: {path: line, to: [1, "
+     "0], "
+     "duration: 1}\n",
+     "4:3", "scraper must be a map of keys", "write: weight: 1 N"},
     {"\"\": 1\n", "5:1", "unknown key ''", "keys here"},
     {"rasp: 1\n", "5:1", "duplicate key 'rasp'", "first set on line 1"},
     {"output: {ramp: 1 s, ramp: 2 s}\n", "5:21", "duplicate key 'ramp'", "first set on line 5"},
     {"output:\n  ramp: 1 s\n  tail: 0\n  ramp: 2 s\n", "8:3", "duplicate key 'ramp'", "first set on line 6"},
     /* kinds */
     {"output: loud\n", "5:9", "output must be a map of keys, not 'loud'", "keys here: sample_rate"},
-    {"output:\n", "5:8", "output must be a map of keys, not an empty value", "keys here"},
+    {"output:\n", "5:8", "output must be a map of keys, not an empty value", "indent the keys"},
     {"output: {ramp: {x: 1}}\n", "5:16", "output.ramp needs a time, not a map of keys", "10 ms"},
     {"output: {ramp: [1, 2]}\n", "5:16", "output.ramp needs a time, not a list", "10 ms"},
     {"output: {ramp: }\n", "5:16", "output.ramp has no value", "10 ms"},
