@@ -1,4 +1,5 @@
 # Every scene that ships, and roughness like a map in every use of it: `rasp plan` predicts a number, above 0, for every contact, in text and in JSON.
+[ -z "${SANITIZED:-}" ] || { echo "two minutes under sanitizers, where cli/plan-without runs"; exit 77; }
 for map in acrylic ridged_plate; do cp "$ROOT/surfaces/$map.gsf" .; done
 scene() { printf 'rasp: 1\nsurface: {%s}\n%s\nmotion: {%s}\noutput: {quantity: force}\n' "$2" "$3" "$4" > "$1.yaml"; }
 line='path: line, to: [1 cm, 0], duration: 0.1 s'
