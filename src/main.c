@@ -7,8 +7,10 @@
 static int unknown_command(const char *word)
 {
     struct err e = {0};
-    const char *meant = cmd_nearest(word);
-    if (meant)
+    const char *meant = cmd_nearest(word), *ending = strrchr(word, '.');
+    if (ending && (!strcmp(ending, ".yaml") || !strcmp(ending, ".yml")))
+        err_set(&e, ERR_USAGE, "no command '%s'; did you mean 'render %s'?", word, word);
+    else if (meant)
         err_set(&e, ERR_USAGE, "no command '%s'; did you mean '%s'?", word, meant);
     else
         err_set(&e, ERR_USAGE, "no command '%s'", word);

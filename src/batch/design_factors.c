@@ -41,11 +41,20 @@ static const char *design_changes_near(const struct design_reading *r, const cha
     return found ? found : text_nearest(word, r->keys);
 }
 
+/* motion.to is near to motion.tempo as a whole, but its last word is not. */
+static bool last_word_near(const char *path, const char *near)
+{
+    const char *dot = strrchr(path, '.'), *other = strrchr(near, '.');
+    const char *const words[] = {other ? other + 1 : near, NULL};
+    return !dot || text_nearest(dot + 1, words);
+}
+
 static bool design_changes_known(const struct design_reading *r, const struct yaml_node *key)
 {
     const char *plain = keys_text_plain(key->text);
     if (text_is_one(plain, r->keys)) return true;
     const char *near = design_changes_near(r, plain);
+    if (near && !last_word_near(plain, near)) near = NULL;
     return diag_add(r->yaml->diag, key->at,
                     near ? arena_format(r->arena, "did you mean %s?", near) : "rasp explain lists every key of a scene",
                     "'%s' is no key of scenes", diag_shown(r->yaml->diag, key->text));

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/relpath.h"
 #include "base/text.h"
@@ -231,6 +232,12 @@ static bool list_add(struct golden *g, const char *file, struct err *e)
     int before = g->n;
     *l = (struct line){.list = file,
                        .folder = slash ? arena_format(a, "%.*s", slash == file ? 1 : (int)(slash - file), file) : NULL};
+    if (access(file, F_OK) != 0 && errno == ENOENT) {
+        const char *near = bytes_near(file, a);
+        return err_set(e, ERR_INPUT, "%s: %s; %s%s", file, strerror(ENOENT),
+                       near ? "did you mean " : "a list is a text file, one scene a line",
+                       near ? arena_format(a, "%s?", near) : "");
+    }
     if (!bytes_read(file, a, &b, e)) return false;
     if (strlen(b.at) != b.n) return err_set(e, ERR_SCENE, "%s: is no list of scenes, which is text", file);
     for (char *rest = b.at, *p; (p = strsep(&rest, "\n"));) {

@@ -330,7 +330,7 @@ static bool sample_bad(const struct wav_out *w, size_t i, double x, struct err *
                        w->path, frame, seconds, channel, x);
     return err_set(e, ERR_SCENE,
                    "%s: frame %.0f (%.6f s), channel %d: %.6f is %+.2f dB re full scale, beyond the range of %d-bit "
-                   "integers; lower the level or write floating point",
+                   "integers; lower the level (a larger full_scale) or write floating point (encoding: float32)",
                    w->path, frame, seconds, channel, x, 20 * real_log10(fabs(x)), bits);
 }
 

@@ -134,6 +134,8 @@ static bool text_good(struct yaml *y, const struct diag_source *s)
                         "files of their own",
                         "larger than %d MiB", SIZE_MAX_BYTES >> 20);
     if (other) return diag_add(y->diag, whole, "save the file as UTF-8", "encoded as UTF-16 or UTF-32");
+    if (s->size >= 4 && (memcmp(s->text, "RIFF", 4) == 0 || memcmp(s->text, "fLaC", 4) == 0))
+        return diag_add(y->diag, whole, "rasp play plays it, rasp plot draws it", "is a sound, not a text");
     for (size_t i = 0; i < s->size;) {
         uint32_t code = 0;
         int length = text_utf8(s->text + i, s->size - i, &code);
@@ -192,8 +194,10 @@ static void syntax_error(struct parse *p)
 {
     if (p->parser->error == YAML_MEMORY_ERROR) memory_out("for %.200s", p->source->name);
     const char *problem = p->parser->problem ? p->parser->problem : "cannot be read";
-    struct diag_place at = {p->source, (int)p->parser->problem_mark.line + 1, column_of(p, &p->parser->problem_mark),
-                            1};
+    /* A colon is missed only on a later line, where the key without it stands is the context. */
+    bool colon = strstr(problem, "expected ':'") && p->parser->context;
+    const yaml_mark_t *mark = colon ? &p->parser->context_mark : &p->parser->problem_mark;
+    struct diag_place at = {p->source, (int)mark->line + 1, column_of(p, mark), 1};
     const char *cure = "check quotes, brackets and indentation near here",
                *context = p->parser->context ? p->parser->context : "";
     const yaml_mark_t *opens = &p->parser->context_mark;

@@ -403,8 +403,9 @@ static bool read_comments(struct mode_table *t, int *by_frequency, struct err *e
         if (!comment(&t->csv, rows[k].key, &value[k], e)) return false;
         if (!value[k] && rows[k].needed)
             return err_set(e, ERR_SCENE,
-                           "%s: the comment '# %s: ...' is missing; write it once, before the header (%s)", t->csv.file,
-                           rows[k].key, rows[k].needed);
+                           "%s: the comment '# %s: ...' is missing; write it once, before the header (%s)%s",
+                           t->csv.file, rows[k].key, rows[k].needed,
+                           t->csv.n_comments ? "" : "; is it a table of modes? rasp modes makes them");
     }
     for (int k = 0; k < KEYS; k++) {
         const char *const *words = rows[k].words;

@@ -27,7 +27,9 @@ struct diag_place scene_part_place(const struct scene_part *p, const struct yaml
 {
     if (map->key) return map->key->at;
     if (*p->prefix) return map->at;
-    return (struct diag_place){map->at.source, 1, 1, 0};
+    const struct yaml_node *first = map->first; /* not a comment above it */
+    bool here = first && first->key->at.source == map->at.source;
+    return (struct diag_place){map->at.source, here ? first->key->at.line : 1, 1, 0};
 }
 
 /* Was a laid down before b? An included file's keys before the including file's, those before the command line's. */

@@ -68,6 +68,9 @@ const char *scene_values_kind(struct yaml *y, const struct yaml_node *node)
 static const char *example_cure(const struct value *v)
 {
     const char *last = strrchr(v->key->path, '.');
+    if (scene_materials_key(v->key))
+        return arena_format(v->part->yaml->arena,
+                            "rasp explain %s says what each is; one of your own goes under materials", v->key->path);
     return arena_format(v->part->yaml->arena, "write for instance: %s: %s", last ? last + 1 : v->key->path,
                         scene_values_example(v->part->yaml, v->key));
 }

@@ -89,6 +89,8 @@ static const struct {
     {"a: *nothing\n", "t.yaml:1:4: error: no anchor 'nothing'", "^~~~~~~~", "quotes"},
     {"a: &a [*a]\n", "t.yaml:1:8: error: no anchor 'a'", "^~", "anchor"},
     {"a: [1, 2\nb: 3\n", "t.yaml:2:2: error: not valid YAML", "^", "bracket that opens on line 1"},
+    {"a:\n  b 1\n\n  c: 2\n", "t.yaml:2:3: error: not valid YAML: could not find expected", "^", "followed by"},
+    {"RIFF....WAVE", "t.yaml: error: is a sound", "", "rasp play"},
     {"a: b: c\n", "t.yaml:1:5: error: not valid YAML: mapping values", "^", "quotes around a text"},
     {"a:\n\tb: 1\n", "t.yaml:2:1: error: not valid YAML: found character", "^", "spaces, not tabs"},
     {"a: @x\n", "t.yaml:1:4: error: not valid YAML: found character", "^", "quotes"},
