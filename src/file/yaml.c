@@ -190,6 +190,18 @@ static int column_of(const struct parse *p, const yaml_mark_t *mark)
     return (int)mark->column + 1 + (mark->line == 0 ? p->shift : 0);
 }
 
+/* Does a colon stand before the mark on its line, as in "title: a: b"? */
+static bool colon_before(const struct diag_source *s, const yaml_mark_t *mark)
+{
+    const char *line = s->text, *end = s->text + s->size;
+    for (size_t n = 0; line && n < mark->line; n++) {
+        line = memchr(line, '\n', (size_t)(end - line));
+        line = line ? line + 1 : NULL;
+    }
+    size_t rest = line ? (size_t)(end - line) : 0;
+    return line && memchr(line, ':', rest < mark->column ? rest : mark->column);
+}
+
 static void syntax_error(struct parse *p)
 {
     if (p->parser->error == YAML_MEMORY_ERROR) memory_out("for %.200s", p->source->name);
@@ -210,6 +222,8 @@ static void syntax_error(struct parse *p)
                             (int)opens->line + 1);
     else if (strstr(problem, "cannot start any token") || strstr(problem, "tab character"))
         cure = "indent with spaces, not tabs; put quotes around a text that starts with @, ` or %";
+    else if (strstr(problem, "mapping values") && mark->line > 0 && !colon_before(p->source, mark))
+        cure = "check the indentation, and that the key above is followed by ': ' with a space";
     else if (strstr(problem, "mapping values"))
         cure = "check the indentation; put quotes around a text that holds ': '";
     else if (strstr(problem, "expected key") || strstr(problem, "block end") || strstr(problem, "expected ':'"))
