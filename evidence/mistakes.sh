@@ -1,124 +1,163 @@
 #!/bin/bash
-# Makes evidence/mistakes.md: sixty mistakes that people make, each with what rasp says of it.
-# Each row is "what was done | how": an edit of a starter for sed, which `rasp check` then reads, or after "$" a command.
+# Makes evidence/mistakes.md: 60 mistakes of a person's first days with rasp, and what it says to each. Needs sox.
+# A row below: what is wrong ~ FILE: the edit of a starter, as sed takes it (-: none) ~ the command ~ what names the cause:
+# @ the line that was edited, else words of the message.
 set -euo pipefail
 ROOT=$(realpath "$(dirname "$0")/..")
 BUILD=$(realpath -m "${BUILD:-$ROOT/build}")
 PATH=$BUILD:$PATH
-export LC_ALL=C
 REPORT=$(realpath -m "${REPORT:-$ROOT/evidence/mistakes.md}")
+export LC_ALL=C
+command -v sox > /dev/null || { echo "sox is not installed: skipped"; exit 0; }
 WORK=$(mktemp -d)
 trap 'rm -rf "$WORK"' EXIT
-cd "$WORK"
-rasp new scrape > good.yaml
-cp "$ROOT/irs/oak_plank.csv" .
-printf 'surface: {material: oak}\n' > oak_plank.yaml
-cat > study.yaml << 'END'
-rasp-design: 1
-base: good.yaml
-factors:
-  surface.material: [oak, glass]
-  motion.rate: [1 Hz, 2 Hz]
-level: {each: {lufs: -23}}
-END
-sed 's/motion.rate/scraper.mass/; s/1 Hz, 2 Hz/20 g, 30 g/' study.yaml > other.yaml
-rasp render good.yaml -q -o good.wav
-sox -n -r 44100 -b 16 silent.wav trim 0 1
-sox -n -r 44100 -b 16 tone.wav synth 1 sine 440
-touch empty.csv
+mkdir "$WORK/ready"
+cd "$WORK/ready"
 
-mistakes() {
-    cat << 'END'
-a section misspelt | s/^motion:/moton:/
-a key misspelt | s/  rate: 2 Hz/  rte: 2 Hz/
-a word misspelt | s/back_and_forth/back_and_forht/
-a material misspelt | s/oak/oka/
-a word of another program | s/  rate: 2 Hz/  frequency: 2 Hz/
-a capital letter | s/oak/Oak/
-a unit of another dimension | s/mass: 20 g/mass: 20 cm/
-a unit misspelt | s/mass: 20 g/mass: 20 gr/
-two units | s/length: 16 cm/length: 16 cm 2 mm/
-a comma for the decimal point | s/1.2 mm/1,2 mm/
-a number and a letter too many | s/length: 16 cm/length: 1y6 cm/
-kilograms where grams were meant | s/mass: 20 g/mass: 20 kg/
-hertz where kilohertz were meant | s/48 kHz/48 Hz/
-millimetres where micrometres were meant | s/rms: 4 um/rms: 4 mm/
-a negative length | s/length: 16 cm/length: -16 cm/
-no colon | s/mass: 20 g/mass 20 g/
-no space after the colon | s/mass: 20 g/mass:20 g/
-a tab | s/^  mass: 20 g/\tmass: 20 g/
-a line that is indented too far | s/^  rate: 2 Hz/    rate: 2 Hz/
-a line that is not indented | s/^  mass: 20 g/mass: 20 g/
-a bracket that is not closed | s/to: \[8 cm, 0 cm\]/to: [8 cm, 0 cm/
-quotes that are not closed | s/material: oak/material: "oak/
-one number where a place goes | s/to: \[8 cm, 0 cm\]/to: 8 cm/
-three numbers where a place goes | s/to: \[8 cm, 0 cm\]/to: [8 cm, 0 cm, 0 cm]/
-a list where a number goes | s/mass: 20 g/mass: [20 g]/
-the same key twice | s/^  mass: 20 g/  mass: 20 g\n  mass: 30 g/
-two speeds at once | s/^  rate: 2 Hz/  rate: 2 Hz\n  speed: 20 cm\/s/
-a response and an object at once | s/^  material: oak/  material: oak\n  response: oak_plank.csv/
-no mass | s/^  mass: 20 g/  radius: 1 mm/
-no version | s/^rasp: 1//
-the version of a later program | s/^rasp: 1/rasp: 2/
-a motion that leaves the object | s/to: \[8 cm, 0 cm\]/to: [80 cm, 0 cm]/
-a motion that nothing is said of | s/^  path: back_and_forth//
-a duration of nothing | s/duration: 2 s/duration: 0 s/
-a file that is not there | s/^surface:/include: [oak_plnak.yaml]\nsurface:/
-a key of the ball on a scraper | s/^scraper:/ball:/
-an object without its thickness | s/^    thickness: 1.2 mm//
-a key of a circle on a stroke | s/  path: back_and_forth/  path: back_and_forth\n  center: [0 cm, 0 cm]/
-a preset that is none | s/^accuracy: standard/accuracy: best/
-an error without its minus | s/^accuracy: standard/accuracy: {error: 60 dB}/
-a file that is not there, of a command | $ rasp render goood.yaml -o out.wav
-a command misspelt | $ rasp rendr good.yaml -o out.wav
-an option misspelt | $ rasp render good.yaml --ouput out.wav
-an option without its value | $ rasp render good.yaml -o
-a name without an ending | $ rasp render good.yaml -o out
-an ending of another kind | $ rasp render good.yaml -o out.mp3
-a folder that is not there | $ rasp render good.yaml -o no/where/out.wav
-an override without = | $ rasp render good.yaml --set scraper.mass -o out.wav
-an override of no key | $ rasp render good.yaml --set mass=30g -o out.wav
-a level that no file can hold | $ rasp render good.yaml --set output.level.rms=0 -o out.wav
-a recorded sound as input and output | $ rasp render good.yaml --set surface.object=null --set surface.response=tone.wav -o tone.wav
-a design given to render | $ rasp render study.yaml -o out.wav
-a scene given to batch | $ rasp batch good.yaml -o out
-a factor that is no key | $ sed 's/motion.rate/motion.rat/' study.yaml > s.yaml; rasp check s.yaml
-a level of a factor that no scene can have | $ sed 's/glass/glas/' study.yaml > s.yaml; rasp check s.yaml
-a base that is not there | $ sed 's/good.yaml/god.yaml/' study.yaml > s.yaml; rasp check s.yaml
-a folder of another design | $ rasp batch study.yaml -q -o set > /dev/null; rasp batch other.yaml -o set
-a picture of an empty table | $ rasp plot empty.csv -o empty.png
-modes of silence | $ rasp modes extract silent.wav -o silent.csv
-a table of modes that is empty | $ sed 's/^  object:/  response: empty.csv\n  o:/' good.yaml | sed '/^  o:/,/origin/d' > s.yaml; rasp check s.yaml
+# What each mistake begins with: starters, two sets, a list of golden sounds, recordings, a table of modes.
+for name in scrape strike circle grip marble_on_wood impacts; do rasp new $name -o $name.yaml; done
+rasp new design -o set.yaml
+sed '/^  surface.material/d; s/^  motion.rate: .*/  motion.rate: {uniform: [1 Hz, 4 Hz]}/; s/^replicates: 2.*/samples: 3/; /^name:/d; /^text:/d' \
+    set.yaml > sampled.yaml
+sed 's/oak, glass/oak, steel/' set.yaml > other.yaml
+rasp batch -q other.yaml -o others
+rasp render -q scrape.yaml
+echo scrape.yaml > sounds.txt
+rasp golden update sounds.txt > /dev/null
+cp "$ROOT/irs/oak_plank.csv" .
+sox -n -r 48k -b 24 silence.wav trim 0 2
+printf 'surface.material,rate\noak,1 Hz\n' > rows.csv
+
+cat > ../table << 'END'
+## A perception researcher writes a scene
+a section is misspelt ~ scrape: s/^motion:/moton:/ ~ rasp render scrape.yaml ~ @
+a word is misspelt ~ scrape: s/path: back_and_forth/path: back_and_forht/ ~ rasp render scrape.yaml ~ @
+a bracket is not closed ~ scrape: s/8 cm, 0 cm\]/8 cm, 0 cm/ ~ rasp render scrape.yaml ~ opens on line 51
+a material has a name that rasp does not use ~ scrape: s/: oak/: wood/ ~ rasp check scrape.yaml ~ @
+a key has the name that another program gives it ~ scrape: s/rate: 2 Hz/frequency: 2 Hz/ ~ rasp render scrape.yaml ~ @
+a key begins with a capital letter ~ scrape: s/mass: 20 g/Mass: 20 g/ ~ rasp render scrape.yaml ~ @
+a mass is in centimetres ~ scrape: s/20 g/20 cm/ ~ rasp render scrape.yaml ~ @
+a unit is in small letters ~ scrape: s/rate: 2 Hz/rate: 2 hz/ ~ rasp render scrape.yaml ~ @
+a number is no number ~ scrape: s/1.2 mm/5mm5/ ~ rasp render scrape.yaml ~ @
+a number has a decimal comma ~ scrape: s/1.2 mm/1,2 mm/ ~ rasp render scrape.yaml ~ @
+the mass is 20 kg in place of 20 g ~ scrape: s/20 g/20 kg/ ~ rasp render -q scrape.yaml ~ @
+the unit of a length is left out ~ scrape: s/length: 16 cm/length: 16/ ~ rasp render -q scrape.yaml ~ @
+the sample rate is 48 Hz ~ scrape: s/48 kHz/48 Hz/ ~ rasp render scrape.yaml ~ @
+a key stands one space too far left ~ scrape: s/^  rate/ rate/ ~ rasp render scrape.yaml ~ @
+a key stands one space too far right ~ scrape: s/^  rate/   rate/ ~ rasp render scrape.yaml ~ @
+a colon is missing ~ scrape: s/rate: 2 Hz/rate 2 Hz/ ~ rasp render scrape.yaml ~ @
+no space stands behind a colon ~ scrape: s/rate: 2 Hz/rate:2 Hz/ ~ rasp render scrape.yaml ~ @
+a tab indents a key ~ scrape: s/^  rate/\trate/ ~ rasp render scrape.yaml ~ @
+a list stands where a number goes ~ scrape: s/20 g/[20 g, 40 g]/ ~ rasp render scrape.yaml ~ @
+a number stands where a place goes ~ scrape: s/^  to: .*/  to: 8 cm/ ~ rasp render scrape.yaml ~ @
+a key is given twice ~ scrape: s/^  rate: 2 Hz/&\n  rate: 4 Hz/ ~ rasp render scrape.yaml ~ @
+a section is given twice ~ scrape: s/^output:/surface: {material: glass}\n&/ ~ rasp render scrape.yaml ~ @
+a hand's grip and a constant load ~ grip: s/^#contact:/load: {constant: 2 N}/ ~ rasp render grip.yaml ~ @
+a circle is given ends ~ circle: s/^  radius: .*/  from: [0 cm, 0 cm]\n  to: [4 cm, 0 cm]/ ~ rasp render circle.yaml ~ @
+the motion leaves the plate ~ scrape: s/^  to: .*/  to: [20 cm, 0 cm]/ ~ rasp render scrape.yaml ~ scrape.yaml:28:
+the motion leaves the places of a table of modes ~ scrape: s/^  material: oak/  response: oak_plank.csv/; /^  object:/,/^    origin:/d; s/^  to: .*/  to: [50 cm, 0 cm]/ ~ rasp render scrape.yaml ~ @
+a scraper is to roll ~ scrape: s/^output:/contact: {model: roll}\n&/ ~ rasp render scrape.yaml ~ @
+an object rings twice ~ scrape: s/^  material: oak/&\n  response: oak_plank.csv/ ~ rasp render scrape.yaml ~ @
+a response is not there ~ scrape: s/^  material: oak/  response: oak.wav/; /^  object:/,/^    origin:/d ~ rasp render scrape.yaml ~ @
+the table of a response is no table of modes ~ scrape: s/^  material: oak/  response: rows.csv/; /^  object:/,/^    origin:/d ~ rasp render scrape.yaml ~ @
+## A data-set engineer makes a set
+a design goes to render ~ - ~ rasp render set.yaml ~ set.yaml:
+a scene goes to batch ~ - ~ rasp batch scrape.yaml -o out ~ scrape.yaml
+a factor is no key of scenes ~ set: s/motion.rate: \[/motion.tempo: [/ ~ rasp batch set.yaml -o out ~ @
+a factor is misspelt in the name ~ set: s/^name:.*/name: "{material}_{motion.rate}_{replicate}"/ ~ rasp batch set.yaml -o out ~ @
+names are not distinct ~ set: s/^name:.*/name: "{surface.material}_{replicate}"/ ~ rasp batch set.yaml -o out ~ @
+a label is unknown ~ set: s/^# exclude:.*/exclude: [{surface.material: steel}]/ ~ rasp batch set.yaml -o out ~ @
+a level is no value of its key ~ set: s/oak, glass/oak, glas/ ~ rasp batch set.yaml -o out ~ @
+one value stands where levels go ~ set: s/\[oak, glass\]/oak/ ~ rasp batch set.yaml -o out ~ @
+the base is not there ~ set: s/scrape.yaml  /scrap.yaml/ ~ rasp check set.yaml ~ @
+the word for a loudness is another ~ set: s/{common.*}}/{each: {loudness: -23}}/ ~ rasp batch set.yaml -o out ~ @
+samples are asked for, but nothing is drawn ~ set: s/^replicates: 2/samples: 1000/ ~ rasp batch set.yaml -o out ~ @
+values are drawn, but samples is left out ~ sampled: /^samples/d ~ rasp batch sampled.yaml -o out ~ sampled.yaml:
+a range is upside down ~ sampled: s/1 Hz, 4 Hz/4 Hz, 1 Hz/ ~ rasp batch sampled.yaml -o out ~ @
+a table of cells lacks a factor ~ set: s/\[.*/cells/; s/^# exclude:.*/cells: rows.csv/ ~ rasp batch set.yaml -o out ~ rows.csv
+the folder holds another set ~ - ~ rasp batch set.yaml -o others ~ others
+the folder is left out ~ - ~ rasp batch set.yaml ~ -o
+a shard is beyond their number ~ - ~ rasp batch set.yaml -o out --shard 4/3 ~ --shard
+## A sound designer tries things
+--set without = ~ - ~ rasp render scrape.yaml --set motion.rate ~ --set
+--set of a key that is not there ~ - ~ rasp render scrape.yaml --set surface.matrial=steel ~ --set
+the output has no ending ~ - ~ rasp render scrape.yaml -o steel ~ steel
+the command is left out ~ - ~ rasp scrape.yaml ~ scrape.yaml
+an option is not there ~ - ~ rasp render scrape.yaml --rate 44100 ~ --rate
+the scale lets the sound clip ~ scrape: s/^  encoding: pcm24/&\n  level: {full_scale: 1 um\/s}/ ~ rasp render scrape.yaml ~ @
+a sound goes to render ~ - ~ rasp render scrape.wav ~ scrape.wav
+silence is taken apart ~ - ~ rasp decompose silence.wav -o parts ~ silence.wav
+a starter is not there ~ - ~ rasp new piano ~ piano
+## A maintainer has CI check sounds
+the list is not there ~ - ~ rasp golden check list.txt ~ list.txt
+an option in the list is misspelt ~ sounds: s/$/ --snrr 60/ ~ rasp golden check sounds.txt ~ @
+nothing is kept yet of a scene ~ sounds: s/$/\nstrike.yaml/ ~ rasp golden check sounds.txt ~ strike.yaml
+a scene was changed ~ scrape: s/rms: 4 um/rms: 5 um/ ~ rasp golden check sounds.txt ~ scrape.yaml
 END
+
+# did FILE: the edited lines of FILE, old and new; their numbers go to ../lines.
+did() {
+    diff -U0 "../ready/$1" "$1" > ../diff || true
+    sed -n 's/^@@ -.* +\([0-9]*\),\?\([0-9]*\) @@.*/\1 \2/p' ../diff |
+        while read -r from count; do seq "$from" $((from + (${count:-1} > 1 ? count - 1 : 0))); done > ../lines
+    sed -n '1,2d; /^[-+]/p' ../diff
 }
 
-number=0 refused=0 warned=0 placed=0 cured=0
+n=0 told=0 named=0 cured=0
 while IFS= read -r row; do
-    what=${row%% | *} how=${row#* | } code=0
-    number=$((number + 1))
-    if [ "${how:0:2}" = '$ ' ]; then
-        shown=${how:2}
-        (eval "$shown") > said 2>&1 < /dev/null || code=$?
-    else
-        sed "$how" good.yaml > scene.yaml
-        cmp -s good.yaml scene.yaml && { echo "mistakes.sh: nothing is edited by $how" >&2; exit 1; }
-        shown="sed '$how' good.yaml > scene.yaml; rasp check scene.yaml"
-        rasp check scene.yaml > said 2>&1 || code=$?
+    if [[ $row == '## '* ]]; then printf '\n%s\n' "$row" >> ../entries; continue; fi
+    what=${row%% ~ *} cause=${row##* ~ } row=${row#* ~ } row=${row% ~ *}
+    edit=${row%% ~ *} command=${row#* ~ } code=0 n=$((n + 1))
+    cp -r ../ready "../$n"
+    cd "../$n"
+    : > ../did
+    if [ "$edit" != - ]; then
+        file=${edit%%: *}.yaml
+        [ -e "$file" ] || file=${edit%%: *}.txt
+        sed -i "${edit#*: }" "$file"
+        did "$file" > ../did
+        [ -s ../did ] || { echo "mistakes: $what: the edit changes nothing" >&2; exit 1; }
     fi
-    if [ $code != 0 ]; then refused=$((refused + 1)); elif grep -q 'warning' said; then warned=$((warned + 1)); fi
-    ! grep -Eq '^[^ ]+:[0-9]+:[0-9]+: |--?[a-z]+|rasp [a-z]*: error: [^ ]+' said || placed=$((placed + 1))
-    ! grep -Eq '= help: |did you mean|use |write |give |name |ask for|run |must |choose |add |remove |rasp (check|render|batch)' said || cured=$((cured + 1))
-    printf '## %d. %s\n\n```\n$ %s\n' "$number" "${what^}" "$shown"
-    sed "s|$WORK/||g; s|$ROOT/||g" said
-    printf '(exit code %d)\n```\n\n' "$code"
-done < <(mistakes) > rows
-cat > "$REPORT" << END
-# Sixty mistakes, and what rasp says of them
+    eval "$command" > ../said 2>&1 < /dev/null || code=$?
+    sed -i "s|$WORK/$n/||g; s|/[^ ]*/rasp-golden-[^/]*/||g" ../said
+    if [ "$cause" = @ ]; then sed "s/.*/$file:&:\n$file line &/" ../lines > ../causes; else echo "$cause" > ../causes; fi
+    marks=("no cause named" "no cure")
+    # The documented exit codes; those that only warn end with 0. Cures: instructions count, "Try: rasp X --help" does not.
+    if [[ " 1 64 65 66 69 70 71 73 74 75 " == *" $code "* ]] || { [ $code = 0 ] && grep -q 'warning:' ../said; }; then
+        told=$((told + 1))
+    fi
+    if grep -qFf ../causes ../said; then named=$((named + 1)) marks[0]="cause named"; fi
+    if grep -qE '= help:|did you mean|are .* meant|write |move it|choose|must end in|is needed, as|makes (it|them)|a larger|lists? is|shows all' ../said; then
+        cured=$((cured + 1)) marks[1]="cure said"
+    fi
+    {
+        printf '\n### %d. %s\n\n```diff\n' "$n" "${what^}"
+        cat ../did
+        printf '```\n\n```text\n$ %s\n' "$command"
+        cat ../said
+        printf '```\n\nExit code %d; %s; %s.\n' "$code" "${marks[@]}"
+    } | sed '/^```diff$/{N;/\n```$/{N;d}}' >> ../entries
+    cd ../ready
+done < ../table
+[ "$n" = 60 ] || { echo "mistakes: $n in the table, not 60" >&2; exit 1; }
 
-Made by \`evidence/mistakes.sh\` with $(rasp --version | head -n 1 | cut -d ' ' -f 1,2). \`good.yaml\` is \`rasp new scrape\`, \`study.yaml\` a design of four stimuli over it.
-Each mistake stands over its message and the exit code of the command.
+{
+    cat << MD
+# Sixty mistakes, and what rasp says
 
-Of $number mistakes $refused are refused and $warned warned of. $placed messages name the place: line and column, the option, or the file. $cured say what to do.
+Made by \`evidence/mistakes.sh\` with $(rasp --version). People make these mistakes when they first use the program. Each scene and each design is a
+starter of \`rasp new\`, with the edit that is shown: - is the line before it, + the line after it. Below it stand the command, all that it
+prints, and its exit code. Only paths of temporary folders are taken away.
 
-END
-cat rows >> "$REPORT"
+| of $n mistakes | |
+|---|---|
+| end with a documented exit code other than 0, or with a warning | $told |
+| have their cause named: file and line, or the option or file of the command | $named |
+| get a cure: a line of help, "did you mean", or an instruction | $cured |
+
+The script counts these. It cannot judge whether a cure is the right one. Its list of words for cures, and for some rows the place that is asked
+for, were written after the messages had been read. The warning of number 12 speaks of a consequence, not of the length.
+MD
+    cat ../entries
+} > ../report.md
+mv ../report.md "$REPORT"

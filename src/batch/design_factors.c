@@ -38,15 +38,10 @@ static const char *design_changes_near(const struct design_reading *r, const cha
         const char *dot = strrchr(*name, '.');
         if (dot && strcmp(dot + 1, word) == 0) found = found ? arena_format(r->arena, "%s or %s", found, *name) : *name;
     }
-    return found ? found : text_nearest(word, r->keys);
-}
-
-/* motion.to is near to motion.tempo as a whole, but its last word is not. */
-static bool last_word_near(const char *path, const char *near)
-{
-    const char *dot = strrchr(path, '.'), *other = strrchr(near, '.');
-    const char *const words[] = {other ? other + 1 : near, NULL};
-    return !dot || text_nearest(dot + 1, words);
+    const char *near = text_nearest(word, r->keys), *own = strrchr(word, '.'), *last = near ? strrchr(near, '.') : NULL;
+    if (own && last && !text_nearest(own + 1, (const char *const[]){last + 1, NULL}))
+        near = NULL; /* .tempo is no .to */
+    return found ? found : near;
 }
 
 static bool design_changes_known(const struct design_reading *r, const struct yaml_node *key)
@@ -54,7 +49,6 @@ static bool design_changes_known(const struct design_reading *r, const struct ya
     const char *plain = keys_text_plain(key->text);
     if (text_is_one(plain, r->keys)) return true;
     const char *near = design_changes_near(r, plain);
-    if (near && !last_word_near(plain, near)) near = NULL;
     return diag_add(r->yaml->diag, key->at,
                     near ? arena_format(r->arena, "did you mean %s?", near) : "rasp explain lists every key of a scene",
                     "'%s' is no key of scenes", diag_shown(r->yaml->diag, key->text));

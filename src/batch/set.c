@@ -58,9 +58,7 @@ void set_lay(const struct set *s, struct scene *over)
 void set_means(const struct set *s, const struct scene *scene, struct arena *a, char hex[HASH_TEXT])
 {
     struct scene own = *scene;
-    struct set level = *s;
-    level.length = NAN;
-    set_lay(&level, &own);
+    set_lay(s, &own);
     own.seed = 0;
     if (s->design->length_rule != DESIGN_LENGTH_OWN) own.output.duration = NAN;
     const char *text = outputs_effective(&own, s->design->file, a);
@@ -538,7 +536,7 @@ bool set_plan(struct set *s, const struct set_plan_ask *ask, struct arena *a, st
     double longest = 0;
     for (int i = 0; i < s->n; i++) {
         longest = fmax(longest, p.looks[p.first[i]].seconds);
-        memcpy(s->means[i], s->means[p.first[i]], HASH_TEXT);
+        if (p.first[i] != i) memcpy(s->means[i], s->means[p.first[i]], HASH_TEXT);
     }
     if (s->design->length_rule == DESIGN_LENGTH_LONGEST) s->length = longest;
     look_at_levels(&p);

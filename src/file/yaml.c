@@ -190,44 +190,29 @@ static int column_of(const struct parse *p, const yaml_mark_t *mark)
     return (int)mark->column + 1 + (mark->line == 0 ? p->shift : 0);
 }
 
-/* Does a colon stand before the mark on its line, as in "title: a: b"? */
-static bool colon_before(const struct diag_source *s, const yaml_mark_t *mark)
-{
-    const char *line = s->text, *end = s->text + s->size;
-    for (size_t n = 0; line && n < mark->line; n++) {
-        line = memchr(line, '\n', (size_t)(end - line));
-        line = line ? line + 1 : NULL;
-    }
-    size_t rest = line ? (size_t)(end - line) : 0;
-    return line && memchr(line, ':', rest < mark->column ? rest : mark->column);
-}
-
 static void syntax_error(struct parse *p)
 {
     if (p->parser->error == YAML_MEMORY_ERROR) memory_out("for %.200s", p->source->name);
     const char *problem = p->parser->problem ? p->parser->problem : "cannot be read";
-    /* A colon is missed only on a later line, where the key without it stands is the context. */
-    bool colon = strstr(problem, "expected ':'") && p->parser->context;
-    const yaml_mark_t *mark = colon ? &p->parser->context_mark : &p->parser->problem_mark;
-    struct diag_place at = {p->source, (int)mark->line + 1, column_of(p, mark), 1};
-    const char *cure = "check quotes, brackets and indentation near here",
-               *context = p->parser->context ? p->parser->context : "";
-    const yaml_mark_t *opens = &p->parser->context_mark;
-    if (opens->line < p->parser->problem_mark.line && strstr(context, "quoted scalar")) {
-        at = (struct diag_place){p->source, (int)opens->line + 1, column_of(p, opens), 1};
+    const char *context = p->parser->context ? p->parser->context : "",
+               *cure = "check quotes, brackets and indentation near here";
+    const yaml_mark_t *mark = &p->parser->problem_mark, *began = &p->parser->context_mark;
+    bool earlier = *context && began->line < mark->line, colon = strstr(problem, "expected ':'") != NULL;
+    if (earlier && strstr(context, "quoted scalar")) {
         problem = "these quotes are not closed";
         cure = "put the same quotes behind the text";
-    } else if (opens->line < p->parser->problem_mark.line && strstr(context, "flow") && !p->source->option)
+        mark = began;
+    } else if (earlier && strstr(context, "flow") && !p->source->option)
         cure = arena_format(p->y->arena, "close the bracket that opens on line %d, or put a comma between its entries",
-                            (int)opens->line + 1);
+                            (int)began->line + 1);
     else if (strstr(problem, "cannot start any token") || strstr(problem, "tab character"))
         cure = "indent with spaces, not tabs; put quotes around a text that starts with @, ` or %";
-    else if (strstr(problem, "mapping values") && mark->line > 0 && !colon_before(p->source, mark))
-        cure = "check the indentation, and that the key above is followed by ': ' with a space";
     else if (strstr(problem, "mapping values"))
-        cure = "check the indentation; put quotes around a text that holds ': '";
-    else if (strstr(problem, "expected key") || strstr(problem, "block end") || strstr(problem, "expected ':'"))
+        cure = "check the indentation, and the key above for its ': '; put quotes around a text that holds ': '";
+    else if (strstr(problem, "expected key") || strstr(problem, "block end") || colon)
         cure = "check the indentation, and that each key is followed by ': ' with a space";
+    if (earlier && colon) mark = began; /* the key that lacks it; it is missed on a later line only */
+    const struct diag_place at = {p->source, (int)mark->line + 1, column_of(p, mark), 1};
     diag_add(p->y->diag, at, cure, "not valid YAML: %s", problem);
 }
 

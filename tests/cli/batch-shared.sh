@@ -1,4 +1,4 @@
-# What stimuli share of their inputs: a file that is read in other ways by each (pitch, scale, range, levelling, edges, rate, length, channel, pairing ...) is another thing for each.
+# What stimuli share of their inputs: a file that is read in other ways by each (pitch, scale, range, levelling, edges, rate, length, channel, pairing ...) is another thing for each; and so are objects of other sizes, materials, bands.
 # One thread, four, and each stimulus rendered alone, which shares nothing, give the same bytes; and no two have the same samples.
 command -v python3 > /dev/null || { echo "no python3"; exit 77; }
 awk 'BEGIN { for (j = 0; j < 24; j++) for (i = 0; i < 96; i++) printf "%.6f%s", 3 * sin(i / 3) + 2 * sin(i * i + j) + i / 10, i < 95 ? "," : "\n" }' > map.csv
@@ -26,6 +26,10 @@ motion: {path: line, to: [2 cm, 0], duration: 0.15 s}
 accuracy: draft
 output: {tail: 0 s, encoding: float32}
 X
+for pascal in 60 50; do
+    sed 's/response: one.csv/material: pane, object: {shape: plate, length: 20 cm, width: 12 cm, thickness: 3 mm}/' base.yaml
+    printf 'materials: {pane: {youngs_modulus: %d GPa, poisson: 0.2, density: 2400 kg/m^3, loss: 0.002}}\n' $pascal
+done | awk '/^rasp: 1/ { n++ } { print > (n == 1 ? "own.yaml" : "soft.yaml") }'
 cat > set.yaml << 'X'
 rasp-design: 1
 base: base.yaml
@@ -53,6 +57,14 @@ factors:
     - {label: moved, set: {surface.response: modes.csv, motion.to: [1 cm, 0]}}
     - {label: force, set: {surface.roughness: null, scraper: null, contact.model: given, contact.given.file: force.wav, contact.given.scale: 1 N}}
     - {label: channel, set: {surface.roughness: null, scraper: null, contact.model: given, contact.given.file: force.wav, contact.given.scale: 1 N, contact.given.channel: 2}}
+    - {label: plate, set: {surface.response: null, surface.material: glass, surface.object: {shape: plate, length: 20 cm, width: 12 cm, thickness: 3 mm}}}
+    - {label: thicker, set: {surface.response: null, surface.material: glass, surface.object: {shape: plate, length: 20 cm, width: 12 cm, thickness: 4 mm}}}
+    - {label: steel, set: {surface.response: null, surface.material: steel, surface.object: {shape: plate, length: 20 cm, width: 12 cm, thickness: 3 mm}}}
+    - {label: own, base: own.yaml}
+    - {label: own_soft, base: soft.yaml}
+    - {label: plate_fewer, set: {surface.response: null, surface.modes: 7, surface.material: glass, surface.object: {shape: plate, length: 20 cm, width: 12 cm, thickness: 3 mm}}}
+    - {label: plate_band, set: {surface.response: null, surface.band: [500 Hz, 6 kHz], surface.material: glass, surface.object: {shape: plate, length: 20 cm, width: 12 cm, thickness: 3 mm}}}
+    - {label: plate_moved, set: {surface.response: null, surface.material: glass, surface.object: {shape: plate, length: 20 cm, width: 12 cm, thickness: 3 mm, origin: [-5 cm, -4 cm]}}}
 replicates: 2
 name: "{map}_{replicate}"
 X

@@ -75,6 +75,10 @@ printf '%s\n' 'rasp-design: 1' 'base: scrape.yaml' 'factors:' '  motion.rate: [2
 tell check equal.yaml
 printf '%s\n' 'rasp-design: 1' 'base: scrape.yaml' 'factors: {motion.rate: [1 Hz, 2 Hz]}' 'name: "SHA256SUMS/{motion.rate}"' > sums.yaml
 tell check sums.yaml
+for key in motion.rat motion.tempo; do
+    printf '%s\n' 'rasp-design: 1' 'base: scrape.yaml' "factors: {$key: [1 Hz, 2 Hz]}" > near.yaml
+    tell check near.yaml
+done
 # Promises that cannot be kept: each once, with its place.
 printf '%s\n' 'rasp-design: 1' 'base: scrape.yaml' 'order: {seed: 3}' 'set: {motion.duration: 50 ms, surface.modes: 2, surface.roughness.shortest: 0.5 mm}' 'factors:' '  accuracy.error: [-40 dB, -200 dB, -210 dB]' '  motion.rate: [1 Hz, 2 Hz]' 'exclude: [{accuracy.error: -40 dB, motion.rate: 1 Hz}]' > promises.yaml
 tell check promises.yaml

@@ -1,7 +1,6 @@
 # As many places as -40 dB needs, and what a table says of its interpolation: against sounds of the object itself, at
 # places nobody picked.
 . "$ROOT/tests/lib/test.sh"
-[ -z "${SANITIZED:-}" ] || skip "minutes under sanitizers; unit/test_places_lattice and cli/modes-object run the same"
 error_of() { sed -n 's/^# interpolation_error: \(-[0-9.]*\) dB,.*/\1/p' "$1"; }
 places_of() { awk -F, '!/^#/ && $1 ~ /^[0-9]+$/ && !($1 in seen) { seen[$1]; n++ } END { print n }' "$1"; }
 below() { awk -v x="${1:-0}" -v limit="$2" 'BEGIN { exit !(x <= limit) }'; }

@@ -1,7 +1,6 @@
 # The residual of a recorded strike: with the true table it is the noise, a mode that is left out is in it, what is no
 # mode comes back by either domain; estimated tables; the folder, whole or not there; what is refused.
 command -v python3 > /dev/null || { echo "no python3"; exit 77; }
-[ -z "${SANITIZED:-}" ] || { echo "minutes under sanitizers; unit/test_residual runs the same"; exit 77; }
 try() { local code=0; "$@" || code=$?; echo "exit code $code"; }
 residual() { rasp modes residual "$@"; }
 # make NAME SEED KIND: KIND.wav of 44.1 kHz, a strike at 0.3 s on ten modes, with noise at -60 dB; true.csv has the modes
@@ -180,7 +179,8 @@ residual click.wav all.csv --quantity velocity -f -o doubtful | grep -c 'taken a
 python3 make.py tone.wav 3 tone
 rasp modes extract tone.wav -f -o tone.csv | grep -c '1 mode falls by less than 0.9 dB'
 python3 make.py click.wav 3 click
-rasp modes extract click.wav -f -o click.csv | grep -c 'falls by less' || true
+# Under sanitizers two minutes, of what cli/modes-extract runs there, too.
+if [ "${SANITIZED:-}" ]; then echo 0; else rasp modes extract click.wav -f -o click.csv | grep -c 'falls by less' || true; fi
 
 echo "a scene"
 cat > scene.yaml << 'END'

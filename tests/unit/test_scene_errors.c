@@ -31,13 +31,11 @@ static const struct bad bads[] = {
     {"#rasp: 1\nsurface: {height_map: a.npy, response: a.csv}\nscraper: {mass: 1 g}\nmotion: {path: line, to: [1, 0], "
      "duraton: 1}\n",
      "4:34", "unknown key 'duraton'", "'duration'"},
-    {"#rasp: 1\nsurface: {height_map: a.npy, response: a.csv}\nscraper: {mass: 1 g}\nmotion: {path: back_and_forth, "
-     "to: "
-     "[1, 0], frequency: 2 Hz, duration: 1}\n",
+    {"#rasp: 1\nsurface: {height_map: a.npy, response: a.csv}\nscraper: {mass: 1 g}\n"
+     "motion: {path: back_and_forth, to: [1, 0], frequency: 2 Hz, duration: 1}\n",
      "4:44", "unknown key 'frequency'", "'rate'"},
-    {"#rasp: 1\nsurface: {height_map: a.npy, response: a.csv}\nscraper:\n  weight 1 N\nmotion: {path: line, to: [1, "
-     "0], "
-     "duration: 1}\n",
+    {"#rasp: 1\nsurface: {height_map: a.npy, response: a.csv}\nscraper:\n  weight 1 N\n"
+     "motion: {path: line, to: [1, 0], duration: 1}\n",
      "4:3", "scraper must be a map of keys", "write: weight: 1 N"},
     {"\"\": 1\n", "5:1", "unknown key ''", "keys here"},
     {"rasp: 1\n", "5:1", "duplicate key 'rasp'", "first set on line 1"},

@@ -89,7 +89,7 @@ static const struct {
     {"a: *nothing\n", "t.yaml:1:4: error: no anchor 'nothing'", "^~~~~~~~", "quotes"},
     {"a: &a [*a]\n", "t.yaml:1:8: error: no anchor 'a'", "^~", "anchor"},
     {"a: [1, 2\nb: 3\n", "t.yaml:2:2: error: not valid YAML", "^", "bracket that opens on line 1"},
-    {"a:\n  b 1\n  c: 2\n", "t.yaml:3:4: error: not valid YAML: mapping values", "^", "the key above"},
+    {"a:\n  b 1\n  c: 2\n", "t.yaml:3:4: error: not valid YAML: mapping values", "^", "the key above for its"},
     {"a: 1\nb 1\n# c\nc: 2\n", "t.yaml:2:1: error: not valid YAML: could not find expected", "^", "followed by"},
     {"RIFF....WAVE", "t.yaml: error: is a sound", "", "rasp play"},
     {"a: b: c\n", "t.yaml:1:5: error: not valid YAML: mapping values", "^", "quotes around a text"},
