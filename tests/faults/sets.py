@@ -321,6 +321,10 @@ class Edits:
         self.loads.append(max(self.loads) + 1)
         return 2
 
+    def length(self):
+        self.more["length"] = f"{50 + CHANCE.randrange(50)} ms"
+        return self.n()
+
     def stem(self):
         self.more["set"] = None if self.more.get("set") else "{output.stems: [force]}"
         return self.n()
@@ -328,7 +332,7 @@ class Edits:
 
 def part_edits():
     """In random order, each against a fresh folder; what is made again is what the edit is about."""
-    names = ["title", "text", "order", "remark", "value", "label", "base", "table", "number", "seed", "stimuli", "stem"]
+    names = ["title", "text", "order", "remark", "value", "label", "base", "table", "number", "seed", "stimuli", "length", "stem"]
     for rule in RULES:
         e = Edits(rule)
         batch("d.yaml", "set", "-q")
