@@ -146,7 +146,7 @@ static const struct row objects[] = {
      "material",
      "lower poisson"},
     {RINGS("material: wood, response: a.csv"), "wood", "surface.material must be one of: custom, basswood",
-     "material: custom"},
+     "goes under materials"},
     {OBJECT("{shape: bar, length: 1, width: 1, thickness: 1 mm, alpha: 3 Hz}"), "3 Hz",
      "surface.object.alpha needs a rate per second; Hz is a unit of frequency", "10 1/s"},
     {SCRAPER("material: steel, object: {shape: rod, length: 1}"), "object", "scraper.object.diameter is missing", ""},
