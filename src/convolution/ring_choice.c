@@ -92,7 +92,7 @@ static const char *computed_from(const struct computed_ask *ask, struct arena *a
 {
     const struct modes_ask *m = ask->modes;
     struct object_given given;
-    struct material own = {NULL};
+    struct material own = {.name = NULL};
     char hex[HASH_TEXT];
     struct hash h = hash_start();
     memcpy(&given, ask->given, sizeof given);
