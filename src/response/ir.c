@@ -174,8 +174,9 @@ static bool make(const char *path, const void *how, struct arena *a, void *thing
     struct wav w;
     if (!wav_read(path, a, &w, e)) return false;
     if (w.channels != 1)
-        return err_set(e, ERR_SCENE, "%s: has %d channels; an impulse response is mono: extract one channel", path,
-                       w.channels);
+        return err_set(e, ERR_SCENE,
+                       "%s: has %d channels; an impulse response is mono: write one channel into a file of its own",
+                       path, w.channels);
     size_t before = cut(w.rate, ask->t0, w.frames), still = 0;
     while (still < before && w.x[still] == 0.0)
         still++;
